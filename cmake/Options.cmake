@@ -1,0 +1,10 @@
+# What every target of the project is compiled with. Results must have the same bits in every build of a binary and at
+# every vector width: no contraction into fused multiply-adds, no reordering. Without errno, a loop with a square root
+# vectorises and runs twice as fast.
+add_library(drape_options INTERFACE)
+target_compile_options(drape_options INTERFACE -fno-math-errno -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow)
+target_include_directories(drape_options INTERFACE ${PROJECT_SOURCE_DIR})
+if(DRAPE_SANITIZE)
+  target_compile_options(drape_options INTERFACE -fsanitize=${DRAPE_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(drape_options INTERFACE -fsanitize=${DRAPE_SANITIZE})
+endif()

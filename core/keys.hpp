@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace drape {
+
+/// A colour as people write it: sRGB-encoded, each channel in [0, 1].
+struct Rgb {
+  double r = 0, g = 0, b = 0;
+  bool operator==(const Rgb&) const = default;
+};
+
+/// One of several names; choosing one calls `set` with its place in `names`.
+struct Choice {
+  std::vector<std::string> names;
+  std::function<void(std::size_t)> set;
+};
+
+/// One key of a settings table: its name, the variable its value is written to, which values make sense, and one
+/// sentence that says what it means. Readers, error messages and the reference pages are all made from this.
+struct Key {
+  using Target = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice,
+                              Eigen::Vector2i*, Eigen::Vector3d*, std::optional<int>*, std::optional<double>*,
+                              std::optional<Rgb>*, std::optional<Eigen::Vector3d>*>;
+
+  std::string name;
+  Target target;
+  std::string unit;  ///< "m", "N/m", "1/s²"; empty for a pure number
+  std::string help;
+  bool required = false;
+  double minimum = -std::numeric_limits<double>::infinity();  ///< applies to every component of a vector
+  double maximum = std::numeric_limits<double>::infinity();
+  bool minimum_excluded = false;
+
+  Key& must_be_given() { return required = true, *this; }
+  Key& at_least(double value) { return minimum = value, *this; }
+  Key& at_most(double value) { return maximum = value, *this; }
+  Key& above(double value) { return minimum = value, minimum_excluded = true, *this; }
+};
+
+/// The keys of one table, in the order in which a reference page lists them.
+class Keys {
+ public:
+  /// Adds a key whose value goes to `target`, which must outlive this object. Returns it, to state its limits.
+  Key& add(std::string name, Key::Target target, std::string unit, std::string help) {
+    return keys_.emplace_back(
+        Key{.name = std::move(name), .target = std::move(target), .unit = std::move(unit), .help = std::move(help)});
+  }
+
+  /// Adds a key that takes one of `names`; the i-th name sets `target` to the enumerator with value i.
+  template <class Enum>
+  Key& choice(std::string name, Enum& target, std::vector<std::string> names, std::string help) {
+    Choice choice{std::move(names), [&target](std::size_t index) { target = static_cast<Enum>(index); }};
+    return add(std::move(name), std::move(choice), "", std::move(help));
+  }
+
+  [[nodiscard]] const std::deque<Key>& all() const { return keys_; }
+
+ private:
+  std::deque<Key> keys_;  // a deque: the references that add() returns stay valid
+};
+
+}  // namespace drape

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+
+#include "core/keys.hpp"
+
+namespace drape {
+
+/// Where the picture is taken from. With a position, the camera looks from there to `target`; without one it is placed
+/// so that the whole motion is in view, seen from the direction that `azimuth` and `elevation` give.
+struct Camera {
+  std::optional<Eigen::Vector3d> position;  ///< [m]
+  std::optional<Eigen::Vector3d> target;    ///< [m]; absent: the middle of the motion
+  Eigen::Vector3d up{0, 0, 1};
+  double field_of_view = 30;  ///< of the picture's height [degrees]
+  double azimuth = -60;       ///< direction from the target to the camera in the xy plane, from +x towards +y [degrees]
+  double elevation = 20;      ///< of that direction above the xy plane [degrees]
+  double margin = 0.06;       ///< free border around the motion, as a fraction of the picture
+};
+
+/// What things look like. Colours are sRGB.
+struct Look {
+  std::filesystem::path texture;           ///< an image file; empty: the plain `color`
+  Rgb color{0.85, 0.65, 0.13};             ///< of the cloth, where it has no texture
+  bool mesh_lines = false;                 ///< draw the triangles' edges as thin dark lines
+  Rgb line_color{0.16, 0.12, 0.06};
+  double line_width = 1.0;                 ///< [pixels]
+  Rgb background{1, 1, 1};                 ///< at the bottom of the picture, and everywhere without the next
+  std::optional<Rgb> background_top;       ///< at the top: a gradient
+  Rgb sphere_color{0.75, 0.04, 0.04};
+  int samples = 4;                         ///< per pixel: 1 (off), 2, 4
+};
+
+/// The film: its size in pixels, its frames per second, and how much faster than the scene's time it plays.
+struct Video {
+  double fps = 25;
+  double speed = 1;
+  Eigen::Vector2i size{480, 400};
+};
+
+}  // namespace drape

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "render/settings.hpp"
+#include "sim/settings.hpp"
+
+namespace drape {
+
+/// A scene: plain data, complete and checked.
+struct Scene {
+  std::filesystem::path file;
+  std::string name;  ///< the file's name without its ending: "5" for scenes/homework/5.toml
+  SimulationSettings simulation;
+  double duration = 5;  ///< [s]
+  std::vector<std::array<float, 2>> uvs;  ///< of the cloth, per triangle corner, see Mesh::uvs
+  Camera camera;
+  Look look;
+  Video video;
+
+  /// The number of steps that cover the duration: duration/step, rounded to the nearest whole number.
+  [[nodiscard]] std::int64_t step_count() const;
+};
+
+/// Reads a scene file.
+/// @param overrides "key.path=value", applied as if the file said so and checked like it; the value is any TOML value, or
+///                  a bare word, which is a string
+/// @throws UsageError whose message lists every problem of the file and the overrides, a line each:
+///         "file:line:col: message", or "--set key.path=value: message"
+Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The data folder that holds textures/, shaders/ and scenes/: DRAPE_DATA if set, else beside the executable's install
+/// prefix (../share/drape), else the source tree it was built from.
+/// @throws UsageError if there is none
+std::filesystem::path data_folder();
+
+}  // namespace drape

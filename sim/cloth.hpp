@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/mesh.hpp"
+
+namespace drape {
+
+/// A spring between two vertices: E = stiffness/2 · (‖x_i − x_j‖ − rest_length)².
+struct Spring {
+  int i = 0, j = 0;        ///< i < j
+  double rest_length = 0;  ///< [m]
+  double stiffness = 0;    ///< [N/m]
+};
+
+/// A cloth as it is before the first step. Nothing in here changes while it is simulated.
+struct Cloth {
+  Vertices positions;   ///< n×3 [m]
+  Vertices velocities;  ///< n×3 [m/s]
+  std::vector<Triangle> triangles;
+  std::vector<Spring> springs;
+  Eigen::VectorXd masses;  ///< n, all positive [kg]
+  std::vector<int> pins;   ///< vertices that do not move, ascending, each once
+
+  [[nodiscard]] int vertex_count() const { return static_cast<int>(positions.rows()); }
+};
+
+/// The homework's cloth: one spring per edge of `rest`, as long as there and all equally stiff, and the total mass shared
+/// equally by all vertices.
+/// @param start    the mesh whose positions the cloth starts from, at rest
+/// @param rest     the same triangles in the shape whose edge lengths the springs want to have
+/// @param mass     of the whole cloth, positive [kg]
+/// @param stiffness of every spring, positive [N/m]
+/// @param pins     vertices that do not move, in any order
+/// @throws std::invalid_argument if start and rest do not match, or a pin is no vertex
+Cloth make_cloth(const Mesh& start, const Mesh& rest, double mass, double stiffness, std::vector<int> pins);
+
+}  // namespace drape

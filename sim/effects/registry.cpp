@@ -1,0 +1,19 @@
+#include "sim/effects/effect.hpp"
+#include "sim/effects/damping.hpp"
+#include "sim/effects/gravity.hpp"
+#include "sim/effects/sphere.hpp"
+#include "sim/effects/wind.hpp"
+
+namespace drape {
+
+std::span<const EffectType> effect_types() {
+  static constexpr EffectType types[] = {
+      {"gravity", false, make_gravity},
+      {"wind", false, make_wind},
+      {"sphere", true, make_sphere},
+      {"damping", false, make_damping},
+  };
+  return types;
+}
+
+}  // namespace drape

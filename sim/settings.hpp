@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/cloth.hpp"
+
+namespace drape {
+
+class Effect;
+
+/// How a step is computed. The order is that of the names in a scene.
+enum class Method {
+  semi_implicit,  ///< symplectic Euler: v += h·a(x), x += h·v
+  implicit,       ///< implicit Euler, minimised by Newton's method
+  liu13           ///< implicit Euler, minimised by the local/global alternation of Liu et al. 2013
+};
+
+/// When an iterative step is accurate enough.
+enum class StoppingRule {
+  change,   ///< the 2-norm of the change of all unknowns together is below the tolerance [m], from the second iteration on
+  gradient  ///< ‖∇g‖, the 2-norm of the forces out of balance on all unknowns together, is below the tolerance [N]
+};
+
+/// The scene's [integrator] table. Keys that a method does not use are ignored by it.
+struct IntegratorSettings {
+  Method method = Method::liu13;
+  StoppingRule stop = StoppingRule::change;
+  double tolerance = 1e-3;            ///< [m] or [N], see `stop`
+  std::optional<int> max_iterations;  ///< absent: the homework's, 20 for implicit and 100 for liu13
+};
+
+/// An effect that a scene calls for: its name in the registry, and what its table says.
+struct ActiveEffect {
+  std::string name;
+  std::shared_ptr<const Effect> effect;
+};
+
+/// Everything a simulation is made from.
+struct SimulationSettings {
+  Cloth cloth;
+  double step = 0.01;  ///< h [s]
+  IntegratorSettings integrator;
+  std::vector<ActiveEffect> effects;  ///< in the order of the registry
+};
+
+}  // namespace drape

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "sim/cloth.hpp"
+#include "sim/collider.hpp"
+
+namespace drape {
+
+/// Where the cloth is and how it moves after `step` steps. Time is step·h, never accumulated.
+struct State {
+  Vertices x;  ///< n×3 [m]
+  Vertices v;  ///< n×3 [m/s]
+  std::int64_t step = 0;
+};
+
+/// A force that is evaluated once, at the start of a step.
+struct Force {
+  virtual ~Force() = default;
+  /// Adds the force on every vertex [N] at the given time [s].
+  virtual void add(const State& state, double time, Vertices& force) const = 0;
+};
+
+/// A change of the velocity at the end of a step.
+struct Correction {
+  virtual ~Correction() = default;
+  /// Changes state.v after a step of h seconds. Semi-implicit Euler moves with the changed velocity.
+  virtual void apply(State& state, double h) const = 0;
+};
+
+/// Something the cloth can touch, whose place is a function of time.
+struct ColliderMotion {
+  virtual ~ColliderMotion() = default;
+  [[nodiscard]] virtual Collider at(double time) const = 0;
+};
+
+/// What acts on a cloth, as the integrators evaluate it. Filled by the effects a scene calls for, in the order of the
+/// registry; a scene without effects leaves every list empty.
+struct System {
+  const Cloth& cloth;
+  double step;  ///< h [s]
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²], for the log's gravity column only
+
+  std::vector<std::unique_ptr<Force>> forces;
+  std::vector<std::unique_ptr<Correction>> corrections;
+  std::vector<std::unique_ptr<ColliderMotion>> colliders;
+};
+
+}  // namespace drape
