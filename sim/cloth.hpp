@@ -26,8 +26,8 @@ struct Cloth {
   [[nodiscard]] int vertex_count() const { return static_cast<int>(positions.rows()); }
 };
 
-/// The homework's cloth: one spring per edge of `rest`, as long as there and all equally stiff, and the total mass shared
-/// equally by all vertices.
+/// The homework's cloth: one spring per edge of `rest`, as long as there and all equally stiff, and the total mass
+/// shared equally by all vertices.
 /// @param start    the mesh whose positions the cloth starts from, at rest
 /// @param rest     the same triangles in the shape whose edge lengths the springs want to have
 /// @param mass     of the whole cloth, positive [kg]

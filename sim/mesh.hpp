@@ -23,9 +23,9 @@ struct Mesh {
                                           ///< empty where the mesh has none
 };
 
-/// The square [-1,1]² at z = 0 with columns×rows cells, (columns+1)·(rows+1) vertices in row-major order (x fastest), and
-/// two triangles per cell, (b,d,a) and (b,e,d) with a = (i,j), b = (i+1,j), d = (i,j+1), e = (i+1,j+1): first the (b,d,a)
-/// of all cells in row-major order, then the (b,e,d). Texture coordinates are ((x+1)/2, (y+1)/2).
+/// The square [-1,1]² at z = 0 with columns×rows cells, (columns+1)·(rows+1) vertices in row-major order (x fastest),
+/// and two triangles per cell, (b,d,a) and (b,e,d) with a = (i,j), b = (i+1,j), d = (i,j+1), e = (i+1,j+1): first the
+/// (b,d,a) of all cells in row-major order, then the (b,e,d). Texture coordinates are ((x+1)/2, (y+1)/2).
 /// @throws std::invalid_argument unless columns and rows are at least 1 and the vertices can be counted in an int
 Mesh make_grid(int columns, int rows);
 

@@ -20,7 +20,8 @@ enum class Method {
 
 /// When an iterative step is accurate enough.
 enum class StoppingRule {
-  change,   ///< the 2-norm of the change of all unknowns together is below the tolerance [m], from the second iteration on
+  change,   ///< the 2-norm of the change of all unknowns together is below the tolerance [m], from the second iteration
+            ///< on
   gradient  ///< ‖∇g‖, the 2-norm of the forces out of balance on all unknowns together, is below the tolerance [N]
 };
 

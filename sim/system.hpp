@@ -40,12 +40,20 @@ struct ColliderMotion {
 /// registry; a scene without effects leaves every list empty.
 struct System {
   const Cloth& cloth;
-  double step;  ///< h [s]
+  double step;                                        ///< h [s]
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²], for the log's gravity column only
 
+  std::vector<Spring> springs;  ///< the cloth's and those that effects add
   std::vector<std::unique_ptr<Force>> forces;
   std::vector<std::unique_ptr<Correction>> corrections;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;
+
+  System(const Cloth& c, double h) : cloth(c), step(h), springs(c.springs) {}
+
+  /// Applies every correction to the velocity of a step.
+  void correct(State& state) const {
+    for (const auto& correction : corrections) correction->apply(state, step);
+  }
 };
 
 }  // namespace drape

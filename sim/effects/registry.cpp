@@ -1,5 +1,5 @@
-#include "sim/effects/effect.hpp"
 #include "sim/effects/damping.hpp"
+#include "sim/effects/effect.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/effects/sphere.hpp"
 #include "sim/effects/wind.hpp"

@@ -62,10 +62,11 @@ class Sphere final : public Effect {
     const double h = settings.step;
     const double product = h * std::sqrt(values_.stiffness);
     if (product > 2) {
-      problem("stiffness",
-              fmt::format("an explicit penalty is unstable where step·√stiffness > 2, and here it is {:.3g}: with step = "
-                          "{:g} s the stiffness can be at most {:.4g}, or with this stiffness the step at most {:.3g} s",
-                          product, h, 4 / (h * h), 2 / std::sqrt(values_.stiffness)));
+      problem(
+          "stiffness",
+          fmt::format("an explicit penalty is unstable where step·√stiffness > 2, and here it is {:.3g}: with step = "
+                      "{:g} s the stiffness can be at most {:.4g}, or with this stiffness the step at most {:.3g} s",
+                      product, h, 4 / (h * h), 2 / std::sqrt(values_.stiffness)));
     }
   }
 

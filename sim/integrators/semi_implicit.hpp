@@ -1,0 +1,22 @@
+#pragma once
+
+#include "sim/integrators/integrator.hpp"
+#include "sim/spring_network.hpp"
+
+namespace drape {
+
+/// Symplectic (semi-implicit) Euler: v += h·a(x), the corrections, x += h·v.
+class SemiImplicitEuler final : public Integrator {
+ public:
+  explicit SemiImplicitEuler(const System& system);
+  StepReport advance(State& state, const Vertices& force) override;
+
+ private:
+  const System& system_;
+  SpringNetwork springs_;
+  Eigen::VectorXd push_;  // h/m of each vertex, 0 on pins [s/kg]
+  Eigen::VectorXd pull_;  // −h/m, the factor of a gradient
+  Vertices gradient_;
+};
+
+}  // namespace drape

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/linear/sparse_cholesky.hpp"
+#include "sim/system.hpp"
+
+namespace drape {
+
+/// The numbers that a factor's triangles are stored and solved in. Whoever solves for an increment loses no accuracy by
+/// single precision: the next increment corrects the error of this one.
+enum class Precision { automatic, single_precision, double_precision };
+
+/// A⁻¹ for the constant matrix of Liu et al. 2013 (their M + h²L, divided by h²):
+///   A = M/h² + Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ,
+/// over the free vertices; the same n×n matrix for x, y and z. Springs' Hessians never exceed it, so x − A⁻¹∇g(x) is
+/// the local/global step, and it never raises g.
+///
+/// The factor is CHOLMOD's; the three right-hand sides are solved side by side in one pass over it.
+class ConstantFactor {
+ public:
+  /// @param precision automatic: single, unless solving two test vectors shows that it loses more than a thousandth
+  ConstantFactor(const System& system, Precision precision);
+
+  /// x = A⁻¹ b for n×3 numbers; rows of pins are ignored in b and zero in x. Allocates nothing. [N] → [m]
+  void solve(const Vertices& b, Vertices& x);
+
+  [[nodiscard]] bool single_precision() const { return !single_.values.empty(); }
+  /// Stored entries of L, the diagonal included.
+  [[nodiscard]] std::size_t entries() const { return rows_.size() + vertices_.size(); }
+
+ private:
+  template <class T>
+  struct Triangle {
+    std::vector<T> values;            // below the diagonal, by columns
+    std::vector<T> inverse_diagonal;  // n
+    std::vector<T> scratch;           // 4n: x, y, z and nothing of each row
+  };
+
+  template <class T>
+  void copy(const SparseCholesky& factor, Triangle<T>& triangle) const;
+  template <class T>
+  void solve_with(Triangle<T>& triangle, const Vertices& b, Vertices& x) const;
+  [[nodiscard]] bool single_suffices();
+
+  int vertex_count_;
+  std::vector<int> vertices_;  // the vertex of each row of L
+  std::vector<int> starts_;    // n+1, of each column in rows_
+  std::vector<int> rows_;
+  Triangle<float> single_;
+  Triangle<double> double_;
+  Vertices scaled_;
+};
+
+}  // namespace drape

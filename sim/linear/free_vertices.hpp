@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/cloth.hpp"
+#include "sim/linear/sparse_cholesky.hpp"
+
+namespace drape {
+
+/// The unknowns of an implicit step: the vertices that are not pinned, numbered from 0 in the order of the cloth. This
+/// is the reduced system's selection matrix.
+class FreeVertices {
+ public:
+  explicit FreeVertices(const Cloth& cloth);
+
+  [[nodiscard]] int count() const { return static_cast<int>(vertices_.size()); }
+  /// The vertex of a free number.
+  [[nodiscard]] int vertex(int number) const { return vertices_[static_cast<std::size_t>(number)]; }
+  /// The free number of a vertex, −1 for a pin.
+  [[nodiscard]] int number(int vertex) const { return numbers_[static_cast<std::size_t>(vertex)]; }
+
+ private:
+  std::vector<int> vertices_, numbers_;
+};
+
+/// The lower triangle of a matrix that couples the two free ends of every spring, and has its whole diagonal.
+LowerPattern spring_pattern(const std::vector<Spring>& springs, const FreeVertices& free);
+
+}  // namespace drape

@@ -1,0 +1,102 @@
+#include "sim/linear/sparse_cholesky.hpp"
+
+#include <cholmod.h>
+
+#include <cstddef>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+
+namespace drape {
+
+struct SparseCholesky::Implementation {
+  cholmod_common common{};
+  LowerPattern pattern;
+  cholmod_sparse matrix{};
+  cholmod_factor* factor = nullptr;
+  // Kept from one solve to the next, so that a solve allocates nothing.
+  cholmod_dense *solution = nullptr, *scratch_y = nullptr, *scratch_e = nullptr;
+
+  explicit Implementation(const LowerPattern& p) : pattern(p) {
+    cholmod_start(&common);
+    common.print = 0;
+    const auto n = static_cast<std::size_t>(pattern.size());
+    matrix.nrow = matrix.ncol = n;
+    matrix.nzmax = static_cast<std::size_t>(pattern.entries());
+    matrix.p = pattern.starts.data();
+    matrix.i = pattern.rows.data();
+    matrix.stype = -1;
+    matrix.itype = CHOLMOD_INT;
+    matrix.xtype = CHOLMOD_REAL;
+    matrix.dtype = CHOLMOD_DOUBLE;
+    matrix.sorted = 1;
+    matrix.packed = 1;
+  }
+  ~Implementation() {
+    cholmod_free_dense(&solution, &common);
+    cholmod_free_dense(&scratch_y, &common);
+    cholmod_free_dense(&scratch_e, &common);
+    cholmod_free_factor(&factor, &common);
+    cholmod_finish(&common);
+  }
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  void require(bool done) const {
+    if (done) return;
+    if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+    throw std::runtime_error("CHOLMOD failed with status " + std::to_string(common.status));
+  }
+};
+
+SparseCholesky::SparseCholesky(const LowerPattern& pattern, FactorKind kind, bool order_given)
+    : implementation_(std::make_unique<Implementation>(pattern)) {
+  auto& i = *implementation_;
+  i.common.supernodal = kind == FactorKind::simplicial ? CHOLMOD_SIMPLICIAL : CHOLMOD_SUPERNODAL;
+  i.common.final_ll = 1;
+  if (order_given) {
+    i.common.nmethods = 1;
+    i.common.method[0].ordering = CHOLMOD_NATURAL;
+    i.common.postorder = 0;
+  }
+  i.matrix.xtype = CHOLMOD_PATTERN;
+  i.factor = cholmod_analyze(&i.matrix, &i.common);
+  i.require(i.factor != nullptr);
+  i.matrix.xtype = CHOLMOD_REAL;
+}
+
+SparseCholesky::~SparseCholesky() = default;
+SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
+SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
+
+bool SparseCholesky::factorize(const double* values) {
+  auto& i = *implementation_;
+  i.matrix.x = const_cast<double*>(values);  // CHOLMOD only reads it
+  i.require(cholmod_factorize(&i.matrix, i.factor, &i.common) != 0);
+  return i.common.status != CHOLMOD_NOT_POSDEF && i.factor->minor == i.factor->n;
+}
+
+void SparseCholesky::solve(const double* b, double* x) {
+  auto& i = *implementation_;
+  const std::size_t n = i.matrix.nrow;
+  cholmod_dense right{};
+  right.nrow = right.d = right.nzmax = n;
+  right.ncol = 1;
+  right.x = const_cast<double*>(b);  // CHOLMOD only reads it
+  right.xtype = CHOLMOD_REAL;
+  right.dtype = CHOLMOD_DOUBLE;
+  i.require(cholmod_solve2(CHOLMOD_A, i.factor, &right, nullptr, &i.solution, nullptr, &i.scratch_y, &i.scratch_e,
+                           &i.common) != 0);
+  std::memcpy(x, i.solution->x, n * sizeof(double));
+}
+
+const int* SparseCholesky::permutation() const { return static_cast<const int*>(implementation_->factor->Perm); }
+
+SparseCholesky::Columns SparseCholesky::columns() const {
+  const cholmod_factor& f = *implementation_->factor;
+  if (f.is_super != 0 || f.is_ll == 0) throw std::logic_error("only a simplicial LLᵀ factor has columns");
+  return {static_cast<const int*>(f.p), static_cast<const int*>(f.nz), static_cast<const int*>(f.i),
+          static_cast<const double*>(f.x)};
+}
+
+}  // namespace drape

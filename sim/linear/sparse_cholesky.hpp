@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+namespace drape {
+
+/// The lower triangle of a symmetric n×n matrix by columns: the rows of column c are rows[starts[c]] to
+/// rows[starts[c+1]−1], ascending and beginning with c itself.
+struct LowerPattern {
+  std::vector<int> starts;  ///< n+1
+  std::vector<int> rows;
+
+  [[nodiscard]] int size() const { return static_cast<int>(starts.size()) - 1; }
+  [[nodiscard]] int entries() const { return starts.back(); }
+};
+
+/// How a factor is laid out: simplicial gives the same bits with every BLAS and is as fast on small matrices,
+/// supernodal uses the BLAS and is faster on large ones, with bits that depend on the machine.
+enum class FactorKind { simplicial, supernodal };
+
+/// The Cholesky factorisation A = Pᵀ L Lᵀ P of a sparse symmetric positive-definite matrix, by CHOLMOD (Chen et al.
+/// 2008). The sparsity is analysed once; the values may change.
+class SparseCholesky {
+ public:
+  /// Analyses the pattern.
+  /// @param order_given keep the order of the rows as it is (a caller that has a fill-reducing one already); else
+  /// CHOLMOD
+  ///                    chooses a permutation
+  SparseCholesky(const LowerPattern& pattern, FactorKind kind, bool order_given);
+  ~SparseCholesky();
+  SparseCholesky(SparseCholesky&&) noexcept;
+  SparseCholesky& operator=(SparseCholesky&&) noexcept;
+
+  /// Computes the factor of the matrix whose lower triangle has these values, in the order of the pattern.
+  /// @return false if it is not positive definite to working precision; solve() is then not allowed
+  [[nodiscard]] bool factorize(const double* values);
+
+  /// Solves A x = b for one right-hand side of n numbers; x and b may be the same.
+  void solve(const double* b, double* x);
+
+  /// The order that the rows were brought into, n numbers: row r of L belongs to row permutation()[r] of A.
+  [[nodiscard]] const int* permutation() const;
+
+  /// The factor itself: L by columns, the diagonal first in each. Simplicial factors only.
+  struct Columns {
+    const int* starts;  ///< n
+    const int* counts;  ///< n
+    const int* rows;
+    const double* values;
+  };
+  [[nodiscard]] Columns columns() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace drape

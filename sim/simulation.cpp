@@ -1,0 +1,85 @@
+#include "sim/simulation.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "sim/effects/effect.hpp"
+
+namespace drape {
+namespace {
+
+System make_system(const SimulationSettings& settings) {
+  System system(settings.cloth, settings.step);
+  for (const ActiveEffect& active : settings.effects) active.effect->install(system);
+  return system;
+}
+
+State initial_state(const Cloth& cloth) {
+  State state{.x = cloth.positions, .v = cloth.velocities, .step = 0};
+  for (const int pin : cloth.pins) state.v.row(pin).setZero();
+  return state;
+}
+
+}  // namespace
+
+DivergedError::DivergedError(std::int64_t step, double time, int vertex)
+    : Error(ExitCode::diverged,
+            fmt::format(
+                "the simulation diverged at step {} (t = {:g} s), first seen at vertex {}: a smaller [time] step, "
+                "or an implicit method, keeps it stable",
+                step, time, vertex)) {}
+
+Simulation::Simulation(SimulationSettings settings)
+    : settings_(std::move(settings)),
+      system_(make_system(settings_)),
+      state_(initial_state(settings_.cloth)),
+      force_(settings_.cloth.vertex_count(), 3),
+      integrator_(make_integrator(settings_.integrator, system_)),
+      springs_(system_.springs) {}
+
+Simulation::~Simulation() = default;
+
+StepReport Simulation::step() {
+  force_.setZero();
+  for (const auto& force : system_.forces) force->add(state_, time(), force_);
+  const StepReport report = integrator_->advance(state_, force_);
+  ++state_.step;
+  // A sum is finite only if every term is, or if it overflows, which is no better.
+  if (!std::isfinite(state_.x.sum() + state_.v.sum())) throw_diverged();
+  return report;
+}
+
+void Simulation::restore(const State& state) { state_ = state; }
+
+Energies Simulation::energies() const {
+  const Eigen::VectorXd& m = settings_.cloth.masses;
+  return {.kinetic = 0.5 * m.dot(state_.v.rowwise().squaredNorm()),
+          .gravity = -m.dot(state_.x * system_.gravity),
+          .elastic = springs_.energy(state_.x)};
+}
+
+std::vector<Collider> Simulation::colliders(double time) const {
+  std::vector<Collider> shapes;
+  for (const auto& motion : system_.colliders) shapes.push_back(motion->at(time));
+  return shapes;
+}
+
+void Simulation::throw_diverged() const {
+  Eigen::Index worst = 0;
+  double fastest = -1;
+  for (Eigen::Index i = 0; i < state_.v.rows(); ++i) {
+    const double speed = state_.v.row(i).norm();
+    if (!std::isfinite(speed) || !state_.x.row(i).allFinite()) {
+      worst = i;
+      break;
+    }
+    if (speed > fastest) {
+      fastest = speed;
+      worst = i;
+    }
+  }
+  throw DivergedError(state_.step, time(), static_cast<int>(worst));
+}
+
+}  // namespace drape
