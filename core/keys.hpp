@@ -24,12 +24,22 @@ struct Rgb {
 struct Choice {
   std::vector<std::string> names;
   std::function<void(std::size_t)> set;
+  std::size_t initial = 0;  ///< the place of the one that holds without the key
+};
+
+/// A value as it stands in the file, see scene/document.hpp.
+struct TomlValue;
+
+/// A key whose value has several forms, such as a mesh or a list of pins: whoever describes the table reads it.
+struct OwnForm {
+  std::string form;                   ///< for a reference page: "number or [x, y, z]"
+  const TomlValue** value = nullptr;  ///< set to where it stands if it is given, as long as the document lasts
 };
 
 /// One key of a settings table: its name, the variable its value is written to, which values make sense, and one
 /// sentence that says what it means. Readers, error messages and the reference pages are all made from this.
 struct Key {
-  using Target = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice,
+  using Target = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice, OwnForm,
                               Eigen::Vector2i*, Eigen::Vector3d*, std::optional<int>*, std::optional<double>*,
                               std::optional<Rgb>*, std::optional<Eigen::Vector3d>*>;
 
@@ -60,7 +70,8 @@ class Keys {
   /// Adds a key that takes one of `names`; the i-th name sets `target` to the enumerator with value i.
   template <class Enum>
   Key& choice(std::string name, Enum& target, std::vector<std::string> names, std::string help) {
-    Choice choice{std::move(names), [&target](std::size_t index) { target = static_cast<Enum>(index); }};
+    Choice choice{std::move(names), [&target](std::size_t index) { target = static_cast<Enum>(index); },
+                  static_cast<std::size_t>(target)};
     return add(std::move(name), std::move(choice), "", std::move(help));
   }
 

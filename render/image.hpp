@@ -17,7 +17,8 @@ struct Image {
       : width(columns), height(rows), pixels(3 * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {}
 
   [[nodiscard]] std::uint8_t* at(int x, int y) {
-    return pixels.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    return pixels.data() +
+           3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
   }
   [[nodiscard]] const std::uint8_t* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
   bool operator==(const Image&) const = default;

@@ -14,7 +14,7 @@ struct Scene {
   std::filesystem::path file;
   std::string name;  ///< the file's name without its ending: "5" for scenes/homework/5.toml
   SimulationSettings simulation;
-  double duration = 5;  ///< [s]
+  double duration = 5;                    ///< [s]
   std::vector<std::array<float, 2>> uvs;  ///< of the cloth, per triangle corner, see Mesh::uvs
   Camera camera;
   Look look;
@@ -25,8 +25,8 @@ struct Scene {
 };
 
 /// Reads a scene file.
-/// @param overrides "key.path=value", applied as if the file said so and checked like it; the value is any TOML value, or
-///                  a bare word, which is a string
+/// @param overrides "key.path=value", applied in order as if the file said so, and checked like it; the value is any
+///                  TOML value, or a bare word, which is a string
 /// @throws UsageError whose message lists every problem of the file and the overrides, a line each:
 ///         "file:line:col: message", or "--set key.path=value: message"
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});

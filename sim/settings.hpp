@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/cloth.hpp"
@@ -17,6 +20,11 @@ enum class Method {
   implicit,       ///< implicit Euler, minimised by Newton's method
   liu13           ///< implicit Euler, minimised by the local/global alternation of Liu et al. 2013
 };
+
+/// The methods as scenes write them, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 3> method_names{"semi-implicit", "implicit", "liu13"};
+
+inline std::string method_name(Method method) { return std::string(method_names[static_cast<std::size_t>(method)]); }
 
 /// When an iterative step is accurate enough.
 enum class StoppingRule {

@@ -1,0 +1,71 @@
+#include "bench/ratio_table.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace drape {
+namespace {
+
+double median(std::vector<double> samples) {
+  std::sort(samples.begin(), samples.end());
+  const std::size_t middle = samples.size() / 2;
+  return samples.size() % 2 == 1 ? samples[middle] : (samples[middle - 1] + samples[middle]) / 2;
+}
+
+/// A median with half the range of the middle half of its samples, which one disturbed sample does not move.
+std::string time_cell(std::vector<double> samples) {
+  if (samples.empty()) return "–";
+  std::sort(samples.begin(), samples.end());
+  const std::size_t quarter = samples.size() / 4;
+  const double middle = median(samples);
+  const double spread = (samples[samples.size() - 1 - quarter] - samples[quarter]) / 2;
+  const auto [scale, unit] = middle < 1e3   ? std::pair{1.0, "µs"}
+                             : middle < 1e6 ? std::pair{1e-3, "ms"}
+                                            : std::pair{1e-6, "s"};
+  return fmt::format("{:.3g} {} ±{:.0f}%", middle * scale, unit, 100 * spread / middle);
+}
+
+}  // namespace
+
+bool RatioTable::ReportContext(const Context& context) {
+  PrintBasicContext(&GetErrorStream(), context);
+  return true;
+}
+
+void RatioTable::ReportRuns(const std::vector<Run>& runs) {
+  for (const Run& run : runs) {
+    if (run.run_type != Run::RT_Iteration) continue;
+    const std::string& name = run.run_name.function_name;
+    if (run.error_occurred) {
+      GetErrorStream() << name << ": " << run.error_message << '\n';
+      continue;
+    }
+    const std::size_t slash = name.rfind('/');
+    samples_[name.substr(0, slash)][name.substr(slash + 1)].push_back(run.GetAdjustedRealTime());
+  }
+}
+
+void RatioTable::Finalize() {
+  std::ostream& out = GetOutputStream();
+  out << "| case | drape | textbook | drape ÷ textbook |\n|---|---|---|---|\n";
+  for (const std::string& name : cases_) {
+    if (!samples_.contains(name)) continue;
+    const Samples& drape = samples_[name]["drape"];
+    const Samples& textbook = samples_[name]["textbook"];
+    const std::string ratio =
+        drape.empty() || textbook.empty() ? "–" : fmt::format("{:.3f}", median(drape) / median(textbook));
+    out << fmt::format("| {} | {} | {} | {} |\n", name, time_cell(drape), time_cell(textbook), ratio);
+  }
+  out << fmt::format(
+      "\nMedians of CPU time ± half the interquartile range of repetitions in random order, in one process. {} logical "
+      "CPUs at "
+      "{:.2f} "
+      "GHz; compiler {}; Eigen {}.{}.{}.\n",
+      benchmark::CPUInfo::Get().num_cpus, benchmark::CPUInfo::Get().cycles_per_second / 1e9, __VERSION__,
+      EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
+}
+
+}  // namespace drape

@@ -1,0 +1,152 @@
+// Times the three methods, drape's beside the textbook's, in one process, on a cloth in motion.
+// Flags are Google Benchmark's, for example --benchmark_filter=liu13 or --benchmark_out=steps.json.
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <ctime>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/moving_cloth.hpp"
+#include "bench/ratio_table.hpp"
+#include "bench/textbook.hpp"
+#include "sim/effects/effect.hpp"
+#include "sim/simulation.hpp"
+
+namespace drape {
+namespace {
+
+/// What one row measures: `batch` steps of semi-implicit Euler, or one step of `batch` iterations of another method.
+/// Batches are sized to last a few milliseconds at least.
+struct Case {
+  std::string name;
+  Method method;
+  int cells;
+  double step;  ///< h [s]
+  int batch;
+};
+
+const std::vector<Case>& cases() {
+  // Semi-implicit Euler is stable only where the step shrinks with the cells.
+  static const std::vector<Case> all{
+      {"semi_implicit_step/20", Method::semi_implicit, 20, 0.001, 500},
+      {"semi_implicit_step/100", Method::semi_implicit, 100, 0.0002, 20},
+      {"liu13_iteration/20", Method::liu13, 20, 0.02, 100},
+      {"liu13_iteration/100", Method::liu13, 100, 0.02, 20},
+      {"liu13_iteration/300", Method::liu13, 300, 0.02, 5},
+      {"newton_iteration/20", Method::implicit, 20, 0.02, 4},
+      {"newton_iteration/100", Method::implicit, 100, 0.02, 2},
+  };
+  return all;
+}
+
+/// Something that can do a case's work again and again from the same state.
+struct Subject {
+  std::function<void()> restore;
+  std::function<int()> run;  ///< returns how many steps or iterations it did
+};
+
+/// The tolerance that no iteration meets, so that a step does its whole batch.
+constexpr double never = 0;
+
+/// @param step does one step and returns its iterations, which semi-implicit Euler has none of: its batch is of steps
+template <class Step>
+std::function<int()> make_run(const Case& c, Step step) {
+  if (c.method != Method::semi_implicit) return step;
+  return [step, batch = c.batch] {
+    for (int i = 0; i < batch; ++i) step();
+    return batch;
+  };
+}
+
+Subject make_textbook(const Case& c) {
+  const Cloth cloth = make_moving_cloth(c.cells);
+  textbook::Settings settings;
+  settings.step = c.step;
+  settings.tolerance = never;
+  settings.max_iterations = c.batch;
+  const auto make = c.method == Method::semi_implicit ? textbook::make_semi_implicit
+                    : c.method == Method::implicit    ? textbook::make_newton
+                                                      : textbook::make_liu13;
+  const std::shared_ptr<textbook::Stepper> stepper = make(cloth, settings);
+  return {.restore =
+              [stepper, x = cloth.positions, v = cloth.velocities] {
+                stepper->positions = x;
+                stepper->velocities = v;
+              },
+          .run = make_run(c, [stepper] {
+            stepper->step();
+            return stepper->iterations;
+          })};
+}
+
+ActiveEffect make_gravity_effect() {
+  const auto types = effect_types();
+  const auto type = std::find_if(types.begin(), types.end(), [](const EffectType& t) { return t.name == "gravity"; });
+  return {.name = std::string(type->name), .effect = type->make()};
+}
+
+Subject make_drape(const Case& c) {
+  SimulationSettings settings;
+  settings.cloth = make_moving_cloth(c.cells);
+  settings.step = c.step;
+  settings.integrator.method = c.method;
+  settings.integrator.tolerance = never;
+  settings.integrator.max_iterations = c.batch;
+  settings.effects.push_back(make_gravity_effect());
+  const auto simulation = std::make_shared<Simulation>(std::move(settings));
+  return {.restore = [simulation, start = simulation->state()] { simulation->restore(start); },
+          .run = make_run(c, [simulation] { return simulation->step().iterations; })};
+}
+
+/// Repetitions of a benchmark share the subject, which is made when the first of them runs. Measured is the process's
+/// CPU time, which other processes disturb less than the wall clock; nothing here has a second thread.
+void add(const Case& c, const std::string& who, Subject (*make)(const Case&)) {
+  const auto subject = std::make_shared<Subject>();
+  const auto measure = [c, make, subject](benchmark::State& state) {
+    if (!subject->run) *subject = make(c);
+    subject->restore();
+    subject->run();  // warms the caches that the benchmark before this one has filled
+    for (auto _ : state) {
+      subject->restore();
+      const std::clock_t start = std::clock();
+      const int done = subject->run();
+      const double elapsed = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+      state.SetIterationTime(elapsed / done);
+      if (done != c.batch) state.SkipWithError("a step ended before its batch was done");
+    }
+  };
+  benchmark::RegisterBenchmark((c.name + "/" + who).c_str(), measure)
+      ->UseManualTime()
+      ->Unit(benchmark::kMicrosecond)
+      ->Iterations(1);
+}
+
+}  // namespace
+}  // namespace drape
+
+int main(int argc, char** argv) {
+  std::vector<std::string> names;
+  for (const drape::Case& c : drape::cases()) {
+    drape::add(c, "drape", drape::make_drape);
+    drape::add(c, "textbook", drape::make_textbook);
+    names.push_back(c.name);
+  }
+
+  // Ours first, so that the caller's own flags win.
+  std::vector<std::string> defaults{"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=11"};
+  std::vector<char*> arguments{argv[0]};
+  for (std::string& flag : defaults) arguments.push_back(flag.data());
+  arguments.insert(arguments.end(), argv + 1, argv + argc);
+  int count = static_cast<int>(arguments.size());
+  arguments.push_back(nullptr);
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 1;
+
+  drape::RatioTable table(std::move(names));
+  benchmark::RunSpecifiedBenchmarks(&table);
+  benchmark::Shutdown();
+}

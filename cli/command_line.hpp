@@ -1,0 +1,25 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "core/error.hpp"
+
+namespace drape {
+
+/// What every subcommand shares.
+struct CommonOptions {
+  bool quiet = false;
+  bool verbose = false;
+};
+
+/// The work of a subcommand, done once the whole command line is read.
+using Command = std::function<ExitCode()>;
+
+/// Adds the subcommands that run scenes, render and simulate. The one that is chosen sets `command`.
+void add_run_commands(CLI::App& app, const CommonOptions& common, Command& command);
+
+/// Reads the command line, runs the chosen subcommand and returns the exit code; errors go to standard error.
+ExitCode run_command_line(int argc, const char* const* argv);
+
+}  // namespace drape

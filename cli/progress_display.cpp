@@ -1,0 +1,65 @@
+#include "cli/progress_display.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+namespace drape {
+namespace {
+
+constexpr int bar_width = 24;
+constexpr std::chrono::seconds line_interval{5};
+
+std::string minutes(double seconds) {
+  const int whole = static_cast<int>(std::min(seconds, 359999.0) + 0.5);
+  return whole < 3600 ? fmt::format("{}:{:02}", whole / 60, whole % 60)
+                      : fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+}  // namespace
+
+ProgressDisplay::Style ProgressDisplay::fitting_style(bool quiet) {
+  if (quiet) return Style::none;
+  return isatty(STDERR_FILENO) != 0 ? Style::bar : Style::lines;
+}
+
+void ProgressDisplay::update() {
+  const std::int64_t total = progress_.total, done = std::min<std::int64_t>(progress_.done, total);
+  const char* stage = progress_.stage;
+  if (style_ == Style::none || total <= 0) return;
+  const auto now = Clock::now();
+  if (stage != stage_) {
+    stage_ = stage;
+    stage_begin_ = last_line_ = now;
+  }
+  if (style_ == Style::lines && now - last_line_ < line_interval) return;
+
+  const double seconds = std::chrono::duration<double>(now - stage_begin_).count();
+  const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
+  std::string text = fmt::format("{} {}/{} {}", stage, done, total, progress_.unit.load());
+  if (rate > 0) {
+    text +=
+        fmt::format("  {:.{}f}/s  {} left", rate, rate < 10 ? 1 : 0, minutes(static_cast<double>(total - done) / rate));
+  }
+  if (style_ == Style::lines) {
+    last_line_ = now;
+    fmt::print(stderr, "{}\n", text);
+    return;
+  }
+  const auto filled = static_cast<std::size_t>(bar_width * done / total);
+  fmt::print(stderr, "\r\x1b[K[{}{}] {}", std::string(filled, '#'), std::string(bar_width - filled, ' '), text);
+  std::fflush(stderr);
+  bar_shown_ = true;
+}
+
+void ProgressDisplay::clear() {
+  if (!bar_shown_) return;
+  fmt::print(stderr, "\r\x1b[K");
+  std::fflush(stderr);
+  bar_shown_ = false;
+}
+
+}  // namespace drape

@@ -1,0 +1,52 @@
+#include "cli/summary.hpp"
+
+#include <fmt/format.h>
+
+namespace drape {
+namespace {
+
+std::string bytes(std::uintmax_t count) {
+  const auto n = static_cast<double>(count);
+  if (n < 1e3) return fmt::format("{} B", count);
+  if (n < 1e6) return fmt::format("{:.0f} kB", n / 1e3);
+  return fmt::format("{:.2f} MB", n / 1e6);
+}
+
+std::string duration(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.1f} µs", 1e6 * seconds);
+  if (seconds < 1) return fmt::format("{:.1f} ms", 1e3 * seconds);
+  return fmt::format("{:.1f} s", seconds);
+}
+
+}  // namespace
+
+std::string describe(const Scene& scene, const RunOptions& options) {
+  const SimulationSettings& s = scene.simulation;
+  const std::int64_t steps = options.steps.value_or(scene.step_count());
+  std::string text = fmt::format("{}: {}, {} vertices, {} springs, {} steps of {:g} s ({:g} s)", scene.file.string(),
+                                 method_name(s.integrator.method), s.cloth.vertex_count(), s.cloth.springs.size(),
+                                 steps, s.step, static_cast<double>(steps) * s.step);
+  for (const ActiveEffect& active : s.effects) text += ", " + active.name;
+  return text;
+}
+
+std::string summarize(const RunResult& result) {
+  const Statistics& s = result.statistics;
+  std::string text = fmt::format("{} steps", s.steps());
+  if (s.mean_iterations() > 0) {
+    text += fmt::format(", {:.2f} iterations each (at most {})", s.mean_iterations(), s.max_iterations());
+    if (s.not_converged() > 0) text += fmt::format(", {} steps not converged", s.not_converged());
+  }
+  text += fmt::format(", {} a step (median {})\n", duration(1e-6 * s.mean_microseconds()),
+                      duration(1e-6 * s.median_microseconds()));
+  text += fmt::format("simulate {}", duration(s.total_seconds()));
+  if (!result.renderer.empty()) {
+    text += fmt::format(", draw {}, encode {}", duration(result.draw_seconds), duration(result.encode_seconds));
+  }
+  text += fmt::format(", all together {}", duration(result.elapsed_seconds));
+  for (const OutputFile& file : result.files) text += fmt::format("\n{}  {}", file.path.string(), bytes(file.size));
+  for (const std::string& record : result.records) text += "\n" + record;
+  return text;
+}
+
+}  // namespace drape

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "run/run_scene.hpp"
+
+namespace drape {
+
+/// One line that says what is about to be simulated.
+std::string describe(const Scene& scene, const RunOptions& options);
+
+/// What a run did, in a few lines without a final line end.
+std::string summarize(const RunResult& result);
+
+}  // namespace drape

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+namespace drape {
+
+/// A file that appears under its name only when it is complete.
+///
+/// The bytes go to a hidden file in the same folder, ".NAME.partial-PID-N.EXT", which commit() renames over the final
+/// one. Until then an existing file stays as it is, and without a commit nothing is left behind (but a process that is
+/// killed leaves the hidden file). Of a symbolic link, the file it points to is replaced. A replaced file's permissions
+/// are kept.
+class PartialFile {
+ public:
+  /// Creates the missing folders and the temporary file, so that what cannot be written is known at once.
+  /// @param file  where the file will be; messages name it as given here
+  /// @throws OutputError if it is a folder or a device, is write-protected, or its folder cannot be written to
+  explicit PartialFile(const std::filesystem::path& file);
+  ~PartialFile();
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+  /// Absolute, and with the extension of the final name: for libraries that open files by name. They must not delete
+  /// it.
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+
+  /// Appends bytes. @throws OutputError with the system's reason
+  void write(std::string_view bytes);
+
+  /// Throws the system's reason why nothing more can be written, if there is one: for libraries that fail without a
+  /// word. What was in the temporary file is lost.
+  /// @throws OutputError
+  void require_space();
+
+  /// Stores the bytes safely and gives the file its name.
+  /// @returns its size [bytes]
+  /// @throws OutputError
+  std::uintmax_t commit();
+
+ private:
+  [[noreturn]] void fail(int error_number) const;
+
+  std::filesystem::path file_, target_, temporary_;
+  int descriptor_ = -1;
+};
+
+/// Writes a whole file, or leaves everything as it was. @returns its size [bytes] @throws OutputError as PartialFile
+std::uintmax_t write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace drape

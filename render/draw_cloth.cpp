@@ -1,0 +1,184 @@
+#include "render/draw_cloth.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "core/error.hpp"
+#include "render/color.hpp"
+#include "render/normals.hpp"
+#include "render/texture_image.hpp"
+
+namespace drape {
+namespace {
+
+constexpr GLuint position_attribute = 0, normal_attribute = 1, uv_attribute = 2, barycentric_attribute = 3,
+                 line_scale_attribute = 4;
+
+const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+
+Edge sorted(int p, int q) { return {std::min(p, q), std::max(p, q)}; }
+
+/// Of each triangle, for the edges opposite to its corners: whether only one triangle has that edge.
+std::vector<std::array<bool, 3>> boundary_edges(const std::vector<Triangle>& triangles) {
+  std::map<Edge, int> uses;
+  for (const Triangle& t : triangles) {
+    for (std::size_t c = 0; c < 3; ++c) ++uses[sorted(t[(c + 1) % 3], t[(c + 2) % 3])];
+  }
+  std::vector<std::array<bool, 3>> boundary(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      boundary[t][c] = uses[sorted(triangles[t][(c + 1) % 3], triangles[t][(c + 2) % 3])] == 1;
+    }
+  }
+  return boundary;
+}
+
+}  // namespace
+
+DrawCloth::DrawCloth(const GlFunctions& gl, std::filesystem::path data_folder, const Look& look, int vertex_count,
+                     const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs)
+    : gl_(gl),
+      data_folder_(std::move(data_folder)),
+      look_(look),
+      vertex_count_(vertex_count),
+      triangles_(triangles),
+      array_(gl),
+      static_buffer_(gl),
+      dynamic_buffer_(gl),
+      index_buffer_(gl) {
+  if (!uvs.empty() && uvs.size() != 3 * triangles.size()) {
+    throw std::invalid_argument("a cloth needs a texture coordinate for each corner of each triangle, or none at all");
+  }
+  if (!look.texture.empty()) {
+    if (uvs.empty()) {
+      throw UsageError(fmt::format("the texture {} cannot be put on a cloth whose mesh has no texture coordinates",
+                                   look.texture.string()));
+    }
+    load_texture();
+  }
+  make_corners(uvs);
+}
+
+void DrawCloth::load_texture() {
+  const std::vector<TextureLevel> levels = load_texture_image(look_.texture);
+  GLint largest = 0;
+  gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (std::max(levels[0].width, levels[0].height) > largest) {
+    throw UsageError(fmt::format("the texture {} has {}x{} pixels; at most {}x{} can be drawn", look_.texture.string(),
+                                 levels[0].width, levels[0].height, largest, largest));
+  }
+  texture_.emplace(gl_);
+  gl_.BindTexture(GL_TEXTURE_2D, texture_->id());
+  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 2);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    gl_.TexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), GL_RGB16, levels[i].width, levels[i].height, 0, GL_RGB,
+                   GL_UNSIGNED_SHORT, levels[i].pixels.data());
+  }
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
+void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
+  std::vector<Corner> corners;
+  std::vector<unsigned> indices;
+  if (look_.mesh_lines) {
+    const std::vector<std::array<bool, 3>> boundary = boundary_edges(triangles_);
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        Corner corner;
+        if (!uvs.empty()) corner.uv = uvs[3 * t + c];
+        corner.barycentric[c] = 1;
+        for (std::size_t k = 0; k < 3; ++k) corner.line_scale[k] = boundary[t][k] ? 2 : 1;
+        indices.push_back(static_cast<unsigned>(corners.size()));
+        positions_.push_back(triangles_[t][c]);
+        corners.push_back(corner);
+      }
+    }
+  } else {
+    std::map<std::tuple<int, float, float>, unsigned> known;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        Corner corner;
+        if (!uvs.empty()) corner.uv = uvs[3 * t + c];
+        const auto [place, is_new] =
+            known.try_emplace({triangles_[t][c], corner.uv[0], corner.uv[1]}, static_cast<unsigned>(corners.size()));
+        if (is_new) {
+          positions_.push_back(triangles_[t][c]);
+          corners.push_back(corner);
+        }
+        indices.push_back(place->second);
+      }
+    }
+  }
+
+  gl_.BindVertexArray(array_.id());
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_.id());
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(unsigned)), indices.data(),
+                 GL_STATIC_DRAW);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, static_buffer_.id());
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(),
+                 GL_STATIC_DRAW);
+  const auto attribute = [this](GLuint index, GLint size, std::size_t stride, std::size_t start) {
+    gl_.EnableVertexAttribArray(index);
+    gl_.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride), offset(start));
+  };
+  attribute(uv_attribute, 2, sizeof(Corner), offsetof(Corner, uv));
+  attribute(barycentric_attribute, 3, sizeof(Corner), offsetof(Corner, barycentric));
+  attribute(line_scale_attribute, 3, sizeof(Corner), offsetof(Corner, line_scale));
+
+  dynamic_.resize(6 * positions_.size());
+  gl_.BindBuffer(GL_ARRAY_BUFFER, dynamic_buffer_.id());
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(dynamic_.size() * sizeof(float)), nullptr, GL_STREAM_DRAW);
+  attribute(position_attribute, 3, 6 * sizeof(float), 0);
+  attribute(normal_attribute, 3, 6 * sizeof(float), 3 * sizeof(float));
+}
+
+void DrawCloth::upload_frame(const Frame& frame) {
+  if (frame.positions.rows() != vertex_count_) {
+    throw std::invalid_argument("a frame has another number of vertices than its renderer was made for");
+  }
+  const Vertices normals = vertex_normals(frame.positions, triangles_);
+  float* to = dynamic_.data();
+  for (const int vertex : positions_) {
+    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(frame.positions(vertex, axis));
+    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(normals(vertex, axis));
+  }
+  gl_.BindBuffer(GL_ARRAY_BUFFER, dynamic_buffer_.id());
+  gl_.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(dynamic_.size() * sizeof(float)), dynamic_.data());
+}
+
+const Program& DrawCloth::program_for(std::size_t sphere_count) {
+  if (program_ && sphere_count_ == sphere_count) return *program_;
+  std::vector<std::string> defines{fmt::format("SPHERES {}", sphere_count)};
+  if (texture_) defines.emplace_back("TEXTURE");
+  if (look_.mesh_lines) defines.emplace_back("MESH_LINES");
+  program_ = std::make_unique<Program>(gl_, data_folder_, "cloth", defines);
+  sphere_count_ = sphere_count;
+  program_->use();
+  program_->set("cloth_texture", 0);
+  program_->set("cloth_color", linear_color(look_.color));
+  program_->set("line_color", linear_color(look_.line_color));
+  program_->set("line_width", static_cast<float>(look_.line_width));
+  return *program_;
+}
+
+void DrawCloth::draw(const Shot& shot) {
+  upload_frame(shot.frame);
+  const Program& program = program_for(shot.spheres.size());
+  program.use();
+  shot.set_uniforms(program);
+  if (texture_) {
+    gl_.ActiveTexture(GL_TEXTURE0);
+    gl_.BindTexture(GL_TEXTURE_2D, texture_->id());
+  }
+  gl_.BindVertexArray(array_.id());
+  gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * triangles_.size()), GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace drape

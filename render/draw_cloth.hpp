@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "render/gl/objects.hpp"
+#include "render/gl/program.hpp"
+#include "render/settings.hpp"
+#include "render/shot.hpp"
+#include "sim/mesh.hpp"
+
+namespace drape {
+
+/// Draws the cloth: smooth, lit on both sides, in its texture or its colour, with or without mesh lines.
+class DrawCloth {
+ public:
+  /// Parameters and exceptions are Renderer's.
+  DrawCloth(const GlFunctions& gl, std::filesystem::path data_folder, const Look& look, int vertex_count,
+            const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs);
+
+  void draw(const Shot& shot);
+
+ private:
+  /// What of a GL vertex stays the same in all frames.
+  struct Corner {
+    std::array<float, 2> uv{};
+    std::array<float, 3> barycentric{};  // of the mesh lines
+    std::array<float, 3> line_scale{};   // 1 for an edge of two triangles, which draw one half of the line each, else 2
+  };
+
+  void load_texture();
+  void make_corners(const std::vector<std::array<float, 2>>& uvs);
+  void upload_frame(const Frame& frame);
+  const Program& program_for(std::size_t sphere_count);
+
+  const GlFunctions& gl_;
+  std::filesystem::path data_folder_;
+  Look look_;
+  int vertex_count_;
+  std::vector<Triangle> triangles_;
+  std::vector<int> positions_;  // of each GL vertex: which vertex of the cloth it is
+  std::vector<float> dynamic_;  // of each GL vertex: position and normal
+  VertexArray array_;
+  Buffer static_buffer_, dynamic_buffer_, index_buffer_;
+  std::optional<Texture> texture_;
+  std::unique_ptr<Program> program_;
+  std::size_t sphere_count_ = 0;
+};
+
+}  // namespace drape

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+
+#include "render/gl/objects.hpp"
+#include "render/gl/program.hpp"
+#include "render/settings.hpp"
+#include "render/shot.hpp"
+
+namespace drape {
+
+/// Draws the spheres: smooth and glossy. Of each only the part that the camera can see is drawn, a cap whose rim is the
+/// exact outline, so that multisampling gives it clean edges.
+class DrawSphere {
+ public:
+  DrawSphere(const GlFunctions& gl, const std::filesystem::path& data_folder, const Look& look);
+
+  void draw(const Shot& shot);
+
+ private:
+  const GlFunctions& gl_;
+  Program program_;
+  VertexArray array_;
+  Buffer vertex_buffer_, index_buffer_;
+  GLsizei index_count_ = 0;
+};
+
+}  // namespace drape

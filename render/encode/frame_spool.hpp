@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "core/atomic_file.hpp"
+#include "render/image.hpp"
+
+namespace drape {
+
+/// Keeps the frames of a film on disk, unchanged, to go through them a second time. Its file has no name, so nothing is
+/// left of it whatever happens to the process. Holds one frame in memory.
+class FrameSpool {
+ public:
+  /// @param output  what the frames are for: the spool lies in its folder, and messages name it
+  /// @throws OutputError
+  explicit FrameSpool(const PartialFile& output);
+
+  /// @throws OutputError           naming the system's reason, a full disk above all
+  /// @throws std::invalid_argument if the image has another size than the first one
+  void append(const Image& image);
+
+  [[nodiscard]] int count() const { return count_; }
+
+  /// Goes back to the first frame. No frame can be appended after that.
+  void rewind();
+
+  /// The next frame, valid until the next call. Call it at most count() times after rewind().
+  const Image& next();
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  [[noreturn]] void fail(int error_number) const;
+
+  std::filesystem::path file_;
+  std::unique_ptr<std::FILE, Close> stream_;
+  Image last_;                       // the frame that the next one is stored as a difference to
+  std::vector<std::uint8_t> delta_;  // scratch
+  std::vector<std::uint8_t> packed_;
+  int count_ = 0;
+};
+
+}  // namespace drape

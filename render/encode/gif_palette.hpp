@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/encode/frequent_colors.hpp"
+#include "render/encode/libav.hpp"
+#include "render/image.hpp"
+
+namespace drape {
+
+/// 256 colours 0xAARRGGBB, one of them transparent and the others opaque.
+using GifPalette = std::array<std::uint32_t, 256>;
+
+/// Chooses the colours of a GIF from all frames of its film: FFmpeg's palettegen, which cuts the film's colours at the
+/// median into boxes and takes the average of each (Heckbert 1982). An average hits no colour exactly, and a white
+/// background that has become 254 shows on a white page. So the colours that cover a large part of the film then
+/// replace the ones nearest to them.
+class GifPaletteBuilder {
+ public:
+  GifPaletteBuilder(int width, int height);
+
+  void add(const Image& image);
+
+  /// Call it once, after the last frame.
+  GifPalette finish();
+
+ private:
+  libav::FilterGraph graph_;
+  FrequentColors frequent_;
+};
+
+/// Replaces, for each of `colors` (0xRRGGBB), the opaque entry nearest to it, and each entry only once.
+void force_colors(GifPalette& palette, const std::vector<std::uint32_t>& colors);
+
+/// Turns an image into a frame for a palette without dithering: adds the 8×8 ordered pattern of Bayer (1973) to every
+/// pixel whose colour is not in the palette. The pattern stays in place, so what does not move does not flicker, and
+/// what has a colour of the palette keeps it.
+class OrderedDither {
+ public:
+  explicit OrderedDither(const GifPalette& palette);
+
+  [[nodiscard]] libav::Frame apply(const Image& image) const;
+
+ private:
+  std::vector<bool> in_palette_;  // 2²⁴, by 0xRRGGBB
+  std::array<std::array<int, 8>, 8> offset_;
+};
+
+}  // namespace drape

@@ -1,0 +1,32 @@
+#include "render/encode/video_check.hpp"
+
+#include <fmt/format.h>
+
+#include <opencv2/videoio.hpp>
+
+#include "core/error.hpp"
+#include "render/encode/libav.hpp"
+#include "render/encode/quiet.hpp"
+
+namespace drape {
+namespace {
+
+cv::VideoCapture opened(const std::string& name) {
+  const QuietStderr quiet;
+  cv::VideoCapture video(name, cv::CAP_FFMPEG);
+  libav::silence();  // OpenCV has just undone it
+  return video;
+}
+
+}  // namespace
+
+void require_frames(PartialFile& file, int count) {
+  int found = 0;
+  for (cv::VideoCapture video = opened(file.temporary().string()); video.isOpened() && video.grab();) ++found;
+  if (found == count) return;
+  file.require_space();
+  throw OutputError(
+      fmt::format("cannot write {}: of {} frames, {} can be read back", file.file().string(), count, found));
+}
+
+}  // namespace drape

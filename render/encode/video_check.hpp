@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/atomic_file.hpp"
+
+namespace drape {
+
+/// Opens a finished video or GIF as a player would, and decodes all of it.
+/// @throws OutputError if it does not have this many frames: the system's reason where there is one, such as a full
+/// disk
+void require_frames(PartialFile& file, int count);
+
+}  // namespace drape

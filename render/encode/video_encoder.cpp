@@ -1,0 +1,93 @@
+#include "render/encode/video_encoder.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "core/error.hpp"
+#include "render/encode/libav.hpp"
+#include "render/encode/quiet.hpp"
+#include "render/encode/video_check.hpp"
+
+namespace drape {
+namespace {
+
+double checked_rate(const std::filesystem::path& file, double fps) {
+  // The containers count time in thousandths of a second or finer.
+  if (fps >= 0.01 && fps <= 1000) return fps;
+  throw UsageError(
+      fmt::format("cannot write {} at {} frames per second: a video has 0.01 to 1000", file.string(), fps));
+}
+
+}  // namespace
+
+std::vector<VideoCodec> video_codecs(const std::string& extension) {
+  // At the quality OpenCV asks for, VP9 takes four times as long as VP8 for files only a tenth smaller.
+  if (extension == ".mp4") return {{"avc1", "H.264"}, {"mp4v", "MPEG-4"}};
+  if (extension == ".webm") return {{"VP80", "VP8"}, {"VP90", "VP9"}};
+  if (extension == ".avi") return {{"MJPG", "Motion JPEG"}, {"XVID", "MPEG-4"}};
+  return {};
+}
+
+VideoEncoder::VideoEncoder(const std::filesystem::path& file, double fps, const std::vector<VideoCodec>& codecs)
+    : fps_(checked_rate(file, fps)), file_(file) {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  const cv::Size any_size(64, 64);
+  std::string tried;
+  for (const VideoCodec& codec : codecs) {
+    if (open(codec, any_size)) {
+      const QuietStderr quiet;
+      writer_.release();  // which writes the end of a video without frames
+      return;
+    }
+    tried += (tried.empty() ? "" : " or ") + codec.name;
+  }
+  file_.require_space();
+  throw OutputError(
+      fmt::format("cannot write {}: OpenCV has no {} encoder; is it built with FFmpeg? A .gif or a .png "
+                  "sequence needs none",
+                  file.string(), tried));
+}
+
+bool VideoEncoder::open(const VideoCodec& codec, cv::Size size) {
+  const QuietStderr quiet;
+  const std::string& c = codec.fourcc;
+  codec_ = codec;
+  const bool opened = writer_.open(file_.temporary().string(), cv::CAP_FFMPEG,
+                                   cv::VideoWriter::fourcc(c[0], c[1], c[2], c[3]), fps_, size);
+  libav::silence();  // OpenCV turns its messages on when it is first used
+  return opened;
+}
+
+void VideoEncoder::add(const Image& image) {
+  const cv::Size size(image.width, image.height);
+  const cv::Size missing(size.width % 2, size.height % 2);
+  if (count_ == 0) {
+    size_ = size;
+    if (!open(codec_, size + missing)) {
+      file_.require_space();
+      throw OutputError(fmt::format("cannot write {}: OpenCV's {} encoder does not take pictures of {}x{}",
+                                    file_.file().string(), codec_.name, size.width, size.height));
+    }
+  }
+  if (size != size_) throw std::invalid_argument("the frames of a film must have one size");
+  const cv::Mat rgb(size, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data()));
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  cv::copyMakeBorder(bgr, bgr, 0, missing.height, 0, missing.width, cv::BORDER_REPLICATE);
+  writer_.write(bgr);
+  ++count_;
+}
+
+std::vector<OutputFile> VideoEncoder::finish() {
+  if (count_ == 0) return {};
+  writer_.release();
+  require_frames(file_, count_);
+  const std::uintmax_t size = file_.commit();
+  return {{file_.file(), size}};
+}
+
+}  // namespace drape

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <opencv2/videoio.hpp>
+#include <string>
+#include <vector>
+
+#include "core/atomic_file.hpp"
+#include "render/encode/encoder.hpp"
+
+namespace drape {
+
+/// What a video is compressed with.
+struct VideoCodec {
+  std::string fourcc;  ///< the four letters OpenCV knows it by
+  std::string name;
+};
+
+/// The codecs for a video container, best first; none if the extension is not one of ".mp4", ".webm" and ".avi".
+std::vector<VideoCodec> video_codecs(const std::string& extension);
+
+/// A video, by OpenCV and its FFmpeg backend, with colours at half resolution (4:2:0), which is what browsers play. A
+/// picture of an odd width or height gets one more column or row, a copy of the last one, as 4:2:0 needs even ones.
+///
+/// OpenCV does not report that a frame could not be written, so finish() decodes the whole video before it gets its
+/// name.
+class VideoEncoder : public Encoder {
+ public:
+  /// Opens a small video to find out which codec there is.
+  /// @param codecs in the order to try
+  /// @throws OutputError if there is none
+  VideoEncoder(const std::filesystem::path& file, double fps, const std::vector<VideoCodec>& codecs);
+
+  void add(const Image& image) override;
+  std::vector<OutputFile> finish() override;
+
+ private:
+  bool open(const VideoCodec& codec, cv::Size size);
+
+  double fps_;
+  PartialFile file_;
+  VideoCodec codec_;
+  cv::VideoWriter writer_;
+  cv::Size size_;  // of the images
+  int count_ = 0;
+};
+
+}  // namespace drape

@@ -1,0 +1,32 @@
+#include "render/gl/llvmpipe.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
+
+#include "core/error.hpp"
+
+namespace drape {
+
+void limit_llvmpipe_vector_width() {
+  constexpr int widest = 256;
+  const char* given = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+  if (given == nullptr) {
+    setenv("LP_NATIVE_VECTOR_WIDTH", "256", 0);
+    return;
+  }
+  const std::string_view text = given;
+  int width = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), width);
+  if (error != std::errc{} || end != text.data() + text.size() || width < 128 || width > widest) {
+    throw UsageError(
+        fmt::format("the environment variable LP_NATIVE_VECTOR_WIDTH is \"{}\"; expected 128 or 256, since Mesa's "
+                    "software renderer "
+                    "crashes with more: unset it",
+                    text));
+  }
+}
+
+}  // namespace drape

@@ -1,0 +1,94 @@
+#include "render/renderer.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <stdexcept>
+
+#include "render/canvas.hpp"
+#include "render/draw_cloth.hpp"
+#include "render/draw_sphere.hpp"
+#include "render/gl/context.hpp"
+#include "render/gl/functions.hpp"
+#include "render/shot.hpp"
+
+namespace drape {
+namespace {
+
+std::unique_ptr<GlContext> make_current_context() {
+  std::unique_ptr<GlContext> context = make_osmesa_context();
+  context->make_current();
+  return context;
+}
+
+}  // namespace
+
+class Renderer::Implementation {
+ public:
+  Implementation(std::filesystem::path data_folder, Eigen::Vector2i size, const View& view, const Look& look,
+                 int vertex_count, const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs)
+      : data_folder_(std::move(data_folder)),
+        aspect_(static_cast<double>(size.x()) / size.y()),
+        view_(view),
+        look_(look),
+        context_(make_current_context()),
+        gl_(*context_),
+        canvas_(gl_, size, look),
+        cloth_(gl_, data_folder_, look, vertex_count, triangles, uvs) {}
+
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  // The objects that are destroyed next belong to this context, and another may have been used since.
+  ~Implementation() {
+    try {
+      context_->make_current();
+    } catch (const std::exception&) {
+      // There is nothing to be done about it here, and Mesa frees the objects with their context.
+    }
+  }
+
+  Image draw(const Frame& frame) {
+    context_->make_current();
+    const Shot shot(frame, view_, aspect_);
+    canvas_.begin();
+    if (!shot.spheres.empty()) {
+      if (!spheres_) spheres_.emplace(gl_, data_folder_, look_);
+      spheres_->draw(shot);
+    }
+    cloth_.draw(shot);
+    return canvas_.finish();
+  }
+
+  [[nodiscard]] std::string description() const {
+    context_->make_current();
+    const auto text = [this](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
+    return fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
+  }
+
+ private:
+  std::filesystem::path data_folder_;
+  double aspect_;
+  View view_;
+  Look look_;
+  std::unique_ptr<GlContext> context_;  // before all that lives in it
+  GlFunctions gl_;
+  Canvas canvas_;
+  DrawCloth cloth_;
+  std::optional<DrawSphere> spheres_;  // made when a frame first has one
+};
+
+Renderer::Renderer(const std::filesystem::path& data_folder, Eigen::Vector2i size, const View& view, const Look& look,
+                   int vertex_count, const std::vector<Triangle>& triangles,
+                   const std::vector<std::array<float, 2>>& uvs)
+    : implementation_(std::make_unique<Implementation>(data_folder, size, view, look, vertex_count, triangles, uvs)) {}
+
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+Image Renderer::draw(const Frame& frame) { return implementation_->draw(frame); }
+
+std::string Renderer::description() const { return implementation_->description(); }
+
+}  // namespace drape

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/image.hpp"
+#include "render/settings.hpp"
+#include "render/view.hpp"
+#include "sim/frame.hpp"
+
+namespace drape {
+
+/// Draws frames without a window. Owns a GL context: make, use and destroy it on one thread. Several may live on a
+/// thread. The same frame gives the same bytes, on any number of threads inside Mesa.
+class Renderer {
+ public:
+  /// @param data_folder  holds shaders/
+  /// @param size         of the picture [pixels]
+  /// @param vertex_count of the cloth in every frame
+  /// @param triangles    of the cloth
+  /// @param uvs          per triangle corner as in Mesh::uvs; may be empty if look.texture is
+  /// @throws UsageError  if look.texture cannot be read or there are no uvs for it
+  /// @throws OutputError if there is no OpenGL 3.3 or a shader does not compile
+  Renderer(const std::filesystem::path& data_folder, Eigen::Vector2i size, const View& view, const Look& look,
+           int vertex_count, const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// @throws std::invalid_argument if the frame has another number of vertices
+  /// @throws OutputError if OpenGL reports an error
+  Image draw(const Frame& frame);
+
+  /// What draws: OpenGL's renderer and version.
+  [[nodiscard]] std::string description() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace drape

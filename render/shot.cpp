@@ -1,0 +1,39 @@
+#include "render/shot.hpp"
+
+namespace drape {
+
+Shot::Shot(const Frame& shown, const View& view, double aspect) : frame(shown) {
+  const DepthRange depth = depth_range(view, shown);
+  view_projection = (view.projection_matrix(aspect, depth) * view.view_matrix()).cast<float>();
+  eye = view.position.cast<float>();
+
+  const Eigen::Matrix3d axes = view.axes();
+  const Eigen::Vector3d sky = view.up.normalized();
+  const auto towards = [&](double right, double upwards, double back) {
+    return (right * axes.row(0).transpose() + upwards * sky + back * axes.row(2).transpose())
+        .normalized()
+        .cast<float>()
+        .eval();
+  };
+  up = sky.cast<float>();
+  key_direction = towards(-0.45, 0.65, 0.75);
+  fill_direction = towards(0.8, 0.15, 0.5);
+
+  for (const Collider& collider : shown.colliders) {
+    if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
+      const Eigen::Vector4d packed{sphere->center.x(), sphere->center.y(), sphere->center.z(), sphere->radius};
+      spheres.push_back(packed.cast<float>());
+    }
+  }
+}
+
+void Shot::set_uniforms(const Program& program) const {
+  program.set("view_projection", view_projection);
+  program.set("eye", eye);
+  program.set("up", up);
+  program.set("key_direction", key_direction);
+  program.set("fill_direction", fill_direction);
+  program.set("spheres", spheres);
+}
+
+}  // namespace drape

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "render/gl/program.hpp"
+#include "render/view.hpp"
+#include "sim/frame.hpp"
+
+namespace drape {
+
+/// What everything that is drawn in one frame shares: the camera and the lights.
+struct Shot {
+  const Frame& frame;
+  Eigen::Matrix4f view_projection;       ///< from the world to clip space
+  Eigen::Vector3f eye;                   ///< [m]
+  Eigen::Vector3f up;                    ///< the sky is there
+  Eigen::Vector3f key_direction;         ///< unit vector towards the key light
+  Eigen::Vector3f fill_direction;        ///< unit vector towards the fill light
+  std::vector<Eigen::Vector4f> spheres;  ///< center and radius of each [m]
+
+  /// The lights stand with the camera, so that a scene looks alike from every side.
+  Shot(const Frame& shown, const View& view, double aspect);
+
+  /// Hands all of it to a program that includes lighting.glsl and is in use.
+  void set_uniforms(const Program& program) const;
+};
+
+}  // namespace drape

@@ -1,0 +1,173 @@
+#include "render/view.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace drape {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// From the target to the camera.
+Eigen::Vector3d direction(const Camera& camera) {
+  const double azimuth = radians(camera.azimuth), elevation = radians(camera.elevation);
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+}
+
+/// The camera's up, or, when it looks along that, the direction in which up goes over as the camera rises to there.
+Eigen::Vector3d usable_up(const Camera& camera) {
+  const Eigen::Vector3d back = direction(camera);
+  if (camera.up.normalized().cross(back).norm() > 1e-6) return camera.up;
+  const double azimuth = radians(camera.azimuth);
+  const double sign = camera.up.dot(back) > 0 ? -1 : 1;
+  return {sign * std::cos(azimuth), sign * std::sin(azimuth), 0};
+}
+
+struct Ball {
+  Eigen::Vector3d center;
+  double radius;
+};
+
+Ball bounding_ball(const SphereShape& sphere) { return {sphere.center, sphere.radius}; }
+
+Ball bounding_ball(const Collider& collider) {
+  return std::visit([](const auto& shape) { return bounding_ball(shape); }, collider);
+}
+
+}  // namespace
+
+Eigen::Matrix3d View::axes() const {
+  const Eigen::Vector3d back = (position - target).normalized();
+  Eigen::Vector3d right = up.normalized().cross(back);
+  if (right.norm() < 1e-6) right = Eigen::Vector3d::UnitY().cross(back);
+  if (right.norm() < 1e-6) right = Eigen::Vector3d::UnitZ().cross(back);
+  right.normalize();
+  Eigen::Matrix3d rows;
+  rows << right.transpose(), back.cross(right).transpose(), back.transpose();
+  return rows;
+}
+
+Eigen::Matrix4d View::view_matrix() const {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  const Eigen::Matrix3d rows = axes();
+  matrix.topLeftCorner<3, 3>() = rows;
+  matrix.topRightCorner<3, 1>() = -rows * position;
+  return matrix;
+}
+
+Eigen::Matrix4d View::projection_matrix(double aspect, const DepthRange& depth) const {
+  const double scale = 1 / std::tan(radians(field_of_view) / 2);
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+  matrix(0, 0) = scale / aspect;
+  matrix(1, 1) = scale;
+  matrix(2, 2) = -(depth.far + depth.near) / (depth.far - depth.near);
+  matrix(2, 3) = -2 * depth.far * depth.near / (depth.far - depth.near);
+  matrix(3, 2) = -1;
+  return matrix;
+}
+
+DepthRange depth_range(const View& view, const Frame& frame) {
+  const Eigen::Vector3d forward = -view.axes().row(2).transpose();
+  const double origin = forward.dot(view.position);
+  double nearest = infinity, farthest = -infinity;
+  const auto add = [&](double depth, double radius) {
+    nearest = std::min(nearest, depth - radius);
+    farthest = std::max(farthest, depth + radius);
+  };
+  for (Eigen::Index i = 0; i < frame.positions.rows(); ++i) add(frame.positions.row(i).dot(forward) - origin, 0);
+  for (const Collider& collider : frame.colliders) {
+    const Ball ball = bounding_ball(collider);
+    add(ball.center.dot(forward) - origin, ball.radius);
+  }
+  if (!(farthest > 0)) return {};  // all of it is behind the camera
+  const double room = 0.01 * std::max(farthest - nearest, 1e-3 * farthest);
+  farthest += room;
+  // A near plane at zero would leave no depth precision at all, so what nearly touches the camera is cut.
+  return {std::max(nearest - room, 1e-3 * farthest), farthest};
+}
+
+bool needs_motion(const Camera& camera) { return !camera.position || !camera.target; }
+
+View fixed_view(const Camera& camera) {
+  if (needs_motion(camera)) throw std::invalid_argument("fixed_view() needs a camera with position and target");
+  return {*camera.position, *camera.target, camera.up, camera.field_of_view};
+}
+
+Framing::Framing(const Camera& camera, double aspect) : camera_(camera) {
+  axes_ = View{direction(camera), Eigen::Vector3d::Zero(), usable_up(camera), camera.field_of_view}.axes();
+  const double free = (1 - 2 * camera.margin) * std::tan(radians(camera.field_of_view) / 2);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const Widths tangents = Widths::LinSpaced(1.0 / widths, 1) * (axis == 0 ? free * aspect : free);
+    Fan& fan = fans_[axis];
+    fan.cosines = (1 + tangents.square()).rsqrt();
+    fan.sines = tangents * fan.cosines;
+    fan.upper.setConstant(-infinity);
+    fan.lower.setConstant(-infinity);
+  }
+  lowest_.setConstant(infinity);
+  highest_.setConstant(-infinity);
+}
+
+void Framing::add(const Vertices& positions) {
+  for (Eigen::Index i = 0; i < positions.rows(); ++i) add_ball(positions.row(i).transpose(), 0);
+}
+
+void Framing::add(const Collider& collider) {
+  const Ball ball = bounding_ball(collider);
+  add_ball(ball.center, ball.radius);
+}
+
+void Framing::add_ball(const Eigen::Vector3d& center, double radius) {
+  const Eigen::Vector3d p = axes_ * center;
+  for (int axis = 0; axis < 2; ++axis) {
+    Fan& fan = fans_[static_cast<std::size_t>(axis)];
+    const Widths across = fan.cosines * p[axis], along = fan.sines * p[2] + radius;
+    fan.upper = fan.upper.max(along + across);
+    fan.lower = fan.lower.max(along - across);
+  }
+  lowest_ = lowest_.cwiseMin(center - Eigen::Vector3d::Constant(radius));
+  highest_ = highest_.cwiseMax(center + Eigen::Vector3d::Constant(radius));
+}
+
+View Framing::view() const {
+  if (!(lowest_[0] <= highest_[0])) throw std::logic_error("Framing::view() before anything was added");
+  const Eigen::Vector3d middle = (lowest_ + highest_) / 2;
+  if (camera_.position) return {*camera_.position, camera_.target.value_or(middle), camera_.up, camera_.field_of_view};
+
+  // In the camera's axes, e = (x, y, z): the planes at the right and left are cos·x + sin·z ≥ upper and
+  // -cos·x + sin·z ≥ lower, and those at the top and bottom are the same with y.
+  Eigen::Vector3d target = axes_ * camera_.target.value_or(middle);
+  Eigen::Vector3d eye = target;
+  constexpr int free = widths - 1;
+  eye[2] += 1e-3;  // a single point is not looked at from where it is
+  for (int axis = 0; axis < 2; ++axis) {
+    const Fan& fan = fans_[static_cast<std::size_t>(axis)];
+    if (camera_.target) {
+      const double across = fan.cosines[free] * eye[axis];
+      eye[2] = std::max(eye[2], (std::max(fan.upper[free] - across, fan.lower[free] + across)) / fan.sines[free]);
+    } else {
+      eye[2] = std::max(eye[2], (fan.upper[free] + fan.lower[free]) / (2 * fan.sines[free]));
+    }
+  }
+  if (!camera_.target) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const Fan& fan = fans_[static_cast<std::size_t>(axis)];
+      int narrowest = 0;  // of those in which the motion fits
+      while (narrowest < free && fan.upper[narrowest] + fan.lower[narrowest] > 2 * fan.sines[narrowest] * eye[2]) {
+        ++narrowest;
+      }
+      eye[axis] = (fan.upper[narrowest] - fan.lower[narrowest]) / (2 * fan.cosines[narrowest]);
+      target[axis] = eye[axis];
+    }
+  }
+  return {axes_.transpose() * eye, axes_.transpose() * target, usable_up(camera_), camera_.field_of_view};
+}
+
+}  // namespace drape

@@ -1,0 +1,62 @@
+#include "run/frame_sampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "sim/simulation.hpp"
+
+namespace drape {
+namespace {
+
+// Times are products of decimal fractions; a frame that falls on a step must not miss it by their rounding.
+constexpr double rounding = 1e-9;
+
+}  // namespace
+
+FilmExtent::FilmExtent(const Video& video, double h, std::int64_t step_count,
+                       const std::optional<FrameRange>& frame_range)
+    : steps(step_count), step(h), seconds_per_frame(video.speed / video.fps) {
+  const double last = std::floor(static_cast<double>(steps) * h / seconds_per_frame + rounding);
+  if (last >= std::numeric_limits<int>::max()) throw UsageError("a film of more than two thousand million frames");
+  frames = frame_range.value_or(FrameRange{0, static_cast<int>(last)});
+  if (frames.last > last) {
+    throw UsageError(fmt::format("--frames {}..{}: the film ends with frame {}", frames.first, frames.last, last));
+  }
+  if (frame_range) {
+    steps = std::min(steps, static_cast<std::int64_t>(std::ceil(time(frames.last) / h - rounding)));
+  }
+}
+
+FrameSampler::FrameSampler(const FilmExtent& extent, Sink sink)
+    : extent_(extent), sink_(std::move(sink)), next_(extent.frames.first) {}
+
+void FrameSampler::begin(const Simulation& simulation) {
+  previous_ = simulation.state().x;
+  emit_until(simulation);
+}
+
+void FrameSampler::after_step(const Simulation& simulation, const StepReport&, double) {
+  emit_until(simulation);
+  previous_ = simulation.state().x;
+}
+
+void FrameSampler::emit_until(const Simulation& simulation) {
+  const double h = extent_.step;
+  while (next_ <= extent_.frames.last && extent_.time(next_) <= simulation.time() + rounding * h) {
+    const double time = extent_.time(next_);
+    const double back = std::clamp((simulation.time() - time) / h, 0.0, 1.0);
+    Frame frame{.index = next_, .time = time, .positions = {}, .colliders = simulation.colliders(time)};
+    // On a step exactly, the step's own bits.
+    frame.positions =
+        back < rounding ? simulation.state().x : Vertices((1 - back) * simulation.state().x + back * previous_);
+    ++next_;
+    sink_(std::move(frame));
+  }
+}
+
+}  // namespace drape

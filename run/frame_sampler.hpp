@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "render/settings.hpp"
+#include "run/step_observer.hpp"
+#include "sim/frame.hpp"
+
+namespace drape {
+
+/// Frame numbers, both ends included.
+struct FrameRange {
+  int first = 0;
+  int last = 0;
+  [[nodiscard]] int count() const { return last - first + 1; }
+};
+
+/// Which moments of a motion a film shows: frame k is taken at k·speed/fps seconds, from 0 to the end of the motion.
+struct FilmExtent {
+  std::int64_t steps;        ///< that are simulated: no more than the last frame needs
+  double step;               ///< h [s]
+  double seconds_per_frame;  ///< of the scene's time
+  FrameRange frames;         ///< that are drawn
+
+  /// @param frame_range absent: the whole motion
+  /// @throws UsageError if the motion has no such frames
+  FilmExtent(const Video& video, double h, std::int64_t step_count, const std::optional<FrameRange>& frame_range);
+
+  [[nodiscard]] double time(int frame) const { return frame * seconds_per_frame; }
+};
+
+/// Watches a simulation and hands out the frames of a range as soon as the motion reaches them. A frame between two
+/// steps is interpolated linearly between them.
+class FrameSampler final : public StepObserver {
+ public:
+  using Sink = std::function<void(Frame)>;
+
+  FrameSampler(const FilmExtent& extent, Sink sink);
+
+  void begin(const Simulation& simulation) override;
+  void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
+
+ private:
+  void emit_until(const Simulation& simulation);
+
+  FilmExtent extent_;
+  Sink sink_;
+  int next_;
+  Vertices previous_;
+};
+
+}  // namespace drape

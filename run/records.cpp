@@ -1,0 +1,87 @@
+#include "run/records.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace drape {
+
+class Records::EnergyLog final : public StepObserver {
+ public:
+  explicit EnergyLog(const std::string& path) : file(path) { file.write("step,time,total,kinetic,gravity,elastic\n"); }
+
+  void begin(const Simulation& simulation) override { add(simulation); }
+  void after_step(const Simulation& simulation, const StepReport&, double) override { add(simulation); }
+
+  PartialFile file;
+
+ private:
+  void add(const Simulation& simulation) {
+    const Energies e = simulation.energies();
+    file.write(fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}\n", simulation.state().step, simulation.time(),
+                           e.total(), e.kinetic, e.gravity, e.elastic));
+  }
+};
+
+class Records::TraceLog final : public StepObserver {
+ public:
+  explicit TraceLog(const std::string& path) : file(path) { file.write("step,time,iterations,residual,step_us\n"); }
+
+  void after_step(const Simulation& simulation, const StepReport& report, double seconds) override {
+    file.write(fmt::format("{},{:.12g},{},{:.6g},{:.3f}\n", simulation.state().step, simulation.time(),
+                           report.iterations, simulation.residual(), 1e6 * seconds));
+  }
+
+  PartialFile file;
+};
+
+namespace {
+
+std::string positions_csv(const Vertices& x) {
+  fmt::memory_buffer text;
+  fmt::format_to(std::back_inserter(text), "vertex,x,y,z\n");
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    fmt::format_to(std::back_inserter(text), "{},{:.17g},{:.17g},{:.17g}\n", i, x(i, 0), x(i, 1), x(i, 2));
+  }
+  return fmt::to_string(text);
+}
+
+}  // namespace
+
+Records::Records(const RecordPaths& paths) {
+  if (!paths.stats.empty()) stats_ = std::make_unique<PartialFile>(paths.stats);
+  if (!paths.positions.empty()) positions_ = std::make_unique<PartialFile>(paths.positions);
+  if (!paths.energies.empty()) energies_ = std::make_unique<EnergyLog>(paths.energies);
+  if (!paths.trace.empty()) trace_ = std::make_unique<TraceLog>(paths.trace);
+}
+
+Records::~Records() = default;
+
+std::vector<StepObserver*> Records::observers() const {
+  std::vector<StepObserver*> result;
+  if (energies_) result.push_back(energies_.get());
+  if (trace_) result.push_back(trace_.get());
+  return result;
+}
+
+std::vector<std::string> Records::finish(const Simulation& simulation, const Statistics& statistics,
+                                         const std::string& outcome) {
+  std::vector<std::string> names;
+  const auto commit = [&](PartialFile& file) {
+    file.commit();
+    names.push_back(file.file().string());
+  };
+  if (energies_) commit(energies_->file);
+  if (trace_) commit(trace_->file);
+  if (positions_) {
+    positions_->write(positions_csv(simulation.state().x));
+    commit(*positions_);
+  }
+  if (stats_) {
+    stats_->write(statistics.to_json(outcome));
+    commit(*stats_);
+  }
+  return names;
+}
+
+}  // namespace drape

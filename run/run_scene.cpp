@@ -1,0 +1,247 @@
+#include "run/run_scene.hpp"
+
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+#include "render/renderer.hpp"
+#include "render/view.hpp"
+#include "run/bounded_queue.hpp"
+#include "run/run_steps.hpp"
+#include "run/step_by_step.hpp"
+
+namespace drape {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Frames in flight between two stages: enough to ride out an uneven step or frame, little enough to hold in memory.
+constexpr std::size_t queue_capacity = 8;
+constexpr std::chrono::milliseconds watch_interval{100};
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+std::vector<std::unique_ptr<Encoder>> make_encoders(const Scene& scene, const RunOptions& options, FrameRange range,
+                                                    Progress& progress) {
+  std::vector<std::unique_ptr<Encoder>> encoders;
+  for (const std::string& output : options.outputs) {
+    OutputSpec spec;
+    spec.path = output;
+    spec.scene = scene.name;
+    spec.fps = scene.video.fps;
+    spec.first_frame = range.first;
+    spec.expected_frames = range.count();
+    spec.progress = [&progress](int done, int total) {
+      if (done <= 1) progress.begin("encoding", "frames", total);
+      progress.done = done;
+    };
+    encoders.push_back(make_encoder(spec));
+  }
+  return encoders;
+}
+
+/// Shows how many steps are done where no frames are counted.
+class StepCounter final : public StepObserver {
+ public:
+  explicit StepCounter(Progress& progress) : progress_(progress) {}
+  void after_step(const Simulation& simulation, const StepReport&, double) override {
+    progress_.done = simulation.state().step;
+  }
+
+ private:
+  Progress& progress_;
+};
+
+FilmExtent film_extent(const Scene& scene, const RunOptions& options) {
+  return FilmExtent(scene.video, scene.simulation.step, options.steps.value_or(scene.step_count()), options.frames);
+}
+
+/// The three threads of a run and what flows between them.
+class Pipeline {
+ public:
+  Pipeline(const Scene& scene, const RunOptions& options, Progress& progress)
+      : scene_(scene),
+        options_(options),
+        progress_(progress),
+        extent_(film_extent(scene, options)),
+        simulation_(scene.simulation),
+        encoders_(make_encoders(scene, options, extent_.frames, progress)),
+        records_(options.records) {}
+
+  RunResult run(const std::atomic<bool>& stop, const std::function<void()>& watch) {
+    const auto begin = Clock::now();
+    std::vector<std::jthread> threads;
+    threads.emplace_back([this] { guarded([this] { simulate(); }); });
+    if (!encoders_.empty()) {
+      threads.emplace_back([this] { guarded([this] { draw(); }); });
+      threads.emplace_back([this] { guarded([this] { encode(); }); });
+    }
+    wait(threads.size(), stop, watch);
+    threads.clear();
+    if (error_) std::rethrow_exception(error_);
+
+    if (stop_.stop_requested() && result_.outcome == Outcome::completed) result_.outcome = Outcome::interrupted;
+    result_.records = records_.finish(simulation_, result_.statistics, outcome_name(result_.outcome));
+    result_.elapsed_seconds = seconds_since(begin);
+    return std::move(result_);
+  }
+
+ private:
+  /// Runs one thread's work; an exception ends the whole run.
+  template <class Work>
+  void guarded(Work work) {
+    try {
+      work();
+    } catch (...) {
+      const std::scoped_lock lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      stop_.request_stop();
+      view_.close();
+      frames_.close();
+      images_.close();
+    }
+    const std::scoped_lock lock(mutex_);
+    ++finished_;
+    changed_.notify_all();
+  }
+
+  void wait(std::size_t threads, const std::atomic<bool>& stop, const std::function<void()>& watch) {
+    std::unique_lock lock(mutex_);
+    while (finished_ < threads) {
+      changed_.wait_for(lock, watch_interval);
+      lock.unlock();
+      if (stop) stop_.request_stop();
+      watch();
+      lock.lock();
+    }
+  }
+
+  void simulate() {
+    std::vector<StepObserver*> observers{&result_.statistics};
+    for (StepObserver* record : records_.observers()) observers.push_back(record);
+    StepByStep step_by_step(stop_);
+    if (options_.step_by_step) observers.push_back(&step_by_step);
+
+    FrameSampler sampler(extent_, [this](Frame frame) { frames_.push(std::move(frame)); });
+    StepCounter counter(progress_);
+    if (!encoders_.empty()) {
+      find_view();
+      progress_.begin("drawing", "frames", extent_.frames.count());
+      observers.push_back(&sampler);
+    } else {
+      progress_.begin("simulating", "steps", extent_.steps);
+      observers.push_back(&counter);
+    }
+    try {
+      run_steps(simulation_, extent_.steps, observers, stop_.get_token());
+    } catch (const DivergedError& diverged) {
+      result_.outcome = Outcome::diverged;
+      result_.divergence = diverged.what();
+    }
+    view_.close();
+    frames_.close();
+  }
+
+  /// Hands the camera's view to the drawing thread. One that has to show the whole motion is found by running the
+  /// motion once before.
+  void find_view() {
+    if (!needs_motion(scene_.camera)) {
+      view_.push(fixed_view(scene_.camera));
+      return;
+    }
+    Framing framing(scene_.camera, static_cast<double>(scene_.video.size[0]) / scene_.video.size[1]);
+    FrameSampler sampler(extent_, [&](const Frame& frame) {
+      framing.add(frame.positions);
+      for (const Collider& collider : frame.colliders) framing.add(collider);
+    });
+    StepCounter counter(progress_);
+    progress_.begin("framing", "steps", extent_.steps);
+    const std::array<StepObserver*, 2> observers{&sampler, &counter};
+    Simulation scout(scene_.simulation);
+    try {
+      run_steps(scout, extent_.steps, observers, stop_.get_token());
+    } catch (const DivergedError&) {
+      // The run itself will say so; up to here there is something to see.
+    }
+    if (!framing.empty()) view_.push(framing.view());
+  }
+
+  void draw() {
+    const std::optional<View> view = view_.pop();
+    if (!view) return images_.close();
+    Renderer renderer(data_folder(), scene_.video.size, *view, scene_.look, simulation_.cloth().vertex_count(),
+                      simulation_.cloth().triangles, scene_.uvs);
+    result_.renderer = renderer.description();
+    while (const std::optional<Frame> frame = frames_.pop()) {
+      const auto begin = Clock::now();
+      Image image = renderer.draw(*frame);
+      result_.draw_seconds += seconds_since(begin);
+      images_.push(std::move(image));
+    }
+    images_.close();
+  }
+
+  void encode() {
+    while (const std::optional<Image> image = images_.pop()) {
+      const auto begin = Clock::now();
+      for (const auto& encoder : encoders_) encoder->add(*image);
+      result_.encode_seconds += seconds_since(begin);
+      progress_.done = ++result_.frames;
+    }
+    {
+      const std::scoped_lock lock(mutex_);
+      if (error_) return;
+    }
+    const auto begin = Clock::now();
+    for (const auto& encoder : encoders_) {
+      for (OutputFile& file : encoder->finish()) result_.files.push_back(std::move(file));
+    }
+    result_.encode_seconds += seconds_since(begin);
+  }
+
+  const Scene& scene_;
+  const RunOptions& options_;
+  Progress& progress_;
+  FilmExtent extent_;
+  Simulation simulation_;
+  std::vector<std::unique_ptr<Encoder>> encoders_;
+  Records records_;
+
+  BoundedQueue<View> view_{1};
+  BoundedQueue<Frame> frames_{queue_capacity};
+  BoundedQueue<Image> images_{queue_capacity};
+  std::stop_source stop_;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t finished_ = 0;
+  std::exception_ptr error_;
+  RunResult result_;
+};
+
+}  // namespace
+
+const char* outcome_name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::completed:
+      return "completed";
+    case Outcome::interrupted:
+      return "interrupted";
+    case Outcome::diverged:
+      return "diverged";
+  }
+  return "";
+}
+
+RunResult run_scene(const Scene& scene, const RunOptions& options, const std::atomic<bool>& stop, Progress& progress,
+                    const std::function<void()>& watch) {
+  return Pipeline(scene, options, progress).run(stop, watch);
+}
+
+}  // namespace drape

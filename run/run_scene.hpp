@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/encode/encoder.hpp"
+#include "run/frame_sampler.hpp"
+#include "run/progress.hpp"
+#include "run/records.hpp"
+#include "run/statistics.hpp"
+#include "scene/scene.hpp"
+
+namespace drape {
+
+/// What a run of a scene should do.
+struct RunOptions {
+  std::vector<std::string> outputs;  ///< films, frames and stills, see make_encoder(); empty: nothing is drawn
+  RecordPaths records;
+  std::optional<std::int64_t> steps;  ///< instead of the scene's duration
+  std::optional<FrameRange> frames;   ///< draw only these, and simulate no further than they need
+  bool step_by_step = false;          ///< print every step and wait for a line of input
+};
+
+enum class Outcome { completed, interrupted, diverged };
+
+/// "completed", "interrupted" or "diverged".
+const char* outcome_name(Outcome outcome);
+
+/// What a run did.
+struct RunResult {
+  Outcome outcome = Outcome::completed;
+  std::string divergence;  ///< the message, if it diverged
+  Statistics statistics;
+  int frames = 0;
+  double draw_seconds = 0, encode_seconds = 0, elapsed_seconds = 0;
+  std::string renderer;  ///< what drew; empty if nothing was
+  std::vector<OutputFile> files;
+  std::vector<std::string> records;
+};
+
+/// Runs a scene: one thread simulates, one owns the GL context and draws, one encodes, with bounded queues between
+/// them; the calling thread only waits. When the motion diverges or `stop` becomes true, what was drawn so far is
+/// completed.
+/// @param watch  called about ten times a second on the calling thread, to show the progress
+/// @throws Error whatever stopped one of the threads; no file is left then
+RunResult run_scene(const Scene& scene, const RunOptions& options, const std::atomic<bool>& stop, Progress& progress,
+                    const std::function<void()>& watch);
+
+}  // namespace drape

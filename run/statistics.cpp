@@ -1,0 +1,61 @@
+#include "run/statistics.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace drape {
+
+void Statistics::begin(const Simulation& simulation) {
+  method_ = method_name(simulation.settings().integrator.method);
+  vertices_ = simulation.cloth().vertex_count();
+  springs_ = static_cast<std::int64_t>(simulation.springs().size());
+  h_ = simulation.settings().step;
+  for (const ActiveEffect& active : simulation.settings().effects) {
+    if (std::find(effects_.begin(), effects_.end(), active.name) == effects_.end()) effects_.push_back(active.name);
+  }
+}
+
+void Statistics::after_step(const Simulation&, const StepReport& report, double seconds) {
+  microseconds_.push_back(static_cast<float>(1e6 * seconds));
+  iterations_ += report.iterations;
+  max_iterations_ = std::max(max_iterations_, report.iterations);
+  if (!report.converged) ++not_converged_;
+}
+
+double Statistics::mean_iterations() const {
+  return microseconds_.empty() ? 0 : static_cast<double>(iterations_) / static_cast<double>(steps());
+}
+
+double Statistics::mean_microseconds() const {
+  return microseconds_.empty() ? 0 : 1e6 * total_seconds() / static_cast<double>(steps());
+}
+
+double Statistics::median_microseconds() const {
+  if (microseconds_.empty()) return 0;
+  std::vector<float> sorted = microseconds_;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  if (sorted.size() % 2 == 1) return *middle;
+  return 0.5 * (static_cast<double>(*middle) + static_cast<double>(*std::max_element(sorted.begin(), middle)));
+}
+
+double Statistics::total_seconds() const {
+  return 1e-6 * std::accumulate(microseconds_.begin(), microseconds_.end(), 0.0);
+}
+
+std::string Statistics::to_json(const std::string& outcome) const {
+  const nlohmann::ordered_json json = {
+      {"method", method_},
+      {"vertices", vertices_},
+      {"springs", springs_},
+      {"step", h_},
+      {"steps", steps()},
+      {"iterations", {{"mean", mean_iterations()}, {"max", max_iterations_}, {"steps_not_converged", not_converged_}}},
+      {"step_us", {{"mean", mean_microseconds()}, {"median", median_microseconds()}}},
+      {"effects", effects_},
+      {"outcome", outcome}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace drape

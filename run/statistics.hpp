@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "run/step_observer.hpp"
+
+namespace drape {
+
+/// How the steps of a run went, in figures.
+class Statistics final : public StepObserver {
+ public:
+  void begin(const Simulation& simulation) override;
+  void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
+
+  [[nodiscard]] std::int64_t steps() const { return static_cast<std::int64_t>(microseconds_.size()); }
+  [[nodiscard]] double mean_iterations() const;
+  [[nodiscard]] int max_iterations() const { return max_iterations_; }
+  /// Steps that ended at the cap without meeting the stopping rule.
+  [[nodiscard]] std::int64_t not_converged() const { return not_converged_; }
+  [[nodiscard]] double mean_microseconds() const;
+  [[nodiscard]] double median_microseconds() const;
+  [[nodiscard]] double total_seconds() const;
+
+  /// The --stats file.
+  /// @param outcome "completed", "interrupted" or "diverged"
+  [[nodiscard]] std::string to_json(const std::string& outcome) const;
+
+ private:
+  std::string method_;
+  std::int64_t vertices_ = 0, springs_ = 0;
+  double h_ = 0;
+  std::vector<std::string> effects_;
+  std::vector<float> microseconds_;
+  std::int64_t iterations_ = 0, not_converged_ = 0;
+  int max_iterations_ = 0;
+};
+
+}  // namespace drape

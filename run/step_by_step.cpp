@@ -1,0 +1,48 @@
+#include "run/step_by_step.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace drape {
+namespace {
+
+constexpr int poll_milliseconds = 100;  // how soon an interruption is noticed
+
+}  // namespace
+
+void StepByStep::begin(const Simulation&) {
+  fmt::print("Enter for the next step, q to stop.\n");
+  std::fflush(stdout);
+}
+
+void StepByStep::after_step(const Simulation& simulation, const StepReport& report, double seconds) {
+  const Energies e = simulation.energies();
+  fmt::print("step {}: total {:.6g} = kinetic {:.6g} + gravity {:.6g} + elastic {:.6g} J", simulation.state().step,
+             e.total(), e.kinetic, e.gravity, e.elastic);
+  if (simulation.settings().integrator.method != Method::semi_implicit) {
+    fmt::print(", {} iterations{}", report.iterations, report.converged ? "" : " (not converged)");
+  }
+  fmt::print(", {:.1f} µs\n", 1e6 * seconds);
+  std::fflush(stdout);
+  wait_for_line();
+}
+
+void StepByStep::wait_for_line() {
+  while (!input_ended_ && !stop_.stop_requested()) {
+    pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+    if (poll(&input, 1, poll_milliseconds) <= 0) continue;
+    char character = 0;
+    if (read(STDIN_FILENO, &character, 1) != 1) {
+      input_ended_ = true;  // input that is a file or closed does not hold the run up
+    } else if (character == 'q') {
+      stop_.request_stop();
+    } else if (character == '\n') {
+      return;
+    }
+  }
+}
+
+}  // namespace drape

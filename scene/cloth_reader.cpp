@@ -1,0 +1,147 @@
+#include "scene/cloth_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+#include <stdexcept>
+
+#include "core/error.hpp"
+#include "core/nearest.hpp"
+#include "scene/mesh_file.hpp"
+#include "scene/pins.hpp"
+#include "scene/table_reader.hpp"
+#include "scene/values.hpp"
+
+namespace drape {
+namespace {
+
+/// A cloth of four million cells takes about 1 GB before the first step; beyond that a typing error is more likely.
+constexpr std::int64_t most_grid_cells = 4'000'000;
+
+std::optional<Mesh> read_grid(const TomlValue& value, const std::string& name, Problems& problems) {
+  const TomlTable& table = *value.as<TomlTable>();
+  static const std::vector<std::string> keys = {"grid"};
+  bool good = true;
+  for (const TomlEntry& entry : table.entries) {
+    if (entry.name == keys.front()) continue;
+    problems.add(entry.place, fmt::format("{}: unknown key '{}'{}", name, entry.name,
+                                          did_you_mean(entry.name, keys, "the only key is")));
+    good = false;
+  }
+  const TomlValue* grid = table.find(keys.front());
+  if (grid == nullptr) {
+    if (good) problems.add(value.place, name + ": missing key 'grid'");
+    return std::nullopt;
+  }
+  const auto cells = read_int_pair(*grid, name + ".grid", {.minimum = 1}, problems);
+  if (!cells || !good) return std::nullopt;
+  const int columns = (*cells)[0], rows = (*cells)[1];
+  if (std::int64_t{columns} * rows > most_grid_cells) {
+    problems.add(grid->place, fmt::format("{}.grid: a grid has at most {} cells, found {}×{}", name, most_grid_cells,
+                                          columns, rows));
+    return std::nullopt;
+  }
+  return make_grid(columns, rows);
+}
+
+std::optional<Mesh> read_file(const TomlValue& value, const std::string& name, const std::filesystem::path& folder,
+                              Problems& problems) {
+  const std::string& file = *value.as<std::string>();
+  try {
+    Mesh mesh = read_mesh(folder / file);
+    if (!mesh.triangles.empty()) return mesh;
+    problems.add(value.place, fmt::format("{}: '{}' has no triangles", name, file));
+  } catch (const UsageError& error) {
+    problems.add(value.place, fmt::format("{}: '{}' cannot be read:\n{}", name, file, error.what()));
+  }
+  return std::nullopt;
+}
+
+std::optional<Mesh> read_mesh_value(const TomlValue& value, const std::string& name,
+                                    const std::filesystem::path& folder, Problems& problems) {
+  if (value.as<TomlTable>() != nullptr) return read_grid(value, name, problems);
+  if (value.as<std::string>() != nullptr) return read_file(value, name, folder, problems);
+  problems.add(value.place, fmt::format("{}: expected the name of a file or {{ grid = [columns, rows] }}, found {}",
+                                        name, value.kind()));
+  return std::nullopt;
+}
+
+std::optional<Eigen::Vector3d> read_scale(const TomlValue* value, Problems& problems) {
+  constexpr const char* name = "scale";
+  const Range positive{.minimum = 0, .minimum_excluded = true};
+  if (value == nullptr) return Eigen::Vector3d::Ones();
+  if (value->as<TomlArray>() != nullptr) return read_vector(*value, name, positive, problems);
+  const std::optional<double> factor = read_number(*value, name, positive, problems);
+  return factor ? std::optional<Eigen::Vector3d>(Eigen::Vector3d::Constant(*factor)) : std::nullopt;
+}
+
+Eigen::Matrix3d rotation(const Eigen::Vector3d& degrees) {
+  const Eigen::Vector3d angles = degrees * (std::numbers::pi / 180);
+  return (Eigen::AngleAxisd(angles[2], Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(angles[1], Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(angles[0], Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+void scale_by(const Eigen::Vector3d& factors, Mesh& mesh) {
+  for (int axis = 0; axis < 3; ++axis) mesh.positions.col(axis) *= factors[axis];
+}
+
+/// Says how two meshes differ that should have the same vertices and triangles; empty if they do.
+std::string difference(const Mesh& rest, const Mesh& mesh) {
+  if (rest.positions.rows() != mesh.positions.rows()) {
+    return fmt::format("it has {} vertices, mesh has {}", rest.positions.rows(), mesh.positions.rows());
+  }
+  if (rest.triangles.size() != mesh.triangles.size()) {
+    return fmt::format("it has {} triangles, mesh has {}", rest.triangles.size(), mesh.triangles.size());
+  }
+  for (std::size_t t = 0; t < rest.triangles.size(); ++t) {
+    const auto text = [t](const Mesh& m) { return fmt::format("({})", fmt::join(m.triangles[t], ", ")); };
+    if (rest.triangles[t] != mesh.triangles[t]) {
+      return fmt::format("its triangle {} is {}, in mesh it is {}", t, text(rest), text(mesh));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& value,
+                                      const std::filesystem::path& folder, Problems& problems) {
+  const std::size_t problems_before = problems.count();
+  std::optional<Mesh> start, rest;
+  if (table.mesh != nullptr) start = read_mesh_value(*table.mesh, "mesh", folder, problems);
+  if (table.rest != nullptr) rest = read_mesh_value(*table.rest, "rest", folder, problems);
+  if (start && rest) {
+    const std::string differs = difference(*rest, *start);
+    if (!differs.empty()) {
+      problems.add(table.rest->place, "rest: expected the vertices and triangles of mesh, but " + differs);
+    }
+  }
+  std::vector<int> pins;
+  if (table.pins != nullptr) pins = read_pins(*table.pins, start ? &*start : nullptr, problems);
+  const std::optional<Eigen::Vector3d> scale = read_scale(table.scale, problems);
+  if (!start || !scale || problems.count() != problems_before) return std::nullopt;
+
+  // Turning and moving would only round the rest lengths, so they are taken before that.
+  scale_by(*scale, *start);
+  if (!rest) rest = *start;
+  if (!table.rotate.isZero(0)) start->positions = start->positions * rotation(table.rotate).transpose();
+  start->positions.rowwise() += table.translate.transpose();
+  if (!start->positions.allFinite()) {
+    problems.add(place_of(value, "transform"), "transform: positions are no longer finite");
+    return std::nullopt;
+  }
+
+  ClothAndUvs result{make_cloth(*start, *rest, table.mass, table.stiffness, std::move(pins)), std::move(start->uvs)};
+  result.cloth.velocities.rowwise() = table.velocity.transpose();
+  for (const int pin : result.cloth.pins) result.cloth.velocities.row(pin).setZero();
+  if (!(result.cloth.masses.array() > 0).all()) {
+    problems.add(place_of(value, "mass"), "mass: too small to be shared by so many vertices");
+    return std::nullopt;
+  }
+  return result;
+}
+
+}  // namespace drape

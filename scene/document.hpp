@@ -1,0 +1,67 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace drape {
+
+/// Where something was written. Places sort as a person meets them: through the file, then through the overrides.
+struct Place {
+  std::size_t override_number = 0;  ///< 0: in the file; n: in the n-th override, which has no line and column
+  std::size_t line = 1;             ///< from 1
+  std::size_t column = 1;           ///< from 1, in characters
+  auto operator<=>(const Place&) const = default;
+};
+
+struct TomlValue;
+struct TomlEntry;
+
+/// A TOML date or time: nothing in a scene takes one.
+struct DateOrTime {};
+
+using TomlArray = std::vector<TomlValue>;
+
+struct TomlTable {
+  std::vector<TomlEntry> entries;  ///< every name once, in no particular order
+
+  [[nodiscard]] const TomlValue* find(std::string_view name) const;
+  [[nodiscard]] TomlValue* find(std::string_view name);
+};
+
+/// A node of a TOML document.
+struct TomlValue {
+  Place place;
+  std::variant<bool, std::int64_t, double, std::string, DateOrTime, TomlArray, TomlTable> data;
+
+  template <class T>
+  [[nodiscard]] const T* as() const {
+    return std::get_if<T>(&data);
+  }
+  template <class T>
+  [[nodiscard]] T* as() {
+    return std::get_if<T>(&data);
+  }
+  /// "a number", "a string", …: what a message says it found.
+  [[nodiscard]] std::string kind() const;
+};
+
+struct TomlEntry {
+  std::string name;
+  Place place;  ///< of the name
+  TomlValue value;
+};
+
+/// Reads a TOML file into a table.
+/// @throws UsageError if it cannot be read or is no TOML; "file:line:col: message" for the first syntax error
+TomlValue read_document(const std::filesystem::path& file);
+
+/// Reads the right side of an assignment, "[1, 2]" or "0.5"; every place in it is `place`.
+/// @throws UsageError whose message is what the parser has to say
+TomlValue parse_value(std::string_view text, const Place& place);
+
+}  // namespace drape

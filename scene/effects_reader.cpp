@@ -1,0 +1,64 @@
+#include "scene/effects_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/nearest.hpp"
+
+namespace drape {
+namespace {
+
+/// The tables of one effect: one, or several if that makes sense for it.
+std::vector<const TomlValue*> tables_of(const TomlValue& value, bool repeatable) {
+  const TomlArray* array = value.as<TomlArray>();
+  if (array == nullptr || !repeatable) return {&value};
+  std::vector<const TomlValue*> tables;
+  for (const TomlValue& item : *array) tables.push_back(&item);
+  return tables;
+}
+
+}  // namespace
+
+std::vector<ReadEffect> read_effects(const TomlValue& document, TableReader& reader, Problems& problems) {
+  const TomlValue* value = find_path(document, "effects");
+  if (value == nullptr) return {};
+  const TomlTable* table = value->as<TomlTable>();
+  if (table == nullptr) {
+    problems.add(value->place, "effects: expected tables like [effects.gravity], found " + value->kind());
+    return {};
+  }
+  std::vector<std::string> names;
+  for (const EffectType& type : effect_types()) names.emplace_back(type.name);
+  for (const TomlEntry& entry : table->entries) {
+    if (std::find(names.begin(), names.end(), entry.name) == names.end()) {
+      problems.add(entry.place, fmt::format("unknown effect '{}'{}", entry.name,
+                                            did_you_mean(entry.name, names, "the effects are")));
+    }
+  }
+
+  std::vector<ReadEffect> effects;
+  for (const EffectType& type : effect_types()) {
+    const TomlValue* written = table->find(type.name);
+    if (written == nullptr) continue;
+    for (const TomlValue* item : tables_of(*written, type.repeatable)) {
+      const std::size_t before = problems.count();
+      std::shared_ptr<Effect> effect = type.make();
+      reader.read(*item, effect_table(type, *effect));
+      effects.push_back({{std::string(type.name), std::move(effect)}, item, problems.count() == before});
+    }
+  }
+  return effects;
+}
+
+void check_effects(const std::vector<ReadEffect>& effects, const SimulationSettings& settings, Problems& problems) {
+  for (const auto& [active, table, good] : effects) {
+    if (!good) continue;
+    active.effect->check(settings, [&](std::string_view key, const std::string& sentence) {
+      problems.add(place_of(*table, key), key.empty() ? fmt::format("[effects.{}]: {}", active.name, sentence)
+                                                      : fmt::format("{}: {}", key, sentence));
+    });
+  }
+}
+
+}  // namespace drape

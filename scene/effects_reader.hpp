@@ -1,0 +1,22 @@
+#pragma once
+
+#include "scene/document.hpp"
+#include "scene/table_reader.hpp"
+#include "sim/effects/effect.hpp"
+
+namespace drape {
+
+/// An effect with the table that it was read from.
+struct ReadEffect {
+  ActiveEffect active;
+  const TomlValue* table;
+  bool good;  ///< read without a problem
+};
+
+/// Reads the tables [effects.NAME] of a document, in the order of the registry and, of one name, of the document.
+std::vector<ReadEffect> read_effects(const TomlValue& document, TableReader& reader, Problems& problems);
+
+/// Lets the effects check their values against everything else.
+void check_effects(const std::vector<ReadEffect>& effects, const SimulationSettings& settings, Problems& problems);
+
+}  // namespace drape

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include "scene/color.hpp"
+#include "scene/tables.hpp"
+#include "scene/values.hpp"
+
+namespace drape {
+namespace {
+
+/// What a page says about a key's value.
+struct ValueText {
+  std::string form;     ///< "number"
+  std::string initial;  ///< what holds without the key
+};
+
+std::string vector_text(const Eigen::Vector3d& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
+
+std::string choices(const Choice& choice) {
+  std::string text;
+  for (const std::string& name : choice.names) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
+  return text;
+}
+
+struct Describe {
+  ValueText operator()(const bool* value) const { return {"true or false", *value ? "true" : "false"}; }
+  ValueText operator()(const int* value) const { return {"whole number", fmt::format("{}", *value)}; }
+  ValueText operator()(const double* value) const { return {"number", fmt::format("{}", *value)}; }
+  ValueText operator()(const std::string* value) const { return {"string", fmt::format("\"{}\"", *value)}; }
+  ValueText operator()(const std::filesystem::path*) const { return {"file", ""}; }
+  ValueText operator()(const Rgb* value) const { return {"colour", fmt::format("\"{}\"", color_text(*value))}; }
+  ValueText operator()(const Choice& choice) const {
+    return {choices(choice), fmt::format("\"{}\"", choice.names[choice.initial])};
+  }
+  ValueText operator()(const OwnForm& own) const { return {own.form, ""}; }
+  ValueText operator()(const Eigen::Vector2i* value) const {
+    return {"[whole number, whole number]", fmt::format("[{}, {}]", (*value)[0], (*value)[1])};
+  }
+  ValueText operator()(const Eigen::Vector3d* value) const { return {"[x, y, z]", vector_text(*value)}; }
+  ValueText operator()(const std::optional<int>*) const { return {"whole number", ""}; }
+  ValueText operator()(const std::optional<double>*) const { return {"number", ""}; }
+  ValueText operator()(const std::optional<Rgb>*) const { return {"colour", ""}; }
+  ValueText operator()(const std::optional<Eigen::Vector3d>*) const { return {"[x, y, z]", ""}; }
+};
+
+std::string row(const Key& key) {
+  const ValueText text = std::visit(Describe{}, key.target);
+  const std::string range = Range{key.minimum, key.maximum, key.minimum_excluded}.text();
+  const std::string form = range.empty() ? text.form : text.form + ", " + range;
+  const std::string initial = text.initial.empty() ? "–" : "`" + text.initial + "`";
+  return fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, form, key.unit,
+                     key.required ? "**required**" : initial, key.help);
+}
+
+std::string section(const TableType& table) {
+  std::string text = table.repeatable ? fmt::format("### `[{0}]` or several `[[{0}]]`\n\n", table.name)
+                                      : fmt::format("### `[{}]`\n\n", table.name);
+  if (!table.help.empty()) text += table.help + "\n\n";
+  text += "| key | value | unit | default | meaning |\n|---|---|---|---|---|\n";
+  for (const Key& key : table.keys.all()) text += row(key);
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string format_reference() {
+  ClothTable cloth;
+  Scene scene;
+  std::string text;
+  for (const TableType& table : scene_tables(cloth, scene)) text += section(table);
+  for (const EffectType& type : effect_types()) {
+    const std::unique_ptr<Effect> effect = type.make();
+    text += section(effect_table(type, *effect));
+  }
+  return text;
+}
+
+}  // namespace drape

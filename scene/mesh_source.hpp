@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace drape {
+
+/// The text of a mesh file and the name it goes by in messages. Readers work with byte offsets into it; the line and
+/// the column are counted only when there is something to complain about.
+class SourceText {
+ public:
+  SourceText(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {}
+
+  /// @throws UsageError if the file cannot be read
+  static SourceText read(const std::filesystem::path& file);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] std::string_view text() const { return text_; }
+
+  /// The line of an offset, from 1.
+  [[nodiscard]] std::size_t line(std::size_t offset) const;
+
+  /// @throws UsageError "name:line:column: message"; lines and columns count from 1, and columns count characters of
+  /// UTF-8
+  [[noreturn]] void fail(std::size_t offset, const std::string& message) const;
+
+  /// @throws UsageError "name: message"
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  std::string name_;
+  std::string text_;
+};
+
+/// A piece of a file between single quotes, for a message: cut where it is long, without control characters.
+std::string in_quotes(std::string_view piece);
+
+}  // namespace drape

@@ -1,0 +1,134 @@
+#include "scene/overrides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+#include "core/error.hpp"
+
+namespace drape {
+namespace {
+
+struct Assignment {
+  std::vector<std::string> path;
+  TomlValue value;
+};
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// A word can be given without quotes: it has nothing that TOML would take for a value that went wrong.
+bool is_bare_word(std::string_view text) {
+  return !text.empty() && text.find_first_of(" \t\r\n\"'[]{},=\\") == std::string_view::npos;
+}
+
+/// "cloth.mesh" into its names. Empty if a name is missing.
+std::vector<std::string> split_path(std::string_view text) {
+  std::vector<std::string> path;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('.', begin), text.size());
+    const std::string_view name = trimmed(text.substr(begin, end - begin));
+    if (!is_bare_word(name)) return {};
+    path.emplace_back(name);
+    begin = end + 1;
+  }
+  return path;
+}
+
+std::string joined(const std::vector<std::string>& path, std::size_t count) {
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) text += (i == 0 ? "" : ".") + path[i];
+  return text;
+}
+
+/// @throws UsageError that says what is wrong with it
+Assignment parse_assignment(std::string_view text, const Place& place) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) throw UsageError("expected key.path=value, found no '='");
+  Assignment assignment{.path = split_path(text.substr(0, equals)), .value = {.place = place, .data = false}};
+  if (assignment.path.empty()) throw UsageError("expected names with dots between them before the '='");
+
+  const std::string_view value = trimmed(text.substr(equals + 1));
+  if (value.empty()) throw UsageError("expected a value after the '='");
+  try {
+    assignment.value = parse_value(value, place);
+  } catch (const UsageError& error) {
+    if (!is_bare_word(value)) {
+      throw UsageError(fmt::format("expected a TOML value or a bare word after the '=': {}", error.what()));
+    }
+    assignment.value.data = std::string(value);
+  }
+  return assignment;
+}
+
+std::optional<std::size_t> item_number(std::string_view name) {
+  std::size_t number = 0;
+  const char* const end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data(), end, number);
+  return error == std::errc() && stop == end ? std::optional(number) : std::nullopt;
+}
+
+/// The item of an array that path[depth] picks.
+TomlValue& item(TomlArray& items, const std::vector<std::string>& path, std::size_t depth) {
+  const std::string owner = joined(path, depth);
+  const std::optional<std::size_t> number = item_number(path[depth]);
+  if (!number) throw UsageError(fmt::format("{} is an array of {}: say which, as in {}.0", owner, items.size(), owner));
+  if (*number >= items.size()) {
+    throw UsageError(items.empty() ? owner + " is an empty array"
+                                   : fmt::format("{} has the items 0 to {}", owner, items.size() - 1));
+  }
+  return items[*number];
+}
+
+/// Whether path[depth] names an item of `value`, which is no array, or the array may be passed through without a
+/// number.
+bool passes_through(TomlValue& value, std::string_view name) {
+  const TomlArray* items = value.as<TomlArray>();
+  return items != nullptr && items->size() == 1 && items->front().as<TomlTable>() != nullptr && !item_number(name);
+}
+
+void apply(TomlValue& document, Assignment assignment, const Place& place) {
+  TomlValue* node = &document;
+  const std::vector<std::string>& path = assignment.path;
+  for (std::size_t depth = 0; depth < path.size(); ++depth) {
+    const std::string& name = path[depth];
+    if (passes_through(*node, name)) node = &node->as<TomlArray>()->front();
+    if (TomlArray* items = node->as<TomlArray>()) {
+      node = &item(*items, path, depth);
+      continue;
+    }
+    TomlTable* table = node->as<TomlTable>();
+    if (table == nullptr) {
+      throw UsageError(fmt::format("{} is {}, not a table", joined(path, depth), node->kind()));
+    }
+    // An effect that is written as one table can also be given a number, like one of several.
+    if (name == "0" && depth == 2 && path.front() == "effects") continue;
+    node = table->find(name);
+    if (node == nullptr) {
+      table->entries.push_back({name, place, {.place = place, .data = TomlTable{}}});
+      node = &table->entries.back().value;
+    }
+  }
+  *node = std::move(assignment.value);
+}
+
+}  // namespace
+
+void apply_overrides(TomlValue& document, const std::vector<std::string>& overrides, Problems& problems) {
+  for (std::size_t i = 0; i < overrides.size(); ++i) {
+    const Place place{.override_number = i + 1};
+    try {
+      apply(document, parse_assignment(overrides[i], place), place);
+    } catch (const UsageError& error) {
+      problems.add(place, error.what());
+    }
+  }
+}
+
+}  // namespace drape

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/document.hpp"
+
+namespace drape {
+
+/// Collects what is wrong with a scene, so that a person sees all of it at once.
+class Problems {
+ public:
+  /// @param file      the scene's name, as messages show it
+  /// @param overrides "key.path=value", in order
+  Problems(std::filesystem::path file, std::vector<std::string> overrides)
+      : file_(std::move(file)), overrides_(std::move(overrides)) {}
+
+  /// @param message a sentence without a full stop; it may have more lines, which are shown below it
+  void add(const Place& place, std::string message) { found_.push_back({place, std::move(message)}); }
+
+  [[nodiscard]] std::size_t count() const { return found_.size(); }
+
+  /// @throws UsageError that lists the problems in the order of their places, if there are any
+  void throw_if_any() const;
+
+ private:
+  struct Problem {
+    Place place;
+    std::string message;
+  };
+  std::filesystem::path file_;
+  std::vector<std::string> overrides_;
+  std::vector<Problem> found_;
+};
+
+}  // namespace drape

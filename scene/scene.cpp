@@ -1,0 +1,108 @@
+#include "scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "scene/cloth_reader.hpp"
+#include "scene/effects_reader.hpp"
+#include "scene/overrides.hpp"
+#include "scene/table_reader.hpp"
+#include "scene/tables.hpp"
+
+namespace drape {
+namespace {
+
+constexpr double most_steps = 1e9;
+constexpr double most_frames = 1e7;
+
+/// What has to hold between the keys of a scene's tables. Each rule is only asked of values that are in range.
+class Checks {
+ public:
+  Checks(const Scene& scene, const TomlValue& document, Problems& problems)
+      : scene_(scene), document_(document), problems_(problems) {}
+
+  void length() const {
+    const double steps = std::round(scene_.duration / scene_.simulation.step);
+    const double frames = scene_.duration / scene_.video.speed * scene_.video.fps;
+    if (!(steps <= most_steps)) {
+      add("time", "duration",
+          fmt::format("duration: {:g} s in steps of {:g} s are {:.4g} steps, at most {:g} can be taken",
+                      scene_.duration, scene_.simulation.step, steps, most_steps));
+    } else if (!(frames <= most_frames)) {
+      add("video", "fps",
+          fmt::format("the film would have {:.4g} frames, at most {:g} can be drawn", frames, most_frames));
+    }
+  }
+
+  void camera() const {
+    const Camera& camera = scene_.camera;
+    if (camera.up.isZero(0)) add("camera", "up", "up: expected a direction, found [0, 0, 0]");
+    if (camera.position && camera.position == camera.target) {
+      add("camera", "target", "target: the camera's position and target are the same point");
+    }
+  }
+
+  void samples() const {
+    if (scene_.look.samples == 3) add("look", "samples", "samples must be 1, 2 or 4, found 3");
+  }
+
+  void texture() const {
+    if (!scene_.look.texture.empty() && scene_.uvs.empty()) {
+      add("look", "texture", "texture: the mesh has no texture coordinates");
+    }
+  }
+
+ private:
+  void add(const char* table, const char* key, std::string message) const {
+    const TomlValue* value = find_path(document_, table);
+    problems_.add(value == nullptr ? document_.place : place_of(*value, key), std::move(message));
+  }
+
+  const Scene& scene_;
+  const TomlValue& document_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+std::int64_t Scene::step_count() const { return static_cast<std::int64_t>(std::llround(duration / simulation.step)); }
+
+Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  TomlValue document = read_document(file);
+  Problems problems(file, overrides);
+  apply_overrides(document, overrides, problems);
+
+  Scene scene;
+  scene.file = file;
+  scene.name = file.stem().string();
+  const std::filesystem::path folder = file.parent_path();
+
+  ClothTable cloth_table;
+  TableReader reader(folder, problems);
+  reader.read_all(document, scene_tables(cloth_table, scene));
+  bool cloth_good = false;
+  if (const TomlValue* value = find_path(document, "cloth")) {
+    if (auto cloth = read_cloth(cloth_table, *value, folder, problems)) {
+      scene.simulation.cloth = std::move(cloth->cloth);
+      scene.uvs = std::move(cloth->uvs);
+      cloth_good = reader.good("cloth") && reader.good("cloth.transform");
+    }
+  }
+  const std::vector<ReadEffect> effects = read_effects(document, reader, problems);
+
+  // A rule between keys means nothing where one of them could not be read: the default stands in its place.
+  const Checks checks(scene, document, problems);
+  if (reader.good("time") && reader.good("video")) checks.length();
+  if (reader.good("camera")) checks.camera();
+  if (reader.good("look")) checks.samples();
+  if (reader.good("look") && cloth_good) checks.texture();
+  if (reader.good("time") && reader.good("integrator") && cloth_good) {
+    check_effects(effects, scene.simulation, problems);
+  }
+  problems.throw_if_any();
+  for (const ReadEffect& effect : effects) scene.simulation.effects.push_back(effect.active);
+  return scene;
+}
+
+}  // namespace drape

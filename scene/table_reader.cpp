@@ -1,0 +1,206 @@
+#include "scene/table_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/nearest.hpp"
+#include "scene/color.hpp"
+#include "scene/values.hpp"
+
+namespace drape {
+namespace {
+
+constexpr const char* effects_table = "effects";
+
+/// Reads the value of a key into its target, whatever that is.
+class KeyReader {
+ public:
+  KeyReader(const TomlValue& value, const Key& key, const std::filesystem::path& folder, Problems& problems)
+      : value_(value),
+        key_(key),
+        range_{key.minimum, key.maximum, key.minimum_excluded},
+        folder_(folder),
+        problems_(problems) {}
+
+  void operator()(bool* target) const { assign(target, read_bool(value_, key_.name, problems_)); }
+  void operator()(int* target) const { assign(target, read_int(value_, key_.name, range_, problems_)); }
+  void operator()(double* target) const { assign(target, read_number(value_, key_.name, range_, problems_)); }
+  void operator()(std::string* target) const { assign(target, read_string(value_, key_.name, problems_)); }
+  void operator()(std::filesystem::path* target) const {
+    assign(target, read_file_name(value_, key_.name, folder_, problems_));
+  }
+  void operator()(Rgb* target) const { assign(target, read_color()); }
+  void operator()(Eigen::Vector2i* target) const {
+    assign(target, read_int_pair(value_, key_.name, range_, problems_));
+  }
+  void operator()(Eigen::Vector3d* target) const { assign(target, read_vector(value_, key_.name, range_, problems_)); }
+  void operator()(std::optional<int>* target) const { assign(target, read_int(value_, key_.name, range_, problems_)); }
+  void operator()(std::optional<double>* target) const {
+    assign(target, read_number(value_, key_.name, range_, problems_));
+  }
+  void operator()(std::optional<Rgb>* target) const { assign(target, read_color()); }
+  void operator()(std::optional<Eigen::Vector3d>* target) const {
+    assign(target, read_vector(value_, key_.name, range_, problems_));
+  }
+  void operator()(const OwnForm& form) const { *form.value = &value_; }
+
+  void operator()(const Choice& choice) const {
+    const std::optional<std::string> name = read_string(value_, key_.name, problems_);
+    if (!name) return;
+    const auto found = std::find(choice.names.begin(), choice.names.end(), *name);
+    if (found != choice.names.end()) {
+      choice.set(static_cast<std::size_t>(found - choice.names.begin()));
+    } else {
+      problems_.add(value_.place, fmt::format("unknown {} '{}'{}", key_.name, *name,
+                                              did_you_mean(*name, choice.names, "the choices are")));
+    }
+  }
+
+ private:
+  template <class Target, class Result>
+  static void assign(Target* target, const std::optional<Result>& result) {
+    if (result) *target = *result;
+  }
+
+  [[nodiscard]] std::optional<Rgb> read_color() const {
+    const std::optional<std::string> text = read_string(value_, key_.name, problems_);
+    if (!text) return std::nullopt;
+    const std::optional<Rgb> color = parse_color(*text);
+    if (!color) {
+      problems_.add(value_.place,
+                    text->starts_with('#')
+                        ? fmt::format("{}: expected a colour like '#d4a017' or '#fff', found '{}'", key_.name, *text)
+                        : fmt::format("{}: unknown colour '{}'{}", key_.name, *text,
+                                      did_you_mean(*text, color_names(), "write it as '#rrggbb' or one of")));
+    }
+    return color;
+  }
+
+  const TomlValue& value_;
+  const Key& key_;
+  Range range_;
+  const std::filesystem::path& folder_;
+  Problems& problems_;
+};
+
+std::vector<std::string> key_names(const TableType& type) {
+  std::vector<std::string> names;
+  for (const Key& key : type.keys.all()) names.push_back(key.name);
+  return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The last names of the types whose tables are within the table `owner`, or below the root if that is empty.
+std::vector<std::string> tables_within(const std::string& owner, const std::vector<TableType>& types) {
+  const std::string prefix = owner.empty() ? "" : owner + ".";
+  std::vector<std::string> names;
+  for (const TableType& type : types) {
+    if (!type.name.starts_with(prefix)) continue;
+    const std::string rest = type.name.substr(prefix.size());
+    if (rest.find('.') == std::string::npos) names.push_back(rest);
+  }
+  return names;
+}
+
+}  // namespace
+
+void TableReader::read_all(const TomlValue& document, const std::vector<TableType>& types) {
+  for (const TableType& type : types) {
+    for (const Key& key : type.keys.all()) homes_.push_back({key.name, type.name});
+  }
+  std::vector<std::string> top = tables_within("", types);
+  top.emplace_back(effects_table);
+  for (const TomlEntry& entry : document.as<TomlTable>()->entries) {
+    if (!contains(top, entry.name)) report_unknown_below_root(entry, top);
+  }
+  for (const TableType& type : types) {
+    if (const TomlValue* value = find_path(document, type.name)) {
+      read(*value, type, tables_within(type.name, types));
+    } else if (type.required) {
+      problems_.add(document.place, fmt::format("missing table [{}]", type.name));
+    }
+  }
+}
+
+void TableReader::read(const TomlValue& value, const TableType& type, const std::vector<std::string>& subtables) {
+  const std::size_t problems_before = problems_.count();
+  if (const TomlTable* table = value.as<TomlTable>()) {
+    read_entries(*table, type, subtables);
+    for (const Key& key : type.keys.all()) {
+      if (key.required && table->find(key.name) == nullptr) {
+        problems_.add(value.place, fmt::format("missing key '{}' in [{}]", key.name, type.name));
+      }
+    }
+  } else if (value.as<TomlArray>() != nullptr) {
+    problems_.add(value.place, fmt::format("[{}] can only be given once, found an array", type.name));
+  } else {
+    problems_.add(value.place, fmt::format("expected a table [{}], found {}", type.name, value.kind()));
+  }
+  if (problems_.count() != problems_before) bad_.push_back(type.name);
+}
+
+void TableReader::read_entries(const TomlTable& table, const TableType& type,
+                               const std::vector<std::string>& subtables) {
+  const auto& keys = type.keys.all();
+  for (const TomlEntry& entry : table.entries) {
+    const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == entry.name; });
+    if (key != keys.end()) {
+      std::visit(KeyReader(entry.value, *key, folder_, problems_), key->target);
+    } else if (!contains(subtables, entry.name)) {
+      report_unknown(entry, type, subtables);
+    }
+  }
+}
+
+bool TableReader::good(const std::string& table) const { return !contains(bad_, table) && !contains(bad_, ""); }
+
+void TableReader::report_unknown(const TomlEntry& entry, const TableType& type,
+                                 const std::vector<std::string>& subtables) {
+  std::string message = fmt::format("unknown key '{}' in [{}]", entry.name, type.name);
+  if (const Home* home = home_of(entry.name)) {
+    message += fmt::format("; it belongs in [{}]", home->table);
+  } else {
+    std::vector<std::string> names = key_names(type);
+    names.insert(names.end(), subtables.begin(), subtables.end());
+    message += did_you_mean(entry.name, names, "the keys are");
+  }
+  problems_.add(entry.place, message);
+}
+
+void TableReader::report_unknown_below_root(const TomlEntry& entry, const std::vector<std::string>& tables) {
+  bad_.emplace_back();
+  if (const Home* home = home_of(entry.name)) {
+    problems_.add(entry.place, fmt::format("'{}' belongs in [{}]", entry.name, home->table));
+  } else {
+    problems_.add(entry.place,
+                  fmt::format("unknown table '{}'{}", entry.name, did_you_mean(entry.name, tables, "the tables are")));
+  }
+}
+
+const TableReader::Home* TableReader::home_of(const std::string& key) const {
+  const auto home = std::find_if(homes_.begin(), homes_.end(), [&](const Home& h) { return h.key == key; });
+  return home == homes_.end() ? nullptr : &*home;
+}
+
+Place place_of(const TomlValue& table, std::string_view key) {
+  const TomlTable* entries = table.as<TomlTable>();
+  const TomlValue* value = entries == nullptr ? nullptr : entries->find(key);
+  return value == nullptr ? table.place : value->place;
+}
+
+const TomlValue* find_path(const TomlValue& document, std::string_view path) {
+  const TomlValue* value = &document;
+  while (value != nullptr && !path.empty()) {
+    const std::size_t dot = std::min(path.find('.'), path.size());
+    const TomlTable* table = value->as<TomlTable>();
+    value = table == nullptr ? nullptr : table->find(path.substr(0, dot));
+    path.remove_prefix(std::min(dot + 1, path.size()));
+  }
+  return value;
+}
+
+}  // namespace drape

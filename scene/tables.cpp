@@ -1,0 +1,115 @@
+#include "scene/tables.hpp"
+
+namespace drape {
+namespace {
+
+Keys cloth_keys(ClothTable& cloth) {
+  Keys keys;
+  keys.add("mesh", OwnForm{"mesh", &cloth.mesh}, "", "The shape that the cloth starts from.").must_be_given();
+  keys.add("rest", OwnForm{"mesh", &cloth.rest}, "",
+           "The shape whose edges are as long as the springs want to be, with the vertices and triangles of `mesh`. "
+           "Without it that is the starting shape.");
+  keys.add("mass", &cloth.mass, "kg", "Of the whole cloth, shared equally by all vertices.").above(0);
+  keys.add("stiffness", &cloth.stiffness, "N/m", "Of every spring: there is one along each edge of the mesh.")
+      .must_be_given()
+      .above(0);
+  keys.add("pins", OwnForm{"pins", &cloth.pins}, "", "The vertices that do not move.");
+  keys.add("velocity", &cloth.velocity, "m/s", "Of every vertex that is not pinned, at the start.");
+  return keys;
+}
+
+Keys transform_keys(ClothTable& cloth) {
+  Keys keys;
+  keys.add("scale", OwnForm{"number or [x, y, z], above 0", &cloth.scale}, "",
+           "Sizes the mesh about its origin; first of the three. Without `rest` the springs grow with it.");
+  keys.add("rotate", &cloth.rotate, "degrees", "Turns about the fixed x axis, then y, then z.");
+  keys.add("translate", &cloth.translate, "m", "Moves it; last of the three.");
+  return keys;
+}
+
+Keys time_keys(Scene& scene) {
+  Keys keys;
+  keys.add("step", &scene.simulation.step, "s", "Length of a time step.").above(0);
+  keys.add("duration", &scene.duration, "s", "How long the scene lasts, rounded to whole steps.").at_least(0);
+  return keys;
+}
+
+Keys integrator_keys(IntegratorSettings& integrator) {
+  Keys keys;
+  keys.choice("method", integrator.method, {method_names.begin(), method_names.end()},
+              "How a step is computed: semi-implicit is symplectic Euler, the others are implicit Euler, solved by "
+              "Newton's method or by the alternation of Liu et al. 2013.");
+  keys.choice("stop", integrator.stop, {"change", "gradient"},
+              "An iteration ends a step when the norm of the change of the positions (in m), or of the forces out of "
+              "balance (in N), is below the tolerance. Only for implicit methods, like the next two.");
+  keys.add("tolerance", &integrator.tolerance, "m or N", "See `stop`.").above(0);
+  keys.add("max_iterations", &integrator.max_iterations, "",
+           "The step ends after as many in any case. Without it 20 for implicit, 100 for liu13.")
+      .at_least(1);
+  return keys;
+}
+
+Keys camera_keys(Camera& camera) {
+  Keys keys;
+  keys.add("position", &camera.position, "m",
+           "Where the camera stands. Without it, it stands where the whole motion is in view.");
+  keys.add("target", &camera.target, "m", "The middle of the picture. Without it the middle of the motion.");
+  keys.add("up", &camera.up, "", "A direction that points upwards in the picture.");
+  keys.add("field_of_view", &camera.field_of_view, "degrees", "Of the picture's height.").at_least(1).at_most(170);
+  keys.add("azimuth", &camera.azimuth, "degrees",
+           "Where a camera without a position looks from: the angle in the xy plane, from +x towards +y.");
+  keys.add("elevation", &camera.elevation, "degrees", "The angle above the xy plane, likewise.")
+      .at_least(-90)
+      .at_most(90);
+  keys.add("margin", &camera.margin, "", "What it leaves free around the motion, as a fraction of the picture.")
+      .at_least(0)
+      .at_most(0.45);
+  return keys;
+}
+
+Keys look_keys(Look& look) {
+  Keys keys;
+  keys.add("texture", &look.texture, "", "The picture on the cloth, which needs a mesh with texture coordinates.");
+  keys.add("color", &look.color, "", "Of the cloth, where it has no texture.");
+  keys.add("mesh_lines", &look.mesh_lines, "", "Draws the edges of the triangles.");
+  keys.add("line_color", &look.line_color, "", "Of these edges.");
+  keys.add("line_width", &look.line_width, "pixels", "Of these edges.").above(0).at_most(64);
+  keys.add("background", &look.background, "", "Behind everything.");
+  keys.add("background_top", &look.background_top, "", "At the top of the picture: the background is a gradient.");
+  keys.add("sphere_color", &look.sphere_color, "", "Of the spheres.");
+  keys.add("samples", &look.samples, "", "Per pixel, against jagged edges: 1 (off), 2 or 4.").at_least(1).at_most(4);
+  return keys;
+}
+
+Keys video_keys(Video& video) {
+  Keys keys;
+  keys.add("fps", &video.fps, "1/s", "Frames per second.").above(0).at_most(1000);
+  keys.add("speed", &video.speed, "", "How many seconds of the scene pass in one second of the film.").above(0);
+  keys.add("size", &video.size, "pixels", "Width and height.").at_least(16).at_most(8192);
+  return keys;
+}
+
+}  // namespace
+
+std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene) {
+  std::vector<TableType> tables;
+  const auto add = [&](const char* name, const char* help, Keys keys) -> TableType& {
+    return tables.emplace_back(TableType{.name = name, .help = help, .keys = std::move(keys)});
+  };
+  add("cloth", "The cloth: a mass-spring network on a triangle mesh.", cloth_keys(cloth)).required = true;
+  add("cloth.transform", "Places the starting shape in the world.", transform_keys(cloth));
+  add("time", "How time is divided.", time_keys(scene));
+  add("integrator", "How the motion is computed.", integrator_keys(scene.simulation.integrator));
+  add("camera", "Where the picture is taken from.", camera_keys(scene.camera));
+  add("look", "What things look like.", look_keys(scene.look));
+  add("video", "The film.", video_keys(scene.video));
+  return tables;
+}
+
+TableType effect_table(const EffectType& type, Effect& effect) {
+  TableType table{.name = "effects." + std::string(type.name), .help = {}, .keys = {}, .repeatable = type.repeatable};
+  effect.describe(table.keys);
+  return table;
+}
+
+}  // namespace drape

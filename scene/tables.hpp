@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/keys.hpp"
+#include "scene/scene.hpp"
+#include "sim/effects/effect.hpp"
+
+namespace drape {
+
+/// What [cloth] and [cloth.transform] say, before it is made into a Cloth.
+struct ClothTable {
+  const TomlValue* mesh = nullptr;
+  const TomlValue* rest = nullptr;
+  const TomlValue* pins = nullptr;
+  double mass = 1;                                     ///< [kg]
+  double stiffness = 0;                                ///< [N/m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
+
+  const TomlValue* scale = nullptr;
+  Eigen::Vector3d rotate = Eigen::Vector3d::Zero();     ///< [degrees]
+  Eigen::Vector3d translate = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// A table of the scene format.
+struct TableType {
+  std::string name;  ///< "cloth.transform"
+  std::string help;
+  Keys keys;
+  bool required = false;
+  bool repeatable = false;  ///< may be written as [[name]] several times
+};
+
+/// Every table of a scene but its effects, whose keys write to `cloth` and `scene`. With effect_types() the only
+/// description of the format: reading, error messages and the reference page are made from it.
+std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene);
+
+/// The table of an effect, whose keys write to it.
+TableType effect_table(const EffectType& type, Effect& effect);
+
+/// The format's reference: a heading and a table of keys for each table, in Markdown.
+std::string format_reference();
+
+}  // namespace drape

@@ -1,0 +1,87 @@
+#include "scene/usd_motion.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scene/usd_layer.hpp"
+#include "scene/usd_xform.hpp"
+
+namespace drape {
+namespace {
+
+UsdPath moving_prim(const SourceText& source, const UsdLayer& layer) {
+  const std::vector<UsdPath> shapes = find_prims(layer, {"Mesh", "Sphere"});
+  for (const UsdPath& path : shapes) {
+    if (!transform_times(path).empty()) return path;
+  }
+  if (!shapes.empty()) return shapes.front();
+  for (const UsdPath& path : find_prims(layer, {})) {
+    if (!transform_times(path).empty()) return path;
+  }
+  source.fail("there is neither a Mesh nor a Sphere nor a moving prim in the file");
+}
+
+void bound_points(const SourceText& source, const UsdAttribute& points, TransformTrack& track) {
+  if (points.components != 3 || !points.is_array || points.first() == nullptr) {
+    source.fail(points.offset, "points: expected an array of point3f, found " + points.type);
+  }
+  const std::vector<double>& numbers = points.first()->numbers;
+  if (numbers.empty()) return;
+  const Eigen::Map<const Eigen::Matrix3Xd> positions(numbers.data(), 3, static_cast<Eigen::Index>(numbers.size() / 3));
+  const Eigen::Vector3d low = positions.rowwise().minCoeff(), high = positions.rowwise().maxCoeff();
+  track.center = low / 2 + high / 2;
+  track.radius = (positions.colwise() - track.center).colwise().stableNorm().maxCoeff();
+}
+
+void bound_sphere(const SourceText& source, const UsdPrim& prim, TransformTrack& track) {
+  track.radius = 1;  // what the USD schema gives a Sphere that does not say
+  const UsdAttribute* radius = prim.find("radius");
+  if (radius == nullptr || radius->first() == nullptr) return;
+  if (radius->components != 1 || radius->is_array) source.fail(radius->offset, "radius: expected one number");
+  track.radius = radius->first()->numbers[0];
+  if (track.radius <= 0) source.fail(radius->first()->offset, "radius: expected a positive number");
+}
+
+}  // namespace
+
+Eigen::Affine3d TransformTrack::at(double time) const {
+  const auto next = std::upper_bound(times.begin(), times.end(), time);
+  if (next == times.begin()) return transforms.front();
+  if (next == times.end()) return transforms.back();
+  const auto i = static_cast<std::size_t>(next - times.begin());
+  const double weight = (time - times[i - 1]) / (times[i] - times[i - 1]);
+  Eigen::Affine3d result = transforms[i - 1];
+  result.matrix() += weight * (transforms[i].matrix() - transforms[i - 1].matrix());
+  return result;
+}
+
+SphereShape TransformTrack::sphere_at(double time) const {
+  const Eigen::Affine3d transform = at(time);
+  const double stretch = Eigen::JacobiSVD<Eigen::Matrix3d>(transform.linear()).singularValues()[0];
+  return {transform * center, stretch * radius};
+}
+
+TransformTrack read_usd_motion(const SourceText& source) {
+  const UsdLayer layer = parse_usd(source);
+  const UsdPath path = moving_prim(source, layer);
+  const UsdPrim& prim = *path.back();
+
+  TransformTrack track;
+  std::vector<double> time_codes = transform_times(path);
+  if (time_codes.empty()) time_codes.push_back(layer.start_time_code);
+  for (const double code : time_codes) {
+    track.times.push_back((code - layer.start_time_code) / layer.time_codes_per_second);
+    if (!std::isfinite(track.times.back())) source.fail(prim.offset, "the times of its samples overflow in seconds");
+    track.transforms.push_back(world_transform(source, layer, path, code));
+  }
+  if (prim.type == "Mesh" && prim.find("points") != nullptr) bound_points(source, *prim.find("points"), track);
+  if (prim.type == "Sphere") bound_sphere(source, prim, track);
+  return track;
+}
+
+TransformTrack read_usd_motion(const std::filesystem::path& file) { return read_usd_motion(SourceText::read(file)); }
+
+}  // namespace drape

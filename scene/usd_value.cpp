@@ -1,0 +1,109 @@
+#include "scene/usd_value.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace drape {
+namespace {
+
+using Kind = UsdToken::Kind;
+
+// Messages are put together only where they are needed: these run once per number of the file.
+
+/// A number, or `count` > 1 of them between parentheses.
+void parse_tuple(UsdLexer& lexer, UsdValue& value, std::size_t count, const std::string& owner) {
+  if (count > 1 && !lexer.accept('(')) lexer.fail_expected(fmt::format("'(' and {} numbers in {}", count, owner));
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i > 0 && !lexer.accept(',')) {
+      lexer.fail_expected(fmt::format("',' and {} numbers in a tuple of {}", count, owner));
+    }
+    const std::optional<double> number = lexer.accept_number();
+    if (!number) lexer.fail_expected("a finite number in " + owner);
+    value.numbers.push_back(*number);
+  }
+  if (count > 1 && !lexer.accept(')')) {
+    lexer.fail_expected(fmt::format("')' after the {} numbers of a tuple of {}", count, owner));
+  }
+}
+
+void parse_matrix(UsdLexer& lexer, UsdValue& value, const UsdType& type, const std::string& owner) {
+  lexer.expect('(', "'(' before a matrix of " + owner);
+  for (std::size_t row = 0; row < type.rows; ++row) {
+    if (row > 0) lexer.expect(',', fmt::format("',' and {} rows in a matrix of {}", type.rows, owner));
+    parse_tuple(lexer, value, type.columns, owner);
+  }
+  lexer.expect(')', fmt::format("')' after the {} rows of a matrix of {}", type.rows, owner));
+}
+
+void parse_element(UsdLexer& lexer, UsdValue& value, const UsdType& type, const std::string& owner) {
+  if (type.kind == UsdType::Kind::text) {
+    value.strings.emplace_back(lexer.expect(Kind::string, "a string in quotes in " + owner).text);
+  } else if (type.rows > 1) {
+    parse_matrix(lexer, value, type, owner);
+  } else {
+    parse_tuple(lexer, value, type.columns, owner);
+  }
+}
+
+}  // namespace
+
+UsdType usd_type(std::string_view name) {
+  using enum UsdType::Kind;
+  constexpr std::array<std::string_view, 10> kScalars = {"bool",   "uchar", "int",   "uint",   "int64",
+                                                         "uint64", "half",  "float", "double", "timecode"};
+  if (name == "string" || name == "token") return {text, 0, 0};
+  if (name == "matrix2d") return {number, 2, 2};
+  if (name == "matrix3d") return {number, 3, 3};
+  if (name == "matrix4d") return {number, 4, 4};
+  if (std::find(kScalars.begin(), kScalars.end(), name) != kScalars.end()) return {number, 1, 1};
+  for (const std::string_view base : {"int", "half", "float", "double"}) {
+    if (!name.starts_with(base)) continue;
+    const std::string_view size = name.substr(base.size());
+    for (const std::size_t n : {2, 3, 4}) {
+      if (size.size() == 1 && size[0] == static_cast<char>('0' + n)) return {number, 1, n};
+    }
+  }
+  // The others end in the kind of their numbers: h, f or d.
+  if (name.empty() || std::string_view("hfd").find(name.back()) == std::string_view::npos) return {};
+  name.remove_suffix(1);
+  if (name == "texCoord2") return {number, 1, 2};
+  if (name == "texCoord3" || name == "point3" || name == "vector3" || name == "normal3" || name == "color3") {
+    return {number, 1, 3};
+  }
+  if (name == "quat" || name == "color4") return {number, 1, 4};
+  return {};
+}
+
+std::optional<UsdValue> parse_usd_value(UsdLexer& lexer, const UsdAttribute& attribute, const UsdType& type) {
+  if (lexer.at_word("None")) {
+    lexer.take();
+    return std::nullopt;
+  }
+  UsdValue value;
+  value.offset = lexer.token().offset;
+  if (!attribute.is_array) {
+    parse_element(lexer, value, type, attribute.name);
+    return value;
+  }
+  const std::string owner = "the array " + attribute.name;
+  lexer.expect('[', "'[' before " + owner);
+  while (!lexer.accept(']')) {
+    parse_element(lexer, value, type, owner);
+    if (!lexer.at(']') && !lexer.accept(',')) lexer.fail_expected("',' or ']' in " + owner);
+  }
+  return value;
+}
+
+std::size_t usd_value_offset(const SourceText& source, const UsdValue& value, std::size_t index) {
+  UsdLexer lexer(source, value.offset);
+  while (true) {
+    const UsdToken token = lexer.take();
+    const bool counts = token.kind == Kind::number || token.kind == Kind::string;
+    if (token.kind == Kind::end || (counts && index-- == 0)) return token.offset;
+  }
+}
+
+}  // namespace drape

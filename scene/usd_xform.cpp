@@ -1,0 +1,213 @@
+#include "scene/usd_xform.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace drape {
+namespace {
+
+constexpr std::string_view kReset = "!resetXformStack!";
+constexpr std::string_view kInvert = "!invert!";
+constexpr std::string_view kPrefix = "xformOp:";
+
+void collect(const std::vector<UsdPrim>& prims, std::initializer_list<std::string_view> types, UsdPath& path,
+             std::vector<UsdPath>& found) {
+  for (const UsdPrim& prim : prims) {
+    if (!prim.is_defined) continue;
+    path.push_back(&prim);
+    if (types.size() == 0 || std::find(types.begin(), types.end(), prim.type) != types.end()) found.push_back(path);
+    collect(prim.children, types, path, found);
+    path.pop_back();
+  }
+}
+
+Eigen::Quaterniond quaternion(const std::vector<double>& wxyz) {
+  const Eigen::Quaterniond q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  // Normalised through the largest component: the squares of huge or tiny ones would leave the range of a double.
+  const double largest = q.coeffs().cwiseAbs().maxCoeff();
+  return largest == 0 ? Eigen::Quaterniond::Identity() : Eigen::Quaterniond(q.coeffs() / largest).normalized();
+}
+
+/// The numbers of an operation at a time; empty if it has no value.
+std::vector<double> value_at(const UsdAttribute& attribute, double time) {
+  const std::vector<UsdSample>& samples = attribute.samples;
+  if (samples.empty()) return attribute.value ? attribute.value->numbers : std::vector<double>{};
+  const auto next = std::upper_bound(samples.begin(), samples.end(), time,
+                                     [](double t, const UsdSample& sample) { return t < sample.time; });
+  if (next == samples.begin()) return samples.front().value.numbers;
+  if (next == samples.end()) return samples.back().value.numbers;
+  const UsdSample& before = *std::prev(next);
+  const double weight = (time - before.time) / (next->time - before.time);
+  std::vector<double> result = before.value.numbers;
+  if (attribute.type.starts_with("quat")) {
+    const Eigen::Quaterniond q = quaternion(result).slerp(weight, quaternion(next->value.numbers));
+    return {q.w(), q.x(), q.y(), q.z()};
+  }
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] += weight * (next->value.numbers[i] - result[i]);
+  return result;
+}
+
+Eigen::Affine3d rotation(std::string_view axes, const std::vector<double>& degrees) {
+  Eigen::Affine3d result = Eigen::Affine3d::Identity();
+  for (const char axis : axes) {
+    // The first axis named acts first. One angle per axis x, y, z, whatever the order; a single axis has a single
+    // angle.
+    const auto index = static_cast<std::size_t>(axis - 'X');
+    const double angle = degrees[axes.size() == 1 ? 0 : index] * std::numbers::pi / 180;
+    result = Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis - 'X')) * result;
+  }
+  return result;
+}
+
+/// USD's matrices act on row vectors, p′ = p·M: ours is the transpose.
+Eigen::Affine3d affine(const std::vector<double>& m) {
+  Eigen::Affine3d result;
+  for (Eigen::Index row = 0; row < 4; ++row) {
+    for (Eigen::Index column = 0; column < 4; ++column) {
+      result.matrix()(column, row) = m[static_cast<std::size_t>(4 * row + column)];
+    }
+  }
+  return result;
+}
+
+const UsdValue* operation_order(const UsdPrim& prim) {
+  const UsdAttribute* order = prim.find("xformOpOrder");
+  return order == nullptr || !order->value ? nullptr : &*order->value;
+}
+
+/// A transform operation of a prim, such as xformOp:rotateXYZ.
+class Operation {
+ public:
+  /// @param name the `index`-th of xformOpOrder, without !invert!
+  Operation(const SourceText& source, const UsdPrim& prim, std::string_view name, std::size_t index)
+      : source_(source), attribute_(prim.find(name)) {
+    const std::string_view after = name.substr(std::min(name.size(), kPrefix.size()));
+    kind_ = after.substr(0, after.find(':'));
+    if (!name.starts_with(kPrefix) || attribute_ == nullptr) {
+      source.fail(usd_value_offset(source, *operation_order(prim), index),
+                  fmt::format("the prim {} has no operation {}", in_quotes(prim.name), in_quotes(name)));
+    }
+    const std::size_t components = expected_components();
+    if (components == 0) {
+      source.fail(attribute_->offset,
+                  fmt::format("unknown operation {}: expected xformOp:translate, scale, rotateX, rotateY, rotateZ, "
+                              "rotateXYZ or another order of these, orient or transform",
+                              in_quotes(name)));
+    }
+    if (attribute_->is_array || attribute_->components != components) {
+      source.fail(attribute_->offset, fmt::format("{}: expected a type of {} numbers, found {}{}", name, components,
+                                                  attribute_->type, attribute_->is_array ? "[]" : ""));
+    }
+  }
+
+  [[nodiscard]] Eigen::Affine3d at(double time) const {
+    const std::vector<double> v = value_at(*attribute_, time);
+    if (v.empty()) return Eigen::Affine3d::Identity();
+    if (kind_ == "translate") return Eigen::Affine3d(Eigen::Translation3d(v[0], v[1], v[2]));
+    if (kind_ == "scale") return Eigen::Affine3d(Eigen::Scaling(v[0], v[1], v[2]));
+    if (kind_ == "orient") return Eigen::Affine3d(quaternion(v));
+    if (kind_ != "transform") return rotation(kind_.substr(6), v);
+    const Eigen::Affine3d matrix = affine(v);
+    if (matrix.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
+      source_.fail(offset(), "the matrix is not affine: its last column must be 0, 0, 0, 1");
+    }
+    return matrix;
+  }
+
+  [[nodiscard]] std::size_t offset() const {
+    return attribute_->first() != nullptr ? attribute_->first()->offset : attribute_->offset;
+  }
+
+ private:
+  [[nodiscard]] std::size_t expected_components() const {
+    if (kind_ == "transform") return 16;
+    if (kind_ == "orient") return 4;
+    if (kind_ == "translate" || kind_ == "scale") return 3;
+    if (!kind_.starts_with("rotate")) return 0;
+    std::string axes(kind_.substr(6));
+    if (axes == "X" || axes == "Y" || axes == "Z") return 1;
+    std::sort(axes.begin(), axes.end());
+    return axes == "XYZ" ? 3 : 0;
+  }
+
+  const SourceText& source_;
+  const UsdAttribute* attribute_;
+  std::string_view kind_;
+};
+
+bool resets_stack(const UsdPrim& prim) {
+  const UsdValue* order = operation_order(prim);
+  return order != nullptr && std::find(order->strings.begin(), order->strings.end(), kReset) != order->strings.end();
+}
+
+/// From a prim's coordinates to its parent's. The last operation of the order acts first.
+Eigen::Affine3d local_transform(const SourceText& source, const UsdPrim& prim, double time) {
+  Eigen::Affine3d result = Eigen::Affine3d::Identity();
+  const UsdValue* order = operation_order(prim);
+  if (order == nullptr) return result;
+  for (std::size_t i = 0; i < order->strings.size(); ++i) {
+    std::string_view name = order->strings[i];
+    if (name == kReset) continue;
+    const bool inverted = name.starts_with(kInvert);
+    if (inverted) name.remove_prefix(kInvert.size());
+    const Operation operation(source, prim, name, i);
+    const Eigen::Affine3d matrix = operation.at(time);
+    if (inverted && !(std::abs(matrix.linear().determinant()) > 0)) {
+      source.fail(operation.offset(), fmt::format("{} cannot be inverted", name));
+    }
+    result = result * (inverted ? matrix.inverse() : matrix);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<UsdPath> find_prims(const UsdLayer& layer, std::initializer_list<std::string_view> types) {
+  std::vector<UsdPath> found;
+  UsdPath path;
+  collect(layer.prims, types, path, found);
+  return found;
+}
+
+Eigen::Affine3d world_transform(const SourceText& source, const UsdLayer& layer, const UsdPath& path, double time) {
+  Eigen::Affine3d result = Eigen::Affine3d::Identity();
+  for (auto prim = path.rbegin(); prim != path.rend(); ++prim) {
+    result = local_transform(source, **prim, time) * result;
+    if (resets_stack(**prim)) break;
+  }
+  if (!layer.z_up) {
+    // Exactly (x, y, z) → (x, −z, y): a rotation by π/2 would leave rounding in every coordinate.
+    Eigen::Matrix3d to_z_up;
+    to_z_up << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+    result = Eigen::Affine3d(to_z_up) * result;
+  }
+  result = Eigen::Scaling(layer.metres_per_unit) * result;
+  if (!result.matrix().allFinite()) {
+    source.fail(path.back()->offset, fmt::format("the transform of {} overflows", in_quotes(path.back()->name)));
+  }
+  return result;
+}
+
+std::vector<double> transform_times(const UsdPath& path) {
+  std::vector<double> times;
+  for (auto prim = path.rbegin(); prim != path.rend(); ++prim) {
+    if (const UsdValue* order = operation_order(**prim)) {
+      for (std::string_view name : order->strings) {
+        if (name.starts_with(kInvert)) name.remove_prefix(kInvert.size());
+        const UsdAttribute* attribute = (*prim)->find(name);
+        if (attribute == nullptr) continue;
+        for (const UsdSample& sample : attribute->samples) times.push_back(sample.time);
+      }
+    }
+    if (resets_stack(**prim)) break;
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+}  // namespace drape

@@ -1,0 +1,139 @@
+#include "scene/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "scene/scene.hpp"
+
+namespace drape {
+namespace {
+
+void expected(const char* what, const TomlValue& value, const std::string& name, Problems& problems) {
+  problems.add(value.place, fmt::format("{}: expected {}, found {}", name, what, value.kind()));
+}
+
+/// The items of an array of the given size, or null after a complaint.
+const TomlArray* read_array(const TomlValue& value, const std::string& name, std::size_t size, const char* what,
+                            Problems& problems) {
+  const TomlArray* array = value.as<TomlArray>();
+  if (array == nullptr) {
+    problems.add(value.place, fmt::format("{}: expected an array of {} {}, found {}", name, size, what, value.kind()));
+  } else if (array->size() != size) {
+    problems.add(value.place,
+                 fmt::format("{}: expected an array of {} {}, found one of {}", name, size, what, array->size()));
+    return nullptr;
+  }
+  return array;
+}
+
+std::string item_name(const std::string& name, std::size_t index) { return fmt::format("{}[{}]", name, index); }
+
+bool is_file(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error);
+}
+
+}  // namespace
+
+std::string Range::text() const {
+  std::string text;
+  if (std::isfinite(minimum)) text = fmt::format("{} {}", minimum_excluded ? "above" : "at least", minimum);
+  if (std::isfinite(maximum)) text += fmt::format("{}at most {}", text.empty() ? "" : " and ", maximum);
+  return text;
+}
+
+std::optional<bool> read_bool(const TomlValue& value, const std::string& name, Problems& problems) {
+  if (const bool* flag = value.as<bool>()) return *flag;
+  expected("true or false", value, name, problems);
+  return std::nullopt;
+}
+
+std::optional<int> read_int(const TomlValue& value, const std::string& name, const Range& range, Problems& problems) {
+  const std::int64_t* whole = value.as<std::int64_t>();
+  if (whole == nullptr) {
+    expected("a whole number", value, name, problems);
+    return std::nullopt;
+  }
+  Range representable = range;
+  representable.minimum = std::max<double>(range.minimum, std::numeric_limits<int>::min());
+  representable.maximum = std::min<double>(range.maximum, std::numeric_limits<int>::max());
+  if (representable.contains(static_cast<double>(*whole))) return static_cast<int>(*whole);
+  const Range& told = range.contains(static_cast<double>(*whole)) ? representable : range;
+  problems.add(value.place, fmt::format("{} must be {}, found {}", name, told.text(), *whole));
+  return std::nullopt;
+}
+
+std::optional<double> read_number(const TomlValue& value, const std::string& name, const Range& range,
+                                  Problems& problems) {
+  double number = 0;
+  if (const std::int64_t* whole = value.as<std::int64_t>()) {
+    number = static_cast<double>(*whole);
+  } else if (const double* real = value.as<double>()) {
+    number = *real;
+  } else {
+    expected("a number", value, name, problems);
+    return std::nullopt;
+  }
+  if (!std::isfinite(number)) {
+    problems.add(value.place, fmt::format("{} must be finite, found {}", name, number));
+  } else if (!range.contains(number)) {
+    problems.add(value.place, fmt::format("{} must be {}, found {}", name, range.text(), number));
+  } else {
+    return number;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> read_string(const TomlValue& value, const std::string& name, Problems& problems) {
+  if (const std::string* text = value.as<std::string>()) return *text;
+  expected("a string", value, name, problems);
+  return std::nullopt;
+}
+
+std::optional<Eigen::Vector3d> read_vector(const TomlValue& value, const std::string& name, const Range& range,
+                                           Problems& problems) {
+  const TomlArray* array = read_array(value, name, 3, "numbers", problems);
+  if (array == nullptr) return std::nullopt;
+  Eigen::Vector3d vector;
+  bool good = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::optional<double> number = read_number((*array)[i], item_name(name, i), range, problems);
+    good = good && number;
+    vector[static_cast<Eigen::Index>(i)] = number.value_or(0);
+  }
+  return good ? std::optional(vector) : std::nullopt;
+}
+
+std::optional<Eigen::Vector2i> read_int_pair(const TomlValue& value, const std::string& name, const Range& range,
+                                             Problems& problems) {
+  const TomlArray* array = read_array(value, name, 2, "whole numbers", problems);
+  if (array == nullptr) return std::nullopt;
+  const std::optional<int> first = read_int((*array)[0], item_name(name, 0), range, problems);
+  const std::optional<int> second = read_int((*array)[1], item_name(name, 1), range, problems);
+  return first && second ? std::optional(Eigen::Vector2i(*first, *second)) : std::nullopt;
+}
+
+std::optional<std::filesystem::path> read_file_name(const TomlValue& value, const std::string& name,
+                                                    const std::filesystem::path& folder, Problems& problems) {
+  const std::optional<std::string> text = read_string(value, name, problems);
+  if (!text || text->empty()) return text ? std::optional(std::filesystem::path{}) : std::nullopt;
+
+  const std::filesystem::path beside_scene = folder / *text;
+  if (is_file(beside_scene)) return beside_scene;
+  try {
+    const std::filesystem::path in_data = data_folder() / "textures" / *text;
+    if (is_file(in_data)) return in_data;
+    problems.add(value.place,
+                 fmt::format("{}: no such file: neither {} nor {}", name, beside_scene.string(), in_data.string()));
+  } catch (const UsageError& no_data_folder) {
+    problems.add(value.place,
+                 fmt::format("{}: no such file: {} (and {})", name, beside_scene.string(), no_data_folder.what()));
+  }
+  return std::nullopt;
+}
+
+}  // namespace drape

@@ -1,0 +1,32 @@
+#version 330 core
+
+uniform mat4 view_projection;
+
+layout(location = 0) in vec3 position;  // [m]
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec3 barycentric;
+layout(location = 4) in vec3 line_scale;
+
+out vec3 world_position;
+out vec3 world_normal;
+#ifdef TEXTURE
+out vec2 texture_position;
+#endif
+#ifdef MESH_LINES
+out vec3 corner_weights;
+flat out vec3 edge_line_scale;
+#endif
+
+void main() {
+  world_position = position;
+  world_normal = normal;
+#ifdef TEXTURE
+  texture_position = uv;
+#endif
+#ifdef MESH_LINES
+  corner_weights = barycentric;
+  edge_line_scale = line_scale;
+#endif
+  gl_Position = view_projection * vec4(position, 1.0);
+}

@@ -1,0 +1,30 @@
+// The light of a photographer's studio: a bright sky above, a dim floor below, a key light to the camera's upper left and
+// a fill light to its right. All values are linear light.
+
+uniform vec3 eye;             // the camera [m]
+uniform vec3 up;              // unit vector to the sky
+uniform vec3 key_direction;   // unit vectors to the lights
+uniform vec3 fill_direction;
+
+const vec3 sky_light = vec3(0.43, 0.44, 0.46);
+const vec3 floor_light = vec3(0.27, 0.26, 0.25);
+const vec3 key_light = vec3(0.82, 0.80, 0.77);
+const vec3 fill_light = vec3(0.14, 0.15, 0.17);
+
+// Light from all around on a surface with normal n.
+vec3 ambient_light(vec3 n) { return mix(floor_light, sky_light, 0.5 + 0.5 * dot(n, up)); }
+
+// Lambert's cosine, but reaching `wrap` beyond the terminator, as in cloth, where light is scattered.
+float wrapped_cosine(vec3 n, vec3 direction, float wrap) {
+  return max(0.0, (dot(n, direction) + wrap) / (1.0 + wrap));
+}
+
+// Highlight of a surface of Blinn-Phong exponent `shininess`, with energy kept.
+float highlight(vec3 n, vec3 to_eye, vec3 direction, float shininess) {
+  vec3 middle = normalize(to_eye + direction);
+  return (shininess + 8.0) / 8.0 * pow(max(dot(n, middle), 0.0), shininess) * max(dot(n, direction), 0.0);
+}
+
+// What of a mirror's reflection a polished surface shows, by the cosine between its normal and the view. It is weaker at
+// the rim than Schlick's (1994), as on a surface that is not perfectly smooth.
+float fresnel(float cosine) { return 0.04 + 0.5 * pow(1.0 - clamp(cosine, 0.0, 1.0), 4.0); }

@@ -1,0 +1,26 @@
+#version 330 core
+#include "lighting.glsl"
+
+uniform vec3 sphere_color;
+uniform vec4 sphere;  // center, radius [m]
+
+in vec3 world_position;
+
+out vec4 color;  // premultiplied
+
+// What a mirror would show: the floor, and above it the bright walls and ceiling of the studio.
+vec3 surroundings(vec3 direction) { return mix(vec3(0.35), vec3(0.95), smoothstep(-0.5, 0.4, dot(direction, up))); }
+
+void main() {
+  vec3 n = normalize(world_position - sphere.xyz);
+  vec3 to_eye = normalize(eye - world_position);
+
+  vec3 light = ambient_light(n) + key_light * wrapped_cosine(n, key_direction, 0.1) +
+               fill_light * wrapped_cosine(n, fill_direction, 0.2);
+  float mirror = fresnel(dot(n, to_eye));
+  vec3 gloss = surroundings(reflect(-to_eye, n)) * mirror +
+               key_light * (0.060 * highlight(n, to_eye, key_direction, 250.0) +
+                            0.035 * highlight(n, to_eye, key_direction, 24.0));
+
+  color = vec4(min(sphere_color * light * (1.0 - mirror) + gloss, 1.0), 1.0);
+}

@@ -1,0 +1,187 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+#include <thread>
+
+#include "tests/support/scene_folder.hpp"
+
+namespace drape {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Finished {
+  int code = -1;
+  std::string text;  // standard output and error together
+};
+
+/// Runs the drape that was built, in the folder.
+Finished drape(const testing::SceneFolder& folder, const std::string& arguments) {
+  const std::string command = "cd '" + folder.path().string() + "' && " + DRAPE_EXECUTABLE + " " + arguments + " 2>&1";
+  Finished finished;
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe)) finished.text.append(buffer.data(), count);
+  const int status = pclose(pipe);
+  finished.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return finished;
+}
+
+constexpr const char* scene = R"(
+[cloth]
+mesh = { grid = [6, 6] }
+stiffness = 50
+pins = ["corner:x-y-", "corner:x+y-"]
+[time]
+step = 0.02
+duration = 0.4
+[integrator]
+method = "liu13"
+[effects.gravity]
+[video]
+size = [64, 48]
+)";
+
+TEST(CommandLine, PrintsItsVersion) {
+  const testing::SceneFolder folder;
+  const Finished finished = drape(folder, "--version");
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_TRUE(finished.text.starts_with("drape ")) << finished.text;
+}
+
+TEST(CommandLine, NamesTheNearestOptionAndCommand) {
+  const testing::SceneFolder folder;
+  folder.write("scene.toml", scene);
+  Finished finished = drape(folder, "simulate scene.toml --stpes 3");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_NE(finished.text.find("did you mean '--steps'"), std::string::npos) << finished.text;
+  finished = drape(folder, "rendr scene.toml");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_NE(finished.text.find("did you mean 'render'"), std::string::npos) << finished.text;
+}
+
+TEST(CommandLine, ReportsTheProblemsOfAllScenesTogether) {
+  const testing::SceneFolder folder;
+  folder.write("a.toml", "[cloth]\nstifness = 1\n");
+  folder.write("b.toml", "[tiem]\n");
+  const Finished finished = drape(folder, "simulate a.toml b.toml");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_NE(finished.text.find("a.toml:2:1: "), std::string::npos) << finished.text;
+  EXPECT_NE(finished.text.find("did you mean 'stiffness'"), std::string::npos) << finished.text;
+  EXPECT_NE(finished.text.find("b.toml:1:"), std::string::npos) << finished.text;
+}
+
+TEST(CommandLine, QuietPrintsNothingWhenAllIsWell) {
+  const testing::SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const Finished finished = drape(folder, "simulate scene.toml --quiet");
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_EQ(finished.text, "");
+}
+
+TEST(CommandLine, WritesAllOutputsFromOnePass) {
+  const testing::SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const Finished finished =
+      drape(folder, "render scene.toml -o a.gif -o b.mp4 -o frames/{frame:04}.png -o still.png --stats '{scene}.json'");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  for (const char* name : {"a.gif", "b.mp4", "frames/0000.png", "frames/0010.png", "still.png", "scene.json"}) {
+    EXPECT_TRUE(fs::exists(folder.path() / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(folder.path() / "frames/0011.png"));
+  const cv::Mat last = cv::imread((folder.path() / "frames/0010.png").string());
+  const cv::Mat still = cv::imread((folder.path() / "still.png").string());
+  EXPECT_EQ(last.size(), cv::Size(64, 48));
+  EXPECT_EQ(cv::norm(last, still, cv::NORM_INF), 0);
+}
+
+TEST(CommandLine, RendersIntoOutByDefault) {
+  const testing::SceneFolder folder;
+  folder.write("scene.toml", scene);
+  EXPECT_EQ(drape(folder, "render scene.toml --frames 2..3").code, 0);
+  EXPECT_TRUE(fs::exists(folder.path() / "out/scene.gif"));
+}
+
+TEST(CommandLine, DrawsAFrameOfTheFilmWhicheverRangeItIsIn) {
+  const testing::SceneFolder folder;
+  folder.write("scene.toml", std::string(scene) + "[camera]\nposition = [4, 4, 3]\ntarget = [0, 0, 0]\n");
+  EXPECT_EQ(drape(folder, "render scene.toml -o all/{frame:02}.png").code, 0);
+  EXPECT_EQ(drape(folder, "render scene.toml -o some/{frame:02}.png --frames 4..6").code, 0);
+  const cv::Mat all = cv::imread((folder.path() / "all/05.png").string());
+  const cv::Mat some = cv::imread((folder.path() / "some/05.png").string());
+  ASSERT_FALSE(all.empty());
+  ASSERT_FALSE(some.empty());
+  EXPECT_EQ(cv::norm(all, some, cv::NORM_INF), 0);
+  EXPECT_FALSE(fs::exists(folder.path() / "some/03.png"));
+}
+
+TEST(CommandLine, StepByStepPrintsEveryStepAndEndsAtQ) {
+  const testing::SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const std::string command = "simulate scene.toml --step-by-step --quiet --stats stats.json";
+  folder.write("input", "\n\nq");
+  const Finished finished = drape(folder, command + " < input");
+  EXPECT_EQ(finished.code, 130);
+  EXPECT_NE(finished.text.find("step 3: total "), std::string::npos) << finished.text;
+  EXPECT_EQ(finished.text.find("step 4: "), std::string::npos) << finished.text;
+  EXPECT_TRUE(fs::exists(folder.path() / "stats.json"));
+}
+
+TEST(CommandLine, ADivergedRunExitsWith3AndKeepsItsFilm) {
+  const testing::SceneFolder folder;
+  folder.write("scene.toml", std::string(scene) + "[look]\nsamples = 1\n");
+  const Finished finished = drape(folder,
+                                  "render scene.toml -o film.gif --set integrator.method=semi-implicit "
+                                  "--set cloth.stiffness=1e5 --set time.step=0.05 --set time.duration=200");
+  EXPECT_EQ(finished.code, 3) << finished.text;
+  EXPECT_NE(finished.text.find("diverged at step"), std::string::npos) << finished.text;
+  EXPECT_TRUE(fs::exists(folder.path() / "film.gif"));
+}
+
+TEST(CommandLine, SeveralScenesNeedNamesOfTheirOwn) {
+  const testing::SceneFolder folder;
+  folder.write("a.toml", scene);
+  folder.write("b.toml", scene);
+  EXPECT_EQ(drape(folder, "render a.toml b.toml -o film.gif").code, 2);
+  EXPECT_EQ(drape(folder, "render a.toml b.toml -o {scene}.png --frames 1..1").code, 0);
+  EXPECT_TRUE(fs::exists(folder.path() / "a.png"));
+  EXPECT_TRUE(fs::exists(folder.path() / "b.png"));
+}
+
+TEST(CommandLine, AnUnwritableFolderExitsWith4) {
+  const testing::SceneFolder folder;
+  folder.write("scene.toml", scene);
+  folder.write("file", "");
+  const Finished finished = drape(folder, "render scene.toml -o file/film.gif");
+  EXPECT_EQ(finished.code, 4) << finished.text;
+}
+
+TEST(CommandLine, CtrlCCompletesWhatWasDrawn) {
+  const testing::SceneFolder folder;
+  folder.write("scene.toml", std::string(scene) + "[camera]\nposition = [4, 4, 3]\ntarget = [0, 0, 0]\n");
+  const pid_t child = fork();
+  if (child == 0) {
+    if (chdir(folder.path().c_str()) != 0) _exit(99);
+    execl(DRAPE_EXECUTABLE, DRAPE_EXECUTABLE, "render", "scene.toml", "--quiet", "--set", "time.duration=100000", "-o",
+          "film.gif", static_cast<char*>(nullptr));
+    _exit(99);
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_TRUE(fs::exists(folder.path() / "film.gif"));
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    EXPECT_EQ(entry.path().filename().string().find("partial"), std::string::npos) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <string>
+
+#include "sim/simulation.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+SimulationSettings far_too_large_step(Method method) {
+  SimulationSettings settings = setup(cloth_of(make_grid(6, 6), 1, 1800, {0, 6}), method, 0.1);
+  settings.effects = {effect("gravity")};
+  return settings;
+}
+
+TEST(Divergence, NamesTheStepAndAVertexThatIsNoLongerFinite) {
+  Simulation simulation(far_too_large_step(Method::semi_implicit));
+  try {
+    for (int step = 0; step < 2000; ++step) simulation.step();
+    FAIL() << "a step of h·ω > 2 cannot be stable";
+  } catch (const DivergedError& error) {
+    EXPECT_EQ(error.code(), ExitCode::diverged);
+    EXPECT_EQ(static_cast<int>(error.code()), 3);
+    const std::string message = error.what();
+    std::smatch step, vertex;
+    ASSERT_TRUE(std::regex_search(message, step, std::regex("step (\\d+)"))) << message;
+    ASSERT_TRUE(std::regex_search(message, vertex, std::regex("vertex (\\d+)"))) << message;
+    EXPECT_EQ(std::stoll(step[1]), simulation.state().step);
+    const int i = std::stoi(vertex[1]);
+    ASSERT_LT(i, 49);
+    EXPECT_FALSE(simulation.state().x.row(i).allFinite() && simulation.state().v.row(i).allFinite()) << message;
+  }
+}
+
+TEST(Divergence, IsSeenInTheStepInWhichItHappens) {
+  Simulation simulation(far_too_large_step(Method::semi_implicit));
+  bool diverged = false;
+  for (int step = 0; step < 2000 && !diverged; ++step) {
+    try {
+      simulation.step();
+      ASSERT_TRUE(simulation.state().x.allFinite() && simulation.state().v.allFinite());
+    } catch (const DivergedError&) {
+      diverged = true;
+    }
+  }
+  EXPECT_TRUE(diverged);
+}
+
+class Stability : public testing::TestWithParam<NamedMethod> {};
+INSTANTIATE_TEST_SUITE_P(With, Stability, testing::ValuesIn(implicit_methods), method_name);
+
+// The pins are at most a rest length per spring away, so a cloth that hangs in balance is within a few metres of them.
+TEST_P(Stability, ImplicitMethodsStandSuchAStep) {
+  Simulation simulation(far_too_large_step(GetParam().method));
+  for (int step = 0; step < 200; ++step) simulation.step();
+  EXPECT_LT(simulation.state().x.cwiseAbs().maxCoeff(), 4);
+}
+
+}  // namespace
+}  // namespace drape::test

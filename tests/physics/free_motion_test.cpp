@@ -1,0 +1,122 @@
+// Cloths that nothing holds: what falls, drifts and turns freely is known exactly.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "sim/simulation.hpp"
+#include "tests/support/meshes.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+class FreeMotion : public testing::TestWithParam<NamedMethod> {};
+INSTANTIATE_TEST_SUITE_P(With, FreeMotion, testing::ValuesIn(all_methods), method_name);
+
+/// A cloth of uneven masses without pins.
+Cloth uneven_cloth(double stiffness) {
+  Cloth cloth = cloth_of(irregular_mesh(8), 1, stiffness, {});
+  for (int i = 0; i < cloth.vertex_count(); ++i) cloth.masses[i] *= 1 + 0.5 * std::sin(i);
+  return cloth;
+}
+
+/// The same, drifting, turning and deforming: the velocities are no rigid motion.
+Cloth moving_cloth(double stiffness) {
+  Cloth cloth = uneven_cloth(stiffness);
+  for (int i = 0; i < cloth.vertex_count(); ++i) {
+    const Eigen::RowVector3d x = cloth.positions.row(i);
+    cloth.velocities.row(i) << 1 - 2 * x[1] + 0.3 * x[0], 0.5 + 2 * x[0], -0.3 + std::sin(3 * x[0]);
+  }
+  return cloth;
+}
+
+Eigen::RowVector3d momentum(const Cloth& cloth, const State& state) { return cloth.masses.transpose() * state.v; }
+
+Eigen::RowVector3d angular_momentum(const Cloth& cloth, const State& state) {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (int i = 0; i < cloth.vertex_count(); ++i) {
+    sum += cloth.masses[i] * state.x.row(i).cross(state.v.row(i));
+  }
+  return sum;
+}
+
+TEST_P(FreeMotion, FallsAsTheSumOfItsStepsSays) {
+  constexpr int steps = 50;
+  constexpr double h = 0.01;
+  SimulationSettings settings = setup(uneven_cloth(2), GetParam().method, h);
+  settings.effects = {effect("gravity"), effect("wind", {{"acceleration", Eigen::Vector3d(3, -1, 0.5)}})};
+  const Eigen::RowVector3d acceleration(3, -1, -9.3);
+  Simulation simulation(settings);
+  for (int step = 0; step < steps; ++step) simulation.step();
+
+  // v = n h a and x = x₀ + (1 + … + n) h² a, in both schemes. Each step rounds x, of about 1 m, once, and the implicit
+  // methods find v as a difference of such numbers: an error that later steps carry on.
+  const double rounding = 4 * steps * steps * std::numeric_limits<double>::epsilon();
+  const Vertices fallen = settings.cloth.positions.rowwise() + h * h * steps * (steps + 1) / 2 * acceleration;
+  EXPECT_LT((simulation.state().x - fallen).cwiseAbs().maxCoeff(), rounding);
+  const Eigen::RowVector3d velocity = steps * h * acceleration;
+  EXPECT_LT((simulation.state().v.rowwise() - velocity).cwiseAbs().maxCoeff(), rounding / h);
+}
+
+TEST_P(FreeMotion, KeepsItsMomentum) {
+  constexpr int steps = 50;
+  constexpr double h = 0.02, k = 180, tolerance = 1e-3;
+  SimulationSettings settings = setup(moving_cloth(k), GetParam().method, h);
+  if (GetParam().method == Method::semi_implicit) settings.step = 0.001;
+  settings.integrator.tolerance = tolerance;
+  const Cloth& cloth = settings.cloth;
+  Simulation simulation(settings);
+  const Eigen::RowVector3d before = momentum(cloth, simulation.state());
+  for (int step = 0; step < steps; ++step) simulation.step();
+  const Eigen::RowVector3d after = momentum(cloth, simulation.state());
+
+  // Springs pull with opposite forces, and as every approximation A of the Hessian is M/h² plus something that ignores
+  // translations, any iterate x − A⁻¹∇g(x) keeps the momentum, converged or not, if A⁻¹ is exact. An error of the last
+  // solve is left over; earlier ones are corrected. Its relative size is the condition of A times the unit roundoff of
+  // the factor, and the last change is at most as long as the tolerance, so that Σ m‖Δ‖ ≤ max(m) √n · tolerance.
+  const double exact_sums = 100 * steps * std::numeric_limits<double>::epsilon();
+  double solves = 0;
+  if (GetParam().method != Method::semi_implicit) {
+    const double unit_roundoff = GetParam().method == Method::implicit ? 0x1p-53 : 0x1p-24;
+    constexpr int most_neighbours = 8;
+    const double condition = 1 + 2 * most_neighbours * k * h * h / cloth.masses.minCoeff();
+    const double change = cloth.masses.maxCoeff() * std::sqrt(cloth.vertex_count()) * tolerance;
+    solves = steps * condition * unit_roundoff * change / h;
+  }
+  EXPECT_LT((after - before).norm(), exact_sums + solves);
+}
+
+// Forces along the springs turn nothing: symplectic Euler moves x by a multiple of v, so Σ m x × v changes only by
+// Σ x × force = 0.
+TEST(SemiImplicit, KeepsItsAngularMomentum) {
+  SimulationSettings settings = setup(moving_cloth(180), Method::semi_implicit, 0.001);
+  Simulation simulation(settings);
+  const Eigen::RowVector3d before = angular_momentum(settings.cloth, simulation.state());
+  constexpr int steps = 1000;
+  for (int step = 0; step < steps; ++step) simulation.step();
+  const Eigen::RowVector3d after = angular_momentum(settings.cloth, simulation.state());
+  ASSERT_GT(before.norm(), 0.1);
+  EXPECT_LT((after - before).norm(), 10 * steps * std::numeric_limits<double>::epsilon() * before.norm());
+}
+
+TEST_P(FreeMotion, IsDampedAlikeAtAnyStepLength) {
+  constexpr double factor = 0.2;
+  for (const int steps : {10, 100, 1000}) {
+    SimulationSettings settings = setup(cloth_of(make_grid(4, 4), 1, 0.1, {}), GetParam().method, 1.0 / steps);
+    settings.cloth.velocities.rowwise() = Eigen::RowVector3d(0.3, -0.2, 1);
+    settings.effects = {effect("damping", {{"factor", factor}})};
+    Simulation simulation(settings);
+    const double before = simulation.energies().kinetic;
+    for (int step = 0; step < steps; ++step) simulation.step();
+    const double expected = factor * factor * before;  // every velocity is the factor's part of what it was
+    // Rounding x, of about 1 m, by half a unit changes v = Δx/h by that over h, once in every step.
+    const double rounding = 10.0 * steps * steps * std::numeric_limits<double>::epsilon();
+    EXPECT_NEAR(simulation.energies().kinetic, expected, rounding * expected) << "in " << steps << " steps";
+  }
+}
+
+}  // namespace
+}  // namespace drape::test

@@ -1,0 +1,172 @@
+// How the implicit step is minimised: downhill, no further than allowed, and honestly reported.
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "sim/simulation.hpp"
+#include "tests/support/meshes.hpp"
+#include "tests/support/plain_springs.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+class Minimisation : public testing::TestWithParam<NamedMethod> {};
+INSTANTIATE_TEST_SUITE_P(With, Minimisation, testing::ValuesIn(implicit_methods), method_name);
+
+/// One step's problem under gravity alone, written plainly: g(x) = 1/(2h²)‖x − y‖²_M + E(x).
+struct Problem {
+  Cloth cloth;
+  double h;
+  Vertices y;
+
+  Problem(const SimulationSettings& settings, const State& state)
+      : cloth(settings.cloth), h(settings.step), y(state.x + settings.step * state.v) {
+    y.rowwise() += h * h * Eigen::RowVector3d(0, 0, -9.8);
+    for (const int pin : cloth.pins) y.row(pin) = state.x.row(pin);
+  }
+  double value(const Vertices& x) const {
+    return cloth.masses.dot((x - y).rowwise().squaredNorm()) / (2 * h * h) + plain_energy(cloth.springs, x);
+  }
+  double gradient_norm(const Vertices& x) const {
+    Vertices gradient = cloth.masses.asDiagonal() * (x - y) / (h * h) + plain_gradient(cloth.springs, x);
+    for (const int pin : cloth.pins) gradient.row(pin).setZero();
+    return gradient.norm();
+  }
+};
+
+/// Where some iterations of a step get from a state.
+struct Outcome {
+  State state;
+  StepReport report;
+  double residual;
+};
+Outcome iterate(SimulationSettings settings, const State& from, int max_iterations) {
+  settings.integrator.max_iterations = max_iterations;
+  Simulation simulation(std::move(settings));
+  simulation.restore(from);
+  const StepReport report = simulation.step();
+  return {simulation.state(), report, simulation.residual()};
+}
+
+/// The homework's cloth after some steps, then stopped by a tolerance that is never met.
+SimulationSettings endless(Method method, double stiffness) {
+  SimulationSettings settings = homework(method, 0.02, stiffness);
+  settings.integrator.stop = StoppingRule::gradient;
+  settings.integrator.tolerance = 1e-300;
+  return settings;
+}
+
+State after(int steps, double stiffness) {
+  Simulation motion(homework(Method::liu13, 0.02, stiffness));
+  while (motion.state().step < steps) motion.step();
+  return motion.state();
+}
+
+TEST_P(Minimisation, NeverGoesUphill) {
+  for (const double stiffness : {18.0, 1800.0}) {
+    for (const int step : {5, 60}) {
+      const SimulationSettings settings = endless(GetParam().method, stiffness);
+      const State start = after(step, stiffness);
+      const Problem problem(settings, start);
+      double before = problem.value(problem.y);
+      for (int iterations = 1; iterations <= 10; ++iterations) {
+        const double now = problem.value(iterate(settings, start, iterations).state.x);
+        // A sum of 1700 positive terms is right to far better than 1e-13.
+        EXPECT_LE(now, before * (1 + 1e-13))
+            << "iteration " << iterations << " from step " << step << " at " << stiffness << " N/m";
+        before = now;
+      }
+      EXPECT_LT(before, problem.value(problem.y)) << "got nowhere";
+    }
+  }
+}
+
+TEST_P(Minimisation, StopsAtItsCapAndSaysSo) {
+  const SimulationSettings settings = endless(GetParam().method, 180);
+  const State start = after(30, 180);
+  for (const int cap : {1, 2, 7}) {
+    const StepReport report = iterate(settings, start, cap).report;
+    EXPECT_EQ(report.iterations, cap);
+    EXPECT_FALSE(report.converged);
+  }
+}
+
+TEST_P(Minimisation, HasTheHomeworksCapsUnlessToldOtherwise) {
+  SimulationSettings settings = endless(GetParam().method, 180);
+  Simulation simulation(settings);
+  const StepReport report = simulation.step();
+  EXPECT_FALSE(report.converged);
+  if (GetParam().method == Method::implicit) {
+    EXPECT_EQ(report.iterations, 20);
+  } else if (GetParam().method == Method::liu13) {
+    EXPECT_EQ(report.iterations, 100);
+  }
+}
+
+TEST_P(Minimisation, ChangeRuleWaitsForTheSecondIteration) {
+  SimulationSettings settings = homework(GetParam().method, 0.02, 180);
+  settings.integrator.tolerance = 1e6;
+  Simulation simulation(settings);
+  for (int step = 0; step < 5; ++step) {
+    const StepReport report = simulation.step();
+    EXPECT_EQ(report.iterations, 2);
+    EXPECT_TRUE(report.converged);
+  }
+}
+
+TEST_P(Minimisation, ChangeRuleMeasuresAllUnknownsTogether) {
+  const State start = after(30, 180);
+  SimulationSettings settings = endless(GetParam().method, 180);
+  std::vector<Vertices> iterates;
+  for (int i = 1; i <= 8; ++i) iterates.push_back(iterate(settings, start, i).state.x);
+  settings.integrator.stop = StoppingRule::change;
+  for (std::size_t i = 2; i < iterates.size(); ++i) {
+    const double change = (iterates[i] - iterates[i - 1]).norm();
+    const double previous = (iterates[i - 1] - iterates[i - 2]).norm();
+    if (change >= 0.9 * previous) continue;
+    settings.integrator.tolerance = change * 1.01;
+    EXPECT_EQ(iterate(settings, start, 100).report.iterations, static_cast<int>(i) + 1);
+    settings.integrator.tolerance = change * 0.99;
+    EXPECT_GT(iterate(settings, start, 100).report.iterations, static_cast<int>(i) + 1);
+  }
+}
+
+TEST_P(Minimisation, GradientRuleKeepsItsPromise) {
+  SimulationSettings settings = homework(GetParam().method, 0.02, 180);
+  settings.integrator.stop = StoppingRule::gradient;
+  for (const double tolerance : {1e-1, 1e-3, 1e-5}) {
+    settings.integrator.tolerance = tolerance;
+    const State start = after(25, 180);
+    const Outcome outcome = iterate(settings, start, 20'000);
+    ASSERT_TRUE(outcome.report.converged);
+    EXPECT_LT(outcome.residual, tolerance);
+    // The residual is the norm of the gradient where the cloth is now.
+    EXPECT_NEAR(outcome.residual, Problem(settings, start).gradient_norm(outcome.state.x), 1e-9);
+    // One iteration fewer would not have been enough.
+    const Outcome shorter = iterate(settings, start, outcome.report.iterations - 1);
+    EXPECT_FALSE(shorter.report.converged);
+    EXPECT_GE(shorter.residual, tolerance);
+  }
+}
+
+TEST_P(Minimisation, NeedsNoIterationWhereNothingPulls) {
+  SimulationSettings settings = setup(cloth_of(make_grid(4, 4), 1, 180, {0}), GetParam().method, 0.02);
+  settings.integrator.stop = StoppingRule::gradient;
+  Simulation simulation(settings);
+  const StepReport report = simulation.step();
+  EXPECT_EQ(report.iterations, 0);
+  EXPECT_TRUE(report.converged);
+}
+
+TEST(SemiImplicit, HasNoIterationsAndNoResidual) {
+  Simulation simulation(homework(Method::semi_implicit, 0.001, 180));
+  const StepReport report = simulation.step();
+  EXPECT_EQ(report.iterations, 0);
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(simulation.residual(), 0);
+}
+
+}  // namespace
+}  // namespace drape::test

@@ -1,0 +1,77 @@
+// The methods that minimise the implicit step find the same minimum, where there is only one. A cloth that is crumpled
+// strongly within a step has several, of nearly the same g: there the methods may differ rightly. That is why the
+// states at k = 1800 N/m are of a motion in shorter steps, and the first on the sphere is after it has landed.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "sim/simulation.hpp"
+#include "tests/support/meshes.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+struct Case {
+  const char* name;
+  SimulationSettings (*make)();
+  std::vector<int> steps;  // of the motion, after which a step is computed by every method
+  double tolerance;        // [N]; m/h² is more than 5 N/m in all of them, so this is far less than the distance
+  double distance;         // within which all methods end [m]
+};
+
+SimulationSettings hanging(const Mesh& mesh, int second_pin, double stiffness) {
+  SimulationSettings settings = setup(cloth_of(mesh, 1, stiffness, {0, second_pin}), Method::liu13, 0.02);
+  settings.effects.push_back(effect("gravity"));
+  return settings;
+}
+
+const Case cases[] = {
+    {"Grid18", [] { return homework(Method::liu13, 0.02, 18); }, {20, 50, 120, 300}, 1e-9, 1e-8},
+    {"Grid180", [] { return homework(Method::liu13, 0.02, 180); }, {20, 50, 120, 300}, 1e-9, 1e-8},
+    {"Grid1800", [] { return homework(Method::liu13, 0.005, 1800); }, {80, 200, 480}, 1e-8, 1e-8},
+    {"GridOnSphere",
+     [] {
+       SimulationSettings settings = homework(Method::liu13, 0.02, 180);
+       settings.effects.push_back(homework_sphere());
+       return settings;
+     },
+     {50, 120, 300},
+     1e-9,
+     1e-8},
+    {"Irregular", [] { return hanging(irregular_mesh(12), 7, 180); }, {20, 50, 120, 300}, 1e-9, 1e-8},
+    {"ThreeTrianglesOnAnEdge", [] { return hanging(three_sheets(8), 8, 180); }, {20, 50, 120, 300}, 1e-9, 1e-8},
+};
+
+class OneStep : public testing::TestWithParam<Case> {};
+
+TEST_P(OneStep, EndsAtTheSamePlaceWithEveryMethod) {
+  Simulation motion(GetParam().make());
+  for (const int step : GetParam().steps) {
+    while (motion.state().step < step) motion.step();
+    std::vector<Vertices> ends;
+    for (const NamedMethod& method : implicit_methods) {
+      SimulationSettings settings = GetParam().make();
+      settings.integrator.method = method.method;
+      settings.integrator.stop = StoppingRule::gradient;
+      settings.integrator.tolerance = GetParam().tolerance;
+      settings.integrator.max_iterations = 100'000;
+      Simulation simulation(settings);
+      simulation.restore(motion.state());
+      const StepReport report = simulation.step();
+      ASSERT_TRUE(report.converged) << method.name;
+      ends.push_back(simulation.state().x);
+    }
+    for (std::size_t m = 1; m < ends.size(); ++m) {
+      EXPECT_LT((ends[m] - ends[0]).rowwise().norm().maxCoeff(), GetParam().distance)
+          << implicit_methods[m].name << " and " << implicit_methods[0].name << " after " << step << " steps";
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, OneStep, testing::ValuesIn(cases), [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace drape::test

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "render/renderer.hpp"
+#include "sim/mesh.hpp"
+
+namespace drape::test {
+
+inline std::filesystem::path data_folder() { return DRAPE_SOURCE_DIR; }
+
+/// Draws one frame of a mesh.
+inline Image draw(const Mesh& mesh, const View& view, const Look& look, Eigen::Vector2i size = {120, 100},
+                  const std::vector<Collider>& colliders = {}) {
+  Renderer renderer(data_folder(), size, view, look, static_cast<int>(mesh.positions.rows()), mesh.triangles, mesh.uvs);
+  Frame frame;
+  frame.positions = mesh.positions;
+  frame.colliders = colliders;
+  return renderer.draw(frame);
+}
+
+/// From +z onto the square [-1,1]², which fills the picture's height, with +y upwards.
+inline View from_above() {
+  return {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 2 * std::atan(1.0 / 5.0) * 180 / 3.14159265358979323846};
+}
+
+/// A mesh that no camera of these tests sees.
+inline Mesh nothing() {
+  Mesh mesh;
+  mesh.positions = Vertices::Constant(3, 3, 1000);
+  mesh.triangles = {{0, 1, 2}};
+  return mesh;
+}
+
+/// IEC 61966-2-1, written down a second time to check the first.
+inline double to_linear(std::uint8_t byte) {
+  const double value = byte / 255.0;
+  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+}  // namespace drape::test

@@ -1,0 +1,229 @@
+#include "render/renderer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "core/error.hpp"
+#include "render/gl/context.hpp"
+#include "render/gl/llvmpipe.hpp"
+#include "tests/render/drawing.hpp"
+
+namespace drape::test {
+namespace {
+
+/// A cube of n×n cells per face, blown up to a sphere around the origin.
+Mesh closed_surface(int n) {
+  Mesh mesh;
+  const Mesh face = make_grid(n, n);
+  const auto count = face.positions.rows();
+  mesh.positions.resize(6 * count, 3);
+  for (int side = 0; side < 6; ++side) {
+    const int axis = side / 2;
+    const double sign = side % 2 == 0 ? 1 : -1;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      Eigen::Vector3d p;
+      p[axis] = sign;
+      p[(axis + 1) % 3] = face.positions(i, 0);
+      p[(axis + 2) % 3] = face.positions(i, 1);
+      mesh.positions.row(side * count + i) = p.normalized().transpose();
+    }
+    const int first = static_cast<int>(side * count);
+    for (const Triangle& t : face.triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  return mesh;
+}
+
+TEST(Renderer, LeavesTheBackgroundsBytesExactWhereNothingIsDrawn) {
+  for (const int samples : {1, 4}) {
+    for (const int value : {0, 1, 17, 128, 254, 255}) {
+      Look look;
+      look.samples = samples;
+      look.background = {value / 255.0, (255 - value) / 255.0, 0.5};
+      const Image image = draw(nothing(), from_above(), look);
+      for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+          ASSERT_EQ(image.at(x, y)[0], value);
+          ASSERT_EQ(image.at(x, y)[1], 255 - value);
+          ASSERT_EQ(image.at(x, y)[2], 128);
+        }
+      }
+    }
+  }
+}
+
+TEST(Renderer, DrawsAGradientWithItsTopColourAtTheTop) {
+  Look look;
+  look.background = {0, 0, 0};
+  look.background_top = Rgb{1, 1, 1};
+  const Image image = draw(nothing(), from_above(), look);
+  EXPECT_GT(image.at(0, 0)[0], 250);
+  EXPECT_LT(image.at(0, image.height - 1)[0], 5);
+  for (int y = 1; y < image.height; ++y) EXPECT_LE(image.at(5, y)[0], image.at(5, y - 1)[0]);
+}
+
+TEST(Renderer, DrawsASphereAsLargeAsItsTangentConeIs) {
+  const double distance = 5, radius = 0.6;
+  const Eigen::Vector2i size{241, 201};
+  const Image image = draw(nothing(), from_above(), Look{}, size, {SphereShape{{0, 0, 0}, radius}});
+  const double expected = std::tan(std::asin(radius / distance)) / (1 / distance) * size.y() / 2;
+  int half_covered = 0, row = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const bool covered = image.at(x, y)[1] < 230;  // on white, green fades out where red covers
+      half_covered += covered ? 1 : 0;
+      row += covered && y == size.y() / 2 ? 1 : 0;
+    }
+  }
+  EXPECT_NEAR(row, 2 * expected, 1.5);
+  // The highlight is white and does not count, so the area is only bounded from above.
+  EXPECT_LT(half_covered, M_PI * (expected + 0.5) * (expected + 0.5));
+  EXPECT_GT(half_covered, 0.9 * M_PI * expected * expected);
+}
+
+TEST(Renderer, LightsBothSidesOfTheCloth) {
+  const Mesh mesh = make_grid(2, 2);
+  View below = from_above();
+  below.position.z() *= -1;
+  const Image front = draw(mesh, from_above(), Look{}), back = draw(mesh, below, Look{});
+  // The lights stand with the camera, so what is seen of the back is as bright as what is seen of the front.
+  EXPECT_GT(front.at(60, 50)[0], 120);
+  EXPECT_NEAR(back.at(60, 50)[0], front.at(60, 50)[0], 12);
+}
+
+TEST(Renderer, LeavesNoCracksBetweenTriangles) {
+  Look look;
+  look.background = {1, 0, 1};
+  look.color = {0, 0.4, 0};
+  const View inside{{0.1, 0.2, 0.1}, {1, 0.7, 0.4}, {0, 0, 1}, 80};
+  for (const bool lines : {false, true}) {
+    look.mesh_lines = lines;
+    look.line_color = {0, 0, 0};
+    const Image image = draw(closed_surface(12), inside, look, {301, 200});
+    int red = 0;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) red = std::max(red, int{image.at(x, y)[0]});
+    }
+    EXPECT_LT(red, 110) << "one sample in four of the background would give 137";
+  }
+}
+
+TEST(Renderer, AveragesSamplesAsLightAndEncodesOnce) {
+  Look look;
+  look.color = {0, 0, 0};
+  look.background = {1, 1, 1};
+  Mesh mesh = make_grid(1, 1);
+  const Eigen::Rotation2D<double> turn(0.2);
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector2d p = turn * mesh.positions.row(i).head<2>().transpose() * 0.5;
+    mesh.positions.row(i).head<2>() = p.transpose();
+  }
+  const Image image = draw(mesh, from_above(), look, {240, 200});
+  // The cloth's highlight makes its black vary by a few hundredths of light.
+  const double inside = to_linear(image.at(120, 100)[0]);
+  EXPECT_LT(inside, 0.1);
+  std::set<int> seen;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      double nearest = 1e9;
+      int covered = 0;
+      for (int k = 0; k <= 4; ++k) {
+        const double error = std::abs((k * inside + (4 - k)) / 4 - to_linear(image.at(x, y)[0]));
+        if (error < nearest) nearest = error, covered = k;
+      }
+      ASSERT_LT(nearest, 0.03) << "at " << x << ", " << y << ": not the mean of whole samples";
+      seen.insert(covered);
+    }
+  }
+  EXPECT_EQ(seen, (std::set<int>{0, 1, 2, 3, 4}));
+}
+
+TEST(Renderer, DrawsMeshLinesOfTheirWidth) {
+  Look look;
+  look.color = {0.5, 0.5, 0.5};
+  const Mesh mesh = make_grid(4, 4);
+  const Image plain = draw(mesh, from_above(), look, {400, 400});
+  for (const double width : {1.0, 2.0}) {
+    look.mesh_lines = true;
+    look.line_color = {0, 0, 0};
+    look.line_width = width;
+    const Image image = draw(mesh, from_above(), look, {400, 400});
+    double darkness = 0, boundary = 0;
+    // Across the vertical edge at x = 0, and that at the border x = -0.5 of a smaller picture of the cloth.
+    for (int x = 190; x < 210; ++x) {
+      darkness += 1 - to_linear(image.at(x, 180)[0]) / to_linear(plain.at(x, 180)[0]);
+    }
+    for (int x = 0; x < 10; ++x) boundary += 1 - to_linear(image.at(x, 180)[0]) / to_linear(plain.at(x, 180)[0]);
+    EXPECT_NEAR(darkness, width, 0.25 * width);
+    EXPECT_NEAR(boundary, width, 0.35 * width);
+  }
+}
+
+TEST(Renderer, HidesTheSphereUnderClothThatDipsIntoIt) {
+  // A dome 4 % inside the sphere, and the chords between its vertices deeper still.
+  Mesh mesh = make_grid(20, 20);
+  const double radius = 0.4;
+  for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
+    const Eigen::Vector2d p = mesh.positions.row(i).head<2>().transpose();
+    const double angle = p.norm(), scale = angle > 0 ? std::sin(angle) / angle : 1;
+    mesh.positions.row(i) = 0.96 * radius * Eigen::RowVector3d(scale * p.x(), scale * p.y(), std::cos(angle));
+  }
+  Look look;
+  look.color = {0, 0.5, 0};
+  const Image image = draw(mesh, from_above(), look, {200, 200}, {SphereShape{{0, 0, 0}, radius}});
+  for (int y = 75; y < 125; ++y) {
+    for (int x = 75; x < 125; ++x) ASSERT_GT(image.at(x, y)[1], image.at(x, y)[0]) << "red at " << x << ", " << y;
+  }
+}
+
+TEST(Renderer, GivesTheSameBytesAgainAndBesideAnotherRenderer) {
+  const Mesh mesh = make_grid(10, 10);
+  Frame frame;
+  frame.positions = mesh.positions;
+  frame.colliders.emplace_back(SphereShape{{0, 0, -0.5}, 0.4});
+  const View view{{2, -4, 2}, {0, 0, 0}, {0, 0, 1}, 30};
+  Renderer one(data_folder(), {120, 100}, view, Look{}, 121, mesh.triangles, mesh.uvs);
+  const Image first = one.draw(frame);
+  {
+    Renderer other(data_folder(), {64, 48}, view, Look{}, 121, mesh.triangles, mesh.uvs);
+    EXPECT_EQ(other.draw(frame).width, 64);
+    EXPECT_EQ(one.draw(frame), first);
+  }
+  EXPECT_EQ(one.draw(frame), first);
+  EXPECT_NE(one.description().find("OpenGL"), std::string::npos);
+}
+
+TEST(Renderer, RefusesAFrameWithAnotherNumberOfVertices) {
+  const Mesh mesh = make_grid(2, 2);
+  Renderer renderer(data_folder(), {32, 32}, from_above(), Look{}, 9, mesh.triangles, mesh.uvs);
+  Frame frame;
+  frame.positions = Vertices::Zero(8, 3);
+  EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
+}
+
+TEST(GlContext, NamesTheDebianPackageIfOsMesaIsMissing) {
+  try {
+    make_osmesa_context({"libOSMesa_that_is_not_there.so"});
+    FAIL() << "a context came from nowhere";
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find("libosmesa6"), std::string::npos) << error.what();
+  }
+}
+
+TEST(GlContext, RefusesVectorsOfWhichMesaCrashes) {
+  setenv("LP_NATIVE_VECTOR_WIDTH", "512", 1);
+  EXPECT_THROW(limit_llvmpipe_vector_width(), UsageError);
+  setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
+  EXPECT_NO_THROW(limit_llvmpipe_vector_width());
+  unsetenv("LP_NATIVE_VECTOR_WIDTH");
+  limit_llvmpipe_vector_width();
+  EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "256");
+}
+
+}  // namespace
+}  // namespace drape::test

@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "render/texture_image.hpp"
+#include "tests/render/drawing.hpp"
+
+namespace drape::test {
+namespace {
+
+/// A file in the temporary folder that is gone with the test.
+class TemporaryFile {
+ public:
+  TemporaryFile(const std::string& name, const std::string& bytes)
+      : path_(std::filesystem::path(testing::TempDir()) / (std::to_string(getpid()) + name)) {
+    std::ofstream(path_, std::ios::binary) << bytes;
+  }
+  ~TemporaryFile() { std::filesystem::remove(path_); }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A PPM image of one character per pixel: '#' is black, anything else white.
+std::string ppm(const std::vector<std::string>& rows) {
+  std::string bytes = "P6\n" + std::to_string(rows[0].size()) + " " + std::to_string(rows.size()) + "\n255\n";
+  for (const std::string& row : rows) {
+    for (const char c : row) bytes.append(3, c == '#' ? '\0' : '\xff');
+  }
+  return bytes;
+}
+
+std::string message_of(const std::filesystem::path& texture) {
+  Look look;
+  look.texture = texture;
+  try {
+    draw(make_grid(1, 1), from_above(), look);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "no UsageError";
+}
+
+TEST(Texture, IsUprightAndNotMirroredOnTheFront) {
+  const std::vector<std::string> letter{"........",  //
+                                        ".######.",  //
+                                        ".#......",  //
+                                        ".#......",  //
+                                        ".####...",  //
+                                        ".#......",  //
+                                        ".#......",  //
+                                        "........"};
+  const TemporaryFile file("letter.ppm", ppm(letter));
+  Look look;
+  look.texture = file.path();
+  const Image image = draw(make_grid(3, 3), from_above(), look, {160, 160});
+  for (int row = 0; row < 8; ++row) {
+    for (int column = 0; column < 8; ++column) {
+      const int value = image.at(20 * column + 10, 20 * row + 10)[1];
+      const bool black = letter[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] == '#';
+      EXPECT_EQ(value < 128, black) << "row " << row << ", column " << column << " is " << value;
+    }
+  }
+}
+
+TEST(Texture, IsMinifiedInLinearLight) {
+  const TemporaryFile file("checker.ppm", ppm({"#.", ".#"}));
+  const std::vector<TextureLevel> levels = load_texture_image(file.path());
+  ASSERT_EQ(levels.size(), 2);
+  EXPECT_EQ(levels[1].width, 1);
+  // Half of the light, of which sRGB's byte is 188; averaged bytes would be 128, a fifth of the light.
+  EXPECT_NEAR(levels[1].pixels[0], 32768, 1);
+}
+
+TEST(Texture, LevelsHalveUntilOnePixelInEitherDirection) {
+  const TemporaryFile file("odd.ppm", ppm({"#.#.#", "....#", "##..#"}));
+  const std::vector<TextureLevel> levels = load_texture_image(file.path());
+  ASSERT_EQ(levels.size(), 3);
+  EXPECT_EQ(levels[1].width, 2);
+  EXPECT_EQ(levels[1].height, 1);
+  EXPECT_EQ(levels[2].width, 1);
+}
+
+TEST(Texture, ThatIsMissingOrCutOrNoImageIsNamed) {
+  EXPECT_NE(message_of("no/such/plaid.png").find("no/such/plaid.png"), std::string::npos);
+
+  std::ifstream stream(data_folder() / "textures/plaid.png", std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  ASSERT_GT(whole.size(), 1000);
+  const TemporaryFile cut("cut.png", whole.substr(0, whole.size() / 2));
+  EXPECT_NE(message_of(cut.path()).find(cut.path().string()), std::string::npos);
+
+  const TemporaryFile text("text.png", "this is not an image");
+  EXPECT_NE(message_of(text.path()).find(text.path().string()), std::string::npos);
+  const TemporaryFile empty("empty.png", "");
+  EXPECT_NE(message_of(empty.path()).find(empty.path().string()), std::string::npos);
+}
+
+TEST(Texture, NeedsTextureCoordinates) {
+  Mesh mesh = make_grid(1, 1);
+  mesh.uvs.clear();
+  Look look;
+  look.texture = data_folder() / "textures/plaid.png";
+  EXPECT_THROW(draw(mesh, from_above(), look), UsageError);
+}
+
+TEST(Texture, PlaidTiles) {
+  const TextureLevel plaid = load_texture_image(data_folder() / "textures/plaid.png").front();
+  ASSERT_EQ(plaid.width, 1024);
+  const auto step = [&plaid](int a, int b) {  // the mean difference between two columns
+    double sum = 0;
+    for (int y = 0; y < plaid.height; ++y) {
+      const auto at = [&](int x) { return plaid.pixels[3 * static_cast<std::size_t>(y * plaid.width + x) + 1]; };
+      sum += std::abs(at(a) - at(b));
+    }
+    return sum / plaid.height;
+  };
+  // Between the last column and the first lies the border of two threads and two bands, as between 511 and 512.
+  EXPECT_LT(step(1023, 0), 1.5 * step(511, 512));
+}
+
+}  // namespace
+}  // namespace drape::test

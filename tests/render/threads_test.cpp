@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "tests/render/drawing.hpp"
+
+namespace drape::test {
+namespace {
+
+/// The picture's bytes, drawn by a new process: Mesa reads its number of threads once.
+std::vector<std::uint8_t> drawn_with_threads(const char* threads) {
+  int ends[2];
+  if (pipe(ends) != 0) return {};
+  const pid_t child = fork();
+  if (child == 0) {
+    setenv("LP_NUM_THREADS", threads, 1);
+    Look look;
+    look.texture = data_folder() / "textures/plaid.png";
+    Mesh mesh = make_grid(20, 20);
+    for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
+      mesh.positions(i, 2) = 0.2 * std::sin(4 * mesh.positions(i, 0)) * std::cos(3 * mesh.positions(i, 1));
+    }
+    const View view{{2, -4, 2}, {0, 0, 0}, {0, 0, 1}, 30};
+    const Image image = draw(mesh, view, look, {240, 200}, {SphereShape{{0, 0, -0.3}, 0.4}});
+    const auto size = static_cast<ssize_t>(image.pixels.size());
+    ssize_t written = 0;
+    while (written < size) {
+      const ssize_t count = write(ends[1], image.pixels.data() + written, static_cast<std::size_t>(size - written));
+      if (count <= 0) break;
+      written += count;
+    }
+    _exit(written == size ? 0 : 1);
+  }
+  close(ends[1]);
+  std::vector<std::uint8_t> bytes(3 * 240 * 200 + 1);
+  std::size_t received = 0;
+  for (ssize_t count = 1; count > 0 && received < bytes.size(); received += static_cast<std::size_t>(count)) {
+    count = read(ends[0], bytes.data() + received, bytes.size() - received);
+    if (count < 0) break;
+  }
+  close(ends[0]);
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  bytes.resize(received);
+  return bytes;
+}
+
+// Alone in its file: a process must not fork after Mesa has started its threads.
+TEST(Threads, OfMesaChangeNoByte) {
+  const std::vector<std::uint8_t> none = drawn_with_threads("0");
+  ASSERT_EQ(none.size(), std::size_t{3} * 240 * 200);
+  EXPECT_EQ(none, drawn_with_threads("1"));
+  EXPECT_EQ(none, drawn_with_threads("2"));
+  EXPECT_EQ(none, drawn_with_threads("5"));
+}
+
+}  // namespace
+}  // namespace drape::test

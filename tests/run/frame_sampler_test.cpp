@@ -1,0 +1,83 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+#include "core/error.hpp"
+#include "run/frame_sampler.hpp"
+#include "run/run_steps.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape {
+namespace {
+
+Video video(double fps, double speed) {
+  Video v;
+  v.fps = fps;
+  v.speed = speed;
+  return v;
+}
+
+std::vector<Frame> sampled(Simulation& simulation, const FilmExtent& extent) {
+  std::vector<Frame> frames;
+  FrameSampler sampler(extent, [&](Frame frame) { frames.push_back(std::move(frame)); });
+  const std::array<StepObserver*, 1> observers{&sampler};
+  run_steps(simulation, extent.steps, observers, {});
+  return frames;
+}
+
+TEST(FilmExtent, HasAFrameAtBothEndsOfTheMotion) {
+  const FilmExtent extent(video(25, 1), 0.02, 417, std::nullopt);
+  EXPECT_EQ(extent.frames.first, 0);
+  EXPECT_EQ(extent.frames.last, 208);  // 8.32 s; the next would be at 8.36 s, after the motion's 8.34 s
+  EXPECT_EQ(FilmExtent(video(25, 1), 0.02, 416, std::nullopt).frames.last, 208);
+  EXPECT_EQ(FilmExtent(video(25, 1), 0.02, 415, std::nullopt).frames.last, 207);
+}
+
+TEST(FilmExtent, PlaysTwiceAsFastWithHalfTheFrames) {
+  EXPECT_EQ(FilmExtent(video(25, 2), 0.001, 8000, std::nullopt).frames.count(), 101);
+}
+
+TEST(FilmExtent, SimulatesNoFurtherThanTheLastFrameNeeds) {
+  EXPECT_EQ(FilmExtent(video(25, 1), 0.02, 417, FrameRange{3, 10}).steps, 20);
+  EXPECT_EQ(FilmExtent(video(30, 1), 0.02, 417, FrameRange{3, 10}).steps, 17);  // 0.3333 s lies within step 17
+}
+
+TEST(FilmExtent, RefusesFramesAfterTheEnd) {
+  EXPECT_THROW(FilmExtent(video(25, 1), 0.02, 417, FrameRange{0, 209}), UsageError);
+}
+
+TEST(FrameSampler, TakesAStepsOwnBitsWhereAFrameFallsOnIt) {
+  Simulation simulation(test::homework(Method::liu13, 0.02, 180)), again(test::homework(Method::liu13, 0.02, 180));
+  const auto frames = sampled(simulation, FilmExtent(video(25, 1), 0.02, 20, std::nullopt));
+  ASSERT_EQ(frames.size(), 11u);
+  for (int step = 0; step < 20; ++step) again.step();
+  EXPECT_EQ(frames.back().positions, again.state().x);
+  EXPECT_EQ(frames.front().positions, again.cloth().positions);
+}
+
+TEST(FrameSampler, InterpolatesLinearlyBetweenSteps) {
+  Simulation simulation(test::homework(Method::liu13, 0.02, 180)), again(test::homework(Method::liu13, 0.02, 180));
+  // A quarter of a step after every other one: frames at 0, 0.025, 0.05 s with h = 0.02 s.
+  const auto frames = sampled(simulation, FilmExtent(video(40, 1), 0.02, 5, std::nullopt));
+  ASSERT_EQ(frames.size(), 5u);
+  again.step();
+  const Vertices before = again.state().x;
+  again.step();
+  EXPECT_LT((frames[1].positions - (0.75 * before + 0.25 * again.state().x)).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_DOUBLE_EQ(frames[1].time, 0.025);
+}
+
+TEST(FrameSampler, GivesTheSameFramesWhereverItsRangeBegins) {
+  Simulation whole(test::homework(Method::liu13, 0.02, 180)), part(test::homework(Method::liu13, 0.02, 180));
+  const auto all = sampled(whole, FilmExtent(video(30, 1), 0.02, 30, std::nullopt));
+  const auto some = sampled(part, FilmExtent(video(30, 1), 0.02, 30, FrameRange{5, 9}));
+  ASSERT_EQ(some.size(), 5u);
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    EXPECT_EQ(some[i].index, static_cast<int>(i) + 5);
+    EXPECT_EQ(some[i].positions, all[i + 5].positions);
+  }
+}
+
+}  // namespace
+}  // namespace drape

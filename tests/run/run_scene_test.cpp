@@ -1,0 +1,148 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "run/run_scene.hpp"
+#include "tests/support/scene_folder.hpp"
+
+namespace drape {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* swinging = R"(
+[cloth]
+mesh = { grid = [4, 4] }
+stiffness = 50
+pins = ["corner:x-y-"]
+[time]
+step = 0.02
+duration = 0.4
+[integrator]
+method = "liu13"
+[effects.gravity]
+)";
+
+std::string read(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> lines(const fs::path& file) {
+  std::istringstream text(read(file));
+  std::vector<std::string> result;
+  for (std::string line; std::getline(text, line);) result.push_back(line);
+  return result;
+}
+
+RunResult run(const Scene& scene, const RunOptions& options) {
+  const std::atomic<bool> stop = false;
+  Progress progress;
+  return run_scene(scene, options, stop, progress, [] {});
+}
+
+TEST(RunScene, WritesEveryRecordThatIsAskedFor) {
+  const testing::SceneFolder folder;
+  RunOptions options;
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  options.records = {path("stats.json"), path("energies.csv"), path("positions.csv"), path("trace.csv")};
+  const RunResult result = run(folder.load(swinging), options);
+
+  EXPECT_EQ(result.outcome, Outcome::completed);
+  EXPECT_EQ(result.records.size(), 4u);
+  const auto energies = lines(path("energies.csv"));
+  EXPECT_EQ(energies.front(), "step,time,total,kinetic,gravity,elastic");
+  EXPECT_EQ(energies.size(), 1u + 21u);  // the start and twenty steps
+  const auto trace = lines(path("trace.csv"));
+  EXPECT_EQ(trace.front(), "step,time,iterations,residual,step_us");
+  EXPECT_EQ(trace.size(), 1u + 20u);
+  const auto positions = lines(path("positions.csv"));
+  EXPECT_EQ(positions.front(), "vertex,x,y,z");
+  EXPECT_EQ(positions.size(), 1u + 25u);
+  EXPECT_EQ(positions[1], "0,-1,-1,0");  // the pin
+
+  const auto stats = nlohmann::json::parse(read(path("stats.json")));
+  EXPECT_EQ(stats["method"], "liu13");
+  EXPECT_EQ(stats["vertices"], 25);
+  EXPECT_EQ(stats["springs"], 56);
+  EXPECT_EQ(stats["steps"], 20);
+  EXPECT_GE(stats["iterations"]["mean"], 2);  // the rule is not looked at before the second
+  EXPECT_GE(stats["iterations"]["max"], stats["iterations"]["mean"]);
+  EXPECT_GT(stats["step_us"]["mean"], 0);
+  EXPECT_GT(stats["step_us"]["median"], 0);
+  EXPECT_EQ(stats["effects"], std::vector<std::string>{"gravity"});
+  EXPECT_EQ(stats["outcome"], "completed");
+}
+
+TEST(RunScene, PositionsReadBackHaveTheSameBits) {
+  const testing::SceneFolder folder;
+  const Scene scene = folder.load(swinging);
+  RunOptions options;
+  options.records.positions = (folder.path() / "positions.csv").string();
+  run(scene, options);
+  Simulation simulation(scene.simulation);
+  for (int step = 0; step < 20; ++step) simulation.step();
+  const auto rows = lines(options.records.positions);
+  for (int vertex = 0; vertex < 25; ++vertex) {
+    int number = 0;
+    double x = 0, y = 0, z = 0;
+    ASSERT_EQ(std::sscanf(rows[static_cast<std::size_t>(vertex) + 1].c_str(), "%d,%lf,%lf,%lf", &number, &x, &y, &z), 4);
+    EXPECT_EQ(number, vertex);
+    EXPECT_EQ(Eigen::RowVector3d(x, y, z), simulation.state().x.row(vertex));
+  }
+}
+
+TEST(RunScene, ADivergedRunKeepsTheRecordsOfItsFiniteSteps) {
+  const testing::SceneFolder folder;
+  const std::string stiff = R"(
+[cloth]
+mesh = { grid = [4, 4] }
+stiffness = 1e6
+velocity = [0, 0, 0]
+transform = { scale = 1.5 }
+rest = { grid = [4, 4] }
+[time]
+step = 0.1
+duration = 1000
+[integrator]
+method = "semi-implicit"
+)";
+  RunOptions options;
+  options.records = {.stats = (folder.path() / "stats.json").string(),
+                     .energies = (folder.path() / "energies.csv").string(),
+                     .positions = {},
+                     .trace = {}};
+  const RunResult result = run(folder.load(stiff), options);
+  EXPECT_EQ(result.outcome, Outcome::diverged);
+  EXPECT_NE(result.divergence.find("step"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(read(options.records.stats))["outcome"], "diverged");
+  const auto rows = lines(options.records.energies);
+  EXPECT_EQ(rows.size(), 2u + static_cast<std::size_t>(result.statistics.steps()));
+}
+
+TEST(RunScene, StopsWhenItIsToldToAndKeepsTheRecords) {
+  const testing::SceneFolder folder;
+  RunOptions options;
+  options.records.stats = (folder.path() / "stats.json").string();
+  options.steps = 1'000'000'000;
+  std::atomic<bool> stop = false;
+  Progress progress;
+  const RunResult result = run_scene(folder.load(swinging), options, stop, progress, [&] { stop = true; });
+  EXPECT_EQ(result.outcome, Outcome::interrupted);
+  EXPECT_EQ(nlohmann::json::parse(read(options.records.stats))["outcome"], "interrupted");
+}
+
+TEST(RunScene, AnUnwritableRecordIsKnownBeforeAnythingIsSimulated) {
+  const testing::SceneFolder folder;
+  folder.write("file", "");
+  RunOptions options;
+  options.records.stats = (folder.path() / "file" / "stats.json").string();
+  options.steps = 1'000'000'000;  // would take hours
+  EXPECT_THROW(run(folder.load(swinging), options), OutputError);
+}
+
+}  // namespace
+}  // namespace drape

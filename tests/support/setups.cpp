@@ -1,0 +1,56 @@
+#include "tests/support/setups.hpp"
+
+#include <cstring>
+#include <numeric>
+#include <utility>
+
+#include "tests/support/random.hpp"
+
+namespace drape::test {
+
+SimulationSettings setup(Cloth cloth, Method method, double step) {
+  SimulationSettings settings;
+  settings.cloth = std::move(cloth);
+  settings.step = step;
+  settings.integrator.method = method;
+  return settings;
+}
+
+Cloth cloth_of(const Mesh& mesh, double mass, double stiffness, std::vector<int> pins) {
+  return make_cloth(mesh, mesh, mass, stiffness, std::move(pins));
+}
+
+SimulationSettings homework(Method method, double step, double stiffness) {
+  SimulationSettings settings = setup(cloth_of(make_grid(20, 20), 1, stiffness, {0, 20}), method, step);
+  settings.effects.push_back(effect("gravity"));
+  return settings;
+}
+
+ActiveEffect homework_sphere() {
+  return effect("sphere", {{"center", Eigen::Vector3d(homework_sphere_center.transpose())},
+                           {"radius", 0.4},
+                           {"scale", 1.1},
+                           {"stiffness", 8000.0}});
+}
+
+ActiveEffect homework_damping() { return effect("damping", {{"factor", 0.2}}); }
+
+std::vector<int> every(int count) {
+  std::vector<int> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+Vertices random_vertices(Eigen::Index count, int seed) {
+  Random random(static_cast<std::uint64_t>(seed));
+  Vertices result(count, 3);
+  for (Eigen::Index t = 0; t < result.size(); ++t) result.data()[t] = random.between(-1, 1);
+  return result;
+}
+
+bool same_bits(const Vertices& a, const Vertices& b) {
+  return a.rows() == b.rows() &&
+         std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+}
+
+}  // namespace drape::test

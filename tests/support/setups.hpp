@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/settings.hpp"
+#include "tests/support/effects.hpp"
+#include "tests/support/methods.hpp"
+
+namespace drape::test {
+
+/// A cloth without effects, to which a test adds what it is about.
+SimulationSettings setup(Cloth cloth, Method method, double step);
+
+/// make_cloth of a mesh that is its own rest shape.
+Cloth cloth_of(const Mesh& mesh, double mass, double stiffness, std::vector<int> pins);
+
+/// The homework's cloth: 20×20 cells, 1 kg, pinned at vertices 0 and 20, under gravity; h in s, k in N/m.
+SimulationSettings homework(Method method, double step, double stiffness);
+
+/// The homework's sphere, of radius 0.4 m around (0, 0, −0.5), pushing within 0.44 m.
+ActiveEffect homework_sphere();
+inline const Eigen::RowVector3d homework_sphere_center(0, 0, -0.5);
+
+/// The homework's damping 0.2, as it writes it.
+ActiveEffect homework_damping();
+
+/// The homework's whole timeline of 250/30 s in its two step lengths.
+inline constexpr int homework_steps = 417;         ///< h = 0.02 s
+inline constexpr int homework_small_steps = 8334;  ///< h = 0.001 s
+
+/// 0, 1, … count−1: the pins of a cloth that is all pins.
+std::vector<int> every(int count);
+
+/// n×3 numbers in [−1, 1), the same for the same seed.
+Vertices random_vertices(Eigen::Index count, int seed);
+
+/// Two states have the same bits.
+bool same_bits(const Vertices& a, const Vertices& b);
+
+}  // namespace drape::test

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "core/error.hpp"
+
+namespace drape::testing {
+
+/// The message of the UsageError that a call throws; "(no error)" if it throws none.
+template <class Call>
+std::string usage_error(Call&& call) {
+  try {
+    call();
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "(no error)";
+}
+
+}  // namespace drape::testing

@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "sim/spring_network.hpp"
+#include "tests/support/meshes.hpp"
+#include "tests/support/plain_springs.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+struct Case {
+  std::string name;
+  int vertices;
+  std::vector<Spring> springs;
+};
+
+Spring random_spring(Random& random, int i, int j) {
+  return {.i = i, .j = j, .rest_length = random.between(0, 0.5), .stiffness = random.between(1, 500)};
+}
+
+Case springs_of(std::string name, const Mesh& mesh) {
+  Case result{std::move(name), static_cast<int>(mesh.positions.rows()), cloth_of(mesh, 1, 180, {}).springs};
+  Random random;
+  for (Spring& spring : result.springs) spring.stiffness = random.between(1, 500);
+  return result;
+}
+
+/// Springs (i, i + offset) for runs of every length, apart by gaps of every size.
+Case runs_and_gaps() {
+  Case result{"RunsAndGaps", 0, {}};
+  Random random;
+  int i = 0;
+  for (const int length : {1, 2, 3, 7, 8, 15, 16, 17, 20, 33, 64, 255, 256, 257, 300, 520}) {
+    for (int t = 0; t < length; ++t) result.springs.push_back(random_spring(random, i + t, i + t + 5));
+    i += length + length % 6;
+  }
+  result.vertices = i + 6;
+  return result;
+}
+
+Case duplicates() {
+  Case result = springs_of("Duplicates", make_grid(20, 6));
+  Random random;
+  const std::size_t count = result.springs.size();
+  for (std::size_t s = 0; s < count; s += 2) {
+    for (int copy = 0; copy < 1 + static_cast<int>(s) % 3; ++copy) {
+      result.springs.push_back(random_spring(random, result.springs[s].i, result.springs[s].j));
+    }
+  }
+  return result;
+}
+
+Case shuffled() {
+  Case result = springs_of("Shuffled", make_grid(13, 9));
+  Random random;
+  for (std::size_t s = result.springs.size(); s > 1; --s) {
+    std::swap(result.springs[s - 1], result.springs[static_cast<std::size_t>(random.below(static_cast<int>(s)))]);
+  }
+  return result;
+}
+
+Case scattered() {
+  Case result{"Scattered", 500, {}};
+  Random random;
+  for (int s = 0; s < 1500; ++s) {
+    const int i = random.below(499);
+    result.springs.push_back(random_spring(random, i, i + 1 + random.below(499 - i)));
+  }
+  return result;
+}
+
+std::vector<Case> cases() {
+  Random random;
+  return {springs_of("HomeworksGrid", make_grid(20, 20)),
+          springs_of("LongGrid", make_grid(300, 2)),
+          springs_of("SmallGrid", make_grid(1, 1)),
+          springs_of("Irregular", irregular_mesh(15)),
+          springs_of("ThreeTrianglesOnAnEdge", three_sheets(9)),
+          runs_and_gaps(),
+          duplicates(),
+          shuffled(),
+          scattered(),
+          {"Single", 2, {random_spring(random, 0, 1)}},
+          {"Empty", 3, {}}};
+}
+
+class SpringNetworkOf : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Springs, SpringNetworkOf, testing::ValuesIn(cases()),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST_P(SpringNetworkOf, HasTheEnergyOfTheFormula) {
+  const Vertices x = random_vertices(GetParam().vertices, 77);
+  const double expected = plain_energy(GetParam().springs, x);
+  EXPECT_NEAR(SpringNetwork(GetParam().springs).energy(x), expected, 1e-13 * expected);
+}
+
+TEST_P(SpringNetworkOf, AddsTheGradientOfTheFormula) {
+  const Vertices x = random_vertices(GetParam().vertices, 77);
+  const Vertices already = random_vertices(GetParam().vertices, 78);
+  Vertices gradient = already;
+  SpringNetwork(GetParam().springs).add_gradient(x, gradient);
+  const Vertices expected = already + plain_gradient(GetParam().springs, x);
+  EXPECT_LE((gradient - expected).cwiseAbs().maxCoeff(), 1e-13 * (1 + expected.cwiseAbs().maxCoeff()));
+}
+
+TEST_P(SpringNetworkOf, HasTheGradientOfItsEnergy) {
+  if (GetParam().springs.empty()) return;
+  const SpringNetwork network(GetParam().springs);
+  const Vertices x = random_vertices(GetParam().vertices, 77);
+  Vertices gradient = Vertices::Zero(x.rows(), 3);
+  network.add_gradient(x, gradient);
+  // Along a direction in which every vertex moves differently: (E(x + εd) − E(x − εd))/2ε, wrong by ε²‖E'''‖/6 and the
+  // rounding of E over ε.
+  constexpr double epsilon = 1e-6;
+  for (const int seed : {1, 2, 3}) {
+    const Vertices direction = random_vertices(x.rows(), seed);
+    const double slope =
+        (network.energy(x + epsilon * direction) - network.energy(x - epsilon * direction)) / (2 * epsilon);
+    const double scale = gradient.cwiseProduct(direction).cwiseAbs().sum();
+    EXPECT_NEAR(slope, gradient.cwiseProduct(direction).sum(), 1e-7 * scale);
+  }
+}
+
+TEST_P(SpringNetworkOf, RemembersTheSpringsAsGiven) {
+  const SpringNetwork network(GetParam().springs);
+  ASSERT_EQ(network.springs().size(), GetParam().springs.size());
+  for (std::size_t s = 0; s < GetParam().springs.size(); ++s) {
+    EXPECT_EQ(network.springs()[s].i, GetParam().springs[s].i);
+    EXPECT_EQ(network.springs()[s].j, GetParam().springs[s].j);
+  }
+}
+
+TEST(SpringNetwork, PullsNowhereBetweenVerticesInOnePlace) {
+  const Mesh grid = make_grid(20, 4);
+  const std::vector<Spring> springs = cloth_of(grid, 1, 180, {}).springs;
+  const SpringNetwork network(springs);
+  const Vertices x = Vertices::Constant(grid.positions.rows(), 3, 0.25);
+  Vertices gradient = Vertices::Zero(x.rows(), 3);
+  network.add_gradient(x, gradient);
+  EXPECT_EQ(gradient.cwiseAbs().maxCoeff(), 0);
+  EXPECT_NEAR(network.energy(x), plain_energy(springs, x), 1e-13 * network.energy(x));
+}
+
+TEST(SpringNetwork, StaysFiniteHoweverNearTwoVerticesAre) {
+  const SpringNetwork network({{.i = 0, .j = 1, .rest_length = 0.5, .stiffness = 100}});
+  for (const double distance : {1e-8, 1e-20, 1e-100, 1e-139, 1e-140, 1e-141, 1e-160, 1e-300, 5e-324}) {
+    Vertices x = Vertices::Zero(2, 3), gradient = Vertices::Zero(2, 3);
+    x(1, 0) = distance;
+    network.add_gradient(x, gradient);
+    EXPECT_TRUE(gradient.allFinite()) << distance;
+    EXPECT_LE(gradient.cwiseAbs().maxCoeff(), 50 * (1 + 1e-15)) << "no more than the force at length zero";
+    EXPECT_NEAR(network.energy(x), 100 * 0.25 / 2, 1e-6);
+  }
+}
+
+TEST(SpringNetwork, OfRestLengthZeroIsLinear) {
+  const SpringNetwork network({{.i = 0, .j = 1, .rest_length = 0, .stiffness = 100}});
+  Vertices x = Vertices::Zero(2, 3), gradient = Vertices::Zero(2, 3);
+  x.row(1) << 1, 2, -3;
+  network.add_gradient(x, gradient);
+  EXPECT_LT((gradient.row(1) - 100 * x.row(1)).norm(), 1e-12);
+  EXPECT_LT((gradient.row(0) + 100 * x.row(1)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace drape::test
