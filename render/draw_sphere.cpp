@@ -9,7 +9,8 @@
 namespace drape {
 namespace {
 
-constexpr unsigned segments = 192, rings = 32;
+// The rim is within 0.03 % of the radius of a circle. Mesa takes about a microsecond per triangle.
+constexpr unsigned segments = 128, rings = 12;
 
 }  // namespace
 

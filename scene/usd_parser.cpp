@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 

@@ -52,7 +52,6 @@ std::vector<OutputFile> GifEncoder::finish() {
 void GifEncoder::encode() {
   const GifPalette palette = palette_->finish();
   palette_.reset();
-  const OrderedDither dither(palette);
   const int count = spool_.count();
   std::optional<GifWriter> writer;
   spool_.rewind();
@@ -62,7 +61,7 @@ void GifEncoder::encode() {
       writer.emplace(file_.temporary(), file_.file().string(), image.width, image.height, palette,
                      start(count) - start(count - 1));
     }
-    writer->add(dither.apply(image), start(k));
+    writer->add(image, start(k));
     if (progress_) progress_(k + 1, count);
   }
   writer->finish();

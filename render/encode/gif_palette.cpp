@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::uint32_t opaque = 0xff000000;
 
-std::uint32_t rgb(const std::uint8_t* pixel) {
-  return static_cast<std::uint32_t>(pixel[0] << 16 | pixel[1] << 8 | pixel[2]);
-}
-
 std::uint32_t* row(const libav::Frame& frame, int y) {
   return reinterpret_cast<std::uint32_t*>(frame->data[0] + static_cast<std::ptrdiff_t>(y) * frame->linesize[0]);
 }
@@ -47,7 +43,7 @@ void GifPaletteBuilder::add(const Image& image) {
   libav::Frame frame = libav::rgb32_frame(image.width, image.height);
   for (int y = 0; y < image.height; ++y) {
     std::uint32_t* out = row(frame, y);
-    for (int x = 0; x < image.width; ++x) out[x] = opaque | rgb(image.at(x, y));
+    for (int x = 0; x < image.width; ++x) out[x] = opaque | rgb_number(image.at(x, y));
   }
   graph_.push("buffer@film", std::move(frame));
   frequent_.add(image);
@@ -58,35 +54,36 @@ GifPalette GifPaletteBuilder::finish() {
   const libav::Frame frame = graph_.pull("buffersink@palette");
   if (!frame || frame->width != 16 || frame->height != 16) throw OutputError("FFmpeg's palettegen made no palette");
   GifPalette palette;
-  for (int y = 0; y < 16; ++y) std::copy_n(row(frame, y), 16, palette.begin() + 16 * y);
-  force_colors(palette, frequent_.colors());
+  for (int y = 0; y < 16; ++y) std::copy_n(row(frame, y), 16, palette.colors.begin() + 16 * y);
+  palette.exact = frequent_.colors();
+  force_exact_colors(palette);
   return palette;
 }
 
-void force_colors(GifPalette& palette, const std::vector<std::uint32_t>& colors) {
-  std::vector<bool> taken(palette.size());
-  for (std::size_t i = 0; i < palette.size(); ++i) taken[i] = palette[i] < opaque;
-  for (const std::uint32_t color : colors) {
-    std::size_t nearest = palette.size();
+void force_exact_colors(GifPalette& palette) {
+  auto& colors = palette.colors;
+  std::vector<bool> taken(colors.size());
+  for (std::size_t i = 0; i < colors.size(); ++i) taken[i] = colors[i] < opaque;
+  for (const std::uint32_t color : palette.exact) {
+    std::size_t nearest = colors.size();
     int least = std::numeric_limits<int>::max();
-    for (std::size_t i = 0; i < palette.size(); ++i) {
-      const int distance = squared_distance(palette[i], color);
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+      const int distance = squared_distance(colors[i], color);
       if (taken[i] || distance >= least) continue;
       nearest = i;
       least = distance;
     }
-    if (nearest == palette.size()) return;
-    palette[nearest] = opaque | color;
+    colors[nearest] = opaque | color;  // there are fewer exact colours than entries
     taken[nearest] = true;
   }
 }
 
 OrderedDither::OrderedDither(const GifPalette& palette) : in_palette_(1 << 24) {
-  for (const std::uint32_t entry : palette) {
+  for (const std::uint32_t entry : palette.colors) {
     if (entry >= opaque) in_palette_[entry & ~opaque] = true;
   }
   // About the distance between neighbouring colours of a film's palette: less leaves bands, more makes grain.
-  constexpr int amplitude = 8;
+  constexpr int amplitude = 4;
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 8; ++x) offset_[y][x] = (2 * bayer(x, y) - 63) * amplitude / 126;  // −amplitude/2 … amplitude/2
   }
@@ -98,7 +95,7 @@ libav::Frame OrderedDither::apply(const Image& image) const {
     std::uint32_t* out = row(frame, y);
     for (int x = 0; x < image.width; ++x) {
       const std::uint8_t* pixel = image.at(x, y);
-      const std::uint32_t color = rgb(pixel);
+      const std::uint32_t color = rgb_number(pixel);
       const int offset = in_palette_[color] ? 0 : offset_[y % 8][x % 8];
       out[x] = opaque;
       for (int channel = 0; channel < 3; ++channel) {

@@ -10,8 +10,16 @@
 
 namespace drape {
 
-/// 256 colours 0xAARRGGBB, one of them transparent and the others opaque.
-using GifPalette = std::array<std::uint32_t, 256>;
+/// The colours of a GIF.
+struct GifPalette {
+  std::array<std::uint32_t, 256> colors{};  ///< 0xAARRGGBB: one is transparent, the others are opaque
+  std::vector<std::uint32_t> exact;         ///< 0xRRGGBB, ascending: those in `colors` that no pixel may differ from
+};
+
+/// 0xRRGGBB of a pixel's three bytes.
+inline std::uint32_t rgb_number(const std::uint8_t* pixel) {
+  return static_cast<std::uint32_t>(pixel[0] << 16 | pixel[1] << 8 | pixel[2]);
+}
 
 /// Chooses the colours of a GIF from all frames of its film: FFmpeg's palettegen, which cuts the film's colours at the
 /// median into boxes and takes the average of each (Heckbert 1982). An average hits no colour exactly, and a white
@@ -31,8 +39,8 @@ class GifPaletteBuilder {
   FrequentColors frequent_;
 };
 
-/// Replaces, for each of `colors` (0xRRGGBB), the opaque entry nearest to it, and each entry only once.
-void force_colors(GifPalette& palette, const std::vector<std::uint32_t>& colors);
+/// Puts each of the palette's exact colours in the place of the opaque colour nearest to it.
+void force_exact_colors(GifPalette& palette);
 
 /// Turns an image into a frame for a palette without dithering: adds the 8×8 ordered pattern of Bayer (1973) to every
 /// pixel whose colour is not in the palette. The pattern stays in place, so what does not move does not flicker, and

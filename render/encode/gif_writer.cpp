@@ -31,7 +31,7 @@ libav::Codec open_codec(int width, int height) {
 libav::Frame palette_frame(const GifPalette& palette) {
   libav::Frame frame = libav::rgb32_frame(16, 16);
   for (int y = 0; y < 16; ++y) {
-    std::copy_n(palette.begin() + 16 * y, 16,
+    std::copy_n(palette.colors.begin() + 16 * y, 16,
                 reinterpret_cast<std::uint32_t*>(frame->data[0] + y * frame->linesize[0]));
   }
   frame->pts = 0;
@@ -43,12 +43,15 @@ libav::Frame palette_frame(const GifPalette& palette) {
 GifWriter::GifWriter(const std::filesystem::path& file, std::string name, int width, int height,
                      const GifPalette& palette, std::int64_t last_duration)
     : name_(std::move(name)),
+      dither_(palette),
       graph_(fmt::format("buffer@film=width={0}:height={1}:pix_fmt={2}:time_base=1/100 [film]; "
                          "buffer@palette=width=16:height=16:pix_fmt={2}:time_base=1/100 [palette]; "
                          "[film][palette] paletteuse=dither=none, buffersink@gif",
                          width, height, static_cast<int>(AV_PIX_FMT_RGB32))),
+      compactor_(palette),
       codec_(open_codec(width, height)),
-      packet_(libav::allocated(av_packet_alloc())) {
+      packet_(libav::allocated(av_packet_alloc())),
+      bytes_per_frame_(0.14 * width * height) {
   graph_.push("buffer@palette", palette_frame(palette));
   graph_.push("buffer@palette", nullptr);
 
@@ -66,14 +69,28 @@ GifWriter::GifWriter(const std::filesystem::path& file, std::string name, int wi
 
 void GifWriter::checked(int result) const { libav::check(result, "cannot write " + name_); }
 
-void GifWriter::add(libav::Frame frame, std::int64_t start) {
+void GifWriter::add(const Image& image, std::int64_t start) {
+  libav::Frame frame = dither_.apply(image);
   frame->pts = start;
+  sources_.push_back(image);
   graph_.push("buffer@film", std::move(frame));
   encode_filtered();
 }
 
+int GifWriter::tolerance() const {
+  // In proportion to the debt, so that it settles where a frame takes what it may. Beyond the largest, edges fray.
+  constexpr double largest = 32, frames_of_debt = 12;
+  return static_cast<int>(std::clamp(largest * debt_ / (frames_of_debt * bytes_per_frame_), 0.0, largest));
+}
+
 void GifWriter::encode_filtered() {
-  while (const libav::Frame frame = graph_.pull("buffersink@gif")) encode(frame.get());
+  while (const libav::Frame frame = graph_.pull("buffersink@gif")) {
+    checked(av_frame_make_writable(frame.get()));
+    compactor_.compact(*frame, sources_.front(), tolerance());
+    sources_.pop_front();
+    debt_ -= bytes_per_frame_;
+    encode(frame.get());
+  }
 }
 
 void GifWriter::encode(const AVFrame* frame) {
@@ -82,6 +99,7 @@ void GifWriter::encode(const AVFrame* frame) {
     const int result = avcodec_receive_packet(codec_.get(), packet_.get());
     if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
     checked(result);
+    debt_ += packet_->size;
     checked(av_write_frame(format_.get(), packet_.get()));
     av_packet_unref(packet_.get());
     // The muxer does not look whether the file could be written.

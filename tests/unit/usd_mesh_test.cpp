@@ -55,6 +55,13 @@ TEST(UsdReader, FlipsALeftHandedMeshWithItsTexture) {
   }
 }
 
+TEST(UsdReader, KeepsTheFrontOfAMeshThatItsTransformMirrors) {
+  const Mesh mesh = parse(kHeader + "def Mesh \"m\" {\n" + kTriangle +
+                          "float3 xformOp:scale = (-1, 1, 1)\nuniform token[] xformOpOrder = [\"xformOp:scale\"]\n}\n");
+  EXPECT_EQ(mesh.positions.row(1), Eigen::RowVector3d(-1, 0, 0));
+  EXPECT_EQ(mesh.triangles[0], (Triangle{0, 2, 1})) << "counterclockwise seen from +z, as before";
+}
+
 TEST(UsdReader, MergesMeshesAndReadsIndexedTextureCoordinates) {
   const Mesh mesh = read_mesh(kData + "vertex_uvs.usda");
   ASSERT_EQ(mesh.positions.rows(), 10);
