@@ -1,7 +1,6 @@
 #include "render/encode/gif_compactor.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 namespace drape {
@@ -15,19 +14,6 @@ int color_error(std::uint32_t a, const std::uint8_t* b) {
   return 2 * red * red + 4 * green * green + 3 * blue * blue;
 }
 
-int brightness(const std::uint8_t* color) { return (2 * color[0] + 5 * color[1] + color[2]) / 8; }
-
-/// The largest step in brightness to one of the four neighbours.
-int contrast(const Image& image, int x, int y) {
-  const int here = brightness(image.at(x, y));
-  int most = 0;
-  if (x > 0) most = std::max(most, std::abs(brightness(image.at(x - 1, y)) - here));
-  if (y > 0) most = std::max(most, std::abs(brightness(image.at(x, y - 1)) - here));
-  if (x + 1 < image.width) most = std::max(most, std::abs(brightness(image.at(x + 1, y)) - here));
-  if (y + 1 < image.height) most = std::max(most, std::abs(brightness(image.at(x, y + 1)) - here));
-  return most;
-}
-
 }  // namespace
 
 void GifCompactor::Dictionary::clear() {
@@ -38,6 +24,7 @@ void GifCompactor::Dictionary::clear() {
 
 void GifCompactor::Dictionary::extend(int entry, int symbol) {
   symbol_[size_] = static_cast<std::uint8_t>(symbol);
+  parent_[size_] = static_cast<std::int16_t>(entry);
   next_sibling_[size_] = first_child_[entry];
   first_child_[entry] = static_cast<std::int16_t>(size_);
   if (++size_ >= capacity - 1) clear();
@@ -49,74 +36,75 @@ GifCompactor::GifCompactor(GifPalette palette) : palette_(std::move(palette)) {
   transparent_ = static_cast<int>(found - palette_.colors.begin());
 }
 
-bool GifCompactor::is_fixed(std::size_t pixel, const Image& source) const {
-  const std::uint8_t* color = source.pixels.data() + 3 * pixel;
-  if (!shown_.empty() && std::equal(color, color + 3, last_source_.pixels.data() + 3 * pixel)) return true;
+bool GifCompactor::is_exact(const std::uint8_t* color) const {
   return std::binary_search(palette_.exact.begin(), palette_.exact.end(), rgb_number(color));
 }
 
-/// Undoes what has changed though its source has not, and finds the rectangle of what has changed, which is the part
-/// that the encoder stores.
-GifCompactor::Box GifCompactor::keep_what_stays(AVFrame& frame, const Image& source) const {
-  if (shown_.empty()) return {0, 0, frame.width, frame.height};
-  Box box{frame.width, frame.height, 0, 0};
-  std::size_t pixel = 0;
+/// Undoes what has changed though its source has not, and lists the pixels of the rectangle of what has changed, which
+/// is the part that the encoder stores.
+std::vector<GifCompactor::Pixel> GifCompactor::changed_pixels(AVFrame& frame, const Image& source, int tolerance) {
+  const bool is_first = shown_.empty();
+  int left = frame.width, top = frame.height, right = 0, bottom = 0;
+  std::vector<Pixel> pixels;
+  pixels.reserve(shown_.size());
   for (int y = 0; y < frame.height; ++y) {
     std::uint8_t* row = frame.data[0] + static_cast<std::ptrdiff_t>(y) * frame.linesize[0];
-    for (int x = 0; x < frame.width; ++x, ++pixel) {
-      const std::uint8_t* color = source.pixels.data() + 3 * pixel;
-      if (std::equal(color, color + 3, last_source_.pixels.data() + 3 * pixel)) row[x] = shown_[pixel];
-      if (row[x] == shown_[pixel]) continue;
-      box = {std::min(box.left, x), std::min(box.top, y), std::max(box.right, x + 1), std::max(box.bottom, y + 1)};
+    for (int x = 0; x < frame.width; ++x) {
+      const std::size_t i = pixels.size();
+      Pixel pixel{row + x, source.at(x, y), is_first ? -1 : shown_[i], 0};
+      const bool stays = !is_first && std::equal(pixel.color, pixel.color + 3, last_source_.at(x, y));
+      if (stays) *pixel.index = shown_[i];
+      if (!stays && tolerance > 0 && !is_exact(pixel.color)) {
+        // Where the picture is smooth, all of the tolerance would show as streaks.
+        const int allowed = std::min(tolerance, 2 + tolerance / 8 + local_contrast(source, x, y));
+        pixel.most_error = 9 * allowed * allowed;
+      }
+      pixels.push_back(pixel);
+      if (*pixel.index == pixel.shown) continue;
+      left = std::min(left, x), right = std::max(right, x + 1);
+      top = std::min(top, y), bottom = std::max(bottom, y + 1);
     }
   }
-  return box;
+  std::vector<Pixel> changed;
+  for (int y = top; y < bottom; ++y) {
+    const auto row = pixels.begin() + static_cast<std::ptrdiff_t>(y) * frame.width;
+    changed.insert(changed.end(), row + left, row + right);
+  }
+  return changed;
 }
 
-/// Of the entries that extend `entry`, the one by the wanted symbol, or else by the nearest colour; −1 if there is
-/// none.
-int GifCompactor::choose(int entry, int wanted, std::size_t pixel, const std::uint8_t* color, int most_error) const {
-  int best = -1;
-  for (int child = dictionary_.first_child(entry); child >= 0; child = dictionary_.next_sibling(child)) {
-    const int symbol = dictionary_.symbol(child);
-    if (symbol == wanted) return child;
-    if (most_error == 0) continue;
-    const bool stays = symbol == transparent_;
-    if (shown_.empty() ? stays : !stays && symbol == shown_[pixel]) continue;  // the encoder writes neither
-    const int error = color_error(palette_.colors[stays ? shown_[pixel] : symbol], color);
-    if (error > most_error || (best >= 0 && error == most_error)) continue;
-    best = child;
-    most_error = error;
+/// Of showing a symbol in place of a pixel's own colour; above what is allowed if the encoder would not write it.
+int GifCompactor::error(const Pixel& pixel, int symbol) const {
+  if (symbol == pixel.symbol(transparent_)) return 0;
+  if (pixel.most_error == 0 || symbol == pixel.shown) return pixel.most_error + 1;
+  if (symbol == transparent_ && pixel.shown < 0) return pixel.most_error + 1;
+  return color_error(palette_.colors[symbol == transparent_ ? pixel.shown : symbol], pixel.color);
+}
+
+/// Goes on from a match of the first pixels, as far as there are entries for the next ones.
+void GifCompactor::find_longest(std::span<const Pixel> pixels, const Match& match, Match& best) const {
+  if (match.length > best.length || (match.length == best.length && match.error < best.error)) best = match;
+  if (static_cast<std::size_t>(match.length) == pixels.size()) return;
+  const Pixel& pixel = pixels[match.length];
+  for (int e = dictionary_.first_child(match.entry); e >= 0; e = dictionary_.next_sibling(e)) {
+    const int added = error(pixel, dictionary_.symbol(e));
+    if (added <= pixel.most_error) find_longest(pixels, {e, match.length + 1, match.error + added}, best);
   }
-  return best;
 }
 
 void GifCompactor::compact(AVFrame& frame, const Image& source, int tolerance) {
-  const Box box = keep_what_stays(frame, source);
+  const std::vector<Pixel> pixels = changed_pixels(frame, source, tolerance);
   dictionary_.clear();
-  int entry = -1;
-  for (int y = box.top; y < box.bottom; ++y) {
-    std::uint8_t* row = frame.data[0] + static_cast<std::ptrdiff_t>(y) * frame.linesize[0];
-    for (int x = box.left; x < box.right; ++x) {
-      const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + x;
-      const bool stays = !shown_.empty() && row[x] == shown_[pixel];
-      const int wanted = stays ? transparent_ : row[x];
-      int most_error = 0;
-      if (tolerance > 0 && !is_fixed(pixel, source)) {
-        // Where the picture is smooth, all of the tolerance would show as streaks.
-        const int allowed = std::min(tolerance, 2 + tolerance / 8 + contrast(source, x, y));
-        most_error = 9 * allowed * allowed;
-      }
-      const int next = entry < 0 ? -1 : choose(entry, wanted, pixel, source.at(x, y), most_error);
-      if (next >= 0) {
-        const int symbol = dictionary_.symbol(next);
-        row[x] = symbol == transparent_ ? shown_[pixel] : static_cast<std::uint8_t>(symbol);
-        entry = next;
-      } else {
-        if (entry >= 0) dictionary_.extend(entry, wanted);
-        entry = wanted;
-      }
+  for (std::span<const Pixel> rest = pixels; !rest.empty();) {
+    Match best;
+    find_longest(rest, {rest[0].symbol(transparent_), 1, 0}, best);
+    int entry = best.entry;
+    for (int i = best.length - 1; i > 0; --i, entry = dictionary_.parent(entry)) {
+      const int symbol = dictionary_.symbol(entry);
+      *rest[i].index = static_cast<std::uint8_t>(symbol == transparent_ ? rest[i].shown : symbol);
     }
+    rest = rest.subspan(best.length);
+    if (!rest.empty()) dictionary_.extend(best.entry, rest[0].symbol(transparent_));
   }
   shown_.clear();
   for (int y = 0; y < frame.height; ++y) {

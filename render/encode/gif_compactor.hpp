@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "render/encode/gif_palette.hpp"
@@ -38,21 +39,38 @@ class GifCompactor {
     void extend(int entry, int symbol);
     [[nodiscard]] int first_child(int entry) const { return first_child_[entry]; }
     [[nodiscard]] int next_sibling(int entry) const { return next_sibling_[entry]; }
+    [[nodiscard]] int parent(int entry) const { return parent_[entry]; }
     [[nodiscard]] int symbol(int entry) const { return symbol_[entry]; }
 
    private:
     static constexpr int capacity = 4096;
-    std::array<std::int16_t, capacity> first_child_, next_sibling_;
+    std::array<std::int16_t, capacity> first_child_, next_sibling_, parent_;
     std::array<std::uint8_t, capacity> symbol_;
     int size_ = 0;
   };
-  struct Box {
-    int left, top, right, bottom;  // the last two are outside
+
+  /// What to compress of one pixel.
+  struct Pixel {
+    std::uint8_t* index;        // in the frame
+    const std::uint8_t* color;  // wanted
+    int shown;                  // its index in the frame before; -1 in the first frame
+    int most_error;             // that is allowed
+
+    /// What the encoder writes for an index: where nothing changes, the transparent one.
+    [[nodiscard]] int symbol(int transparent) const { return *index == shown ? transparent : *index; }
   };
 
-  Box keep_what_stays(AVFrame& frame, const Image& source) const;
-  int choose(int entry, int wanted, std::size_t pixel, const std::uint8_t* color, int most_error) const;
-  [[nodiscard]] bool is_fixed(std::size_t pixel, const Image& source) const;
+  /// A way through the dictionary that pixels can take.
+  struct Match {
+    int entry = 0;
+    int length = 0;
+    std::int64_t error = 0;
+  };
+
+  std::vector<Pixel> changed_pixels(AVFrame& frame, const Image& source, int tolerance);
+  [[nodiscard]] bool is_exact(const std::uint8_t* color) const;
+  [[nodiscard]] int error(const Pixel& pixel, int symbol) const;
+  void find_longest(std::span<const Pixel> pixels, const Match& match, Match& best) const;
 
   GifPalette palette_;
   int transparent_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 
 #include "core/error.hpp"
@@ -11,6 +12,7 @@ namespace drape {
 namespace {
 
 constexpr std::uint32_t opaque = 0xff000000;
+constexpr int most_smooth_contrast = 6;
 
 std::uint32_t* row(const libav::Frame& frame, int y) {
   return reinterpret_cast<std::uint32_t*>(frame->data[0] + static_cast<std::ptrdiff_t>(y) * frame->linesize[0]);
@@ -32,7 +34,19 @@ int bayer(int x, int y) {
   return value;  // 0…63
 }
 
+int brightness(const std::uint8_t* color) { return (2 * color[0] + 5 * color[1] + color[2]) / 8; }
+
 }  // namespace
+
+int local_contrast(const Image& image, int x, int y) {
+  const int here = brightness(image.at(x, y));
+  int most = 0;
+  if (x > 0) most = std::max(most, std::abs(brightness(image.at(x - 1, y)) - here));
+  if (y > 0) most = std::max(most, std::abs(brightness(image.at(x, y - 1)) - here));
+  if (x + 1 < image.width) most = std::max(most, std::abs(brightness(image.at(x + 1, y)) - here));
+  if (y + 1 < image.height) most = std::max(most, std::abs(brightness(image.at(x, y + 1)) - here));
+  return most;
+}
 
 GifPaletteBuilder::GifPaletteBuilder(int width, int height)
     : graph_(fmt::format("buffer@film=width={}:height={}:pix_fmt={}:time_base=1/100, "
@@ -96,7 +110,8 @@ libav::Frame OrderedDither::apply(const Image& image) const {
     for (int x = 0; x < image.width; ++x) {
       const std::uint8_t* pixel = image.at(x, y);
       const std::uint32_t color = rgb_number(pixel);
-      const int offset = in_palette_[color] ? 0 : offset_[y % 8][x % 8];
+      const bool smooth = local_contrast(image, x, y) <= most_smooth_contrast;
+      const int offset = in_palette_[color] || !smooth ? 0 : offset_[y % 8][x % 8];
       out[x] = opaque;
       for (int channel = 0; channel < 3; ++channel) {
         out[x] |= static_cast<std::uint32_t>(std::clamp(pixel[channel] + offset, 0, 255)) << (16 - 8 * channel);

@@ -10,6 +10,9 @@
 
 namespace drape {
 
+/// The largest step in brightness (0…255) from a pixel to its four neighbours.
+int local_contrast(const Image& image, int x, int y);
+
 /// The colours of a GIF.
 struct GifPalette {
   std::array<std::uint32_t, 256> colors{};  ///< 0xAARRGGBB: one is transparent, the others are opaque
