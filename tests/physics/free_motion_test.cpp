@@ -118,5 +118,20 @@ TEST_P(FreeMotion, IsDampedAlikeAtAnyStepLength) {
   }
 }
 
+// Semi-implicit Euler moves with the velocity that is left, the implicit methods damp the velocity they moved with.
+TEST_P(FreeMotion, IsDampedBeforeTheSemiImplicitMoveAndAfterTheImplicitOne) {
+  constexpr double h = 0.1, factor = 0.2;
+  SimulationSettings settings = setup(cloth_of(make_grid(2, 2), 1, 0.1, {}), GetParam().method, h);
+  settings.cloth.velocities.col(0).setOnes();
+  settings.effects = {effect("damping", {{"factor", factor}})};
+  Simulation simulation(settings);
+  simulation.step();
+  const double left = std::pow(factor, h);
+  const double way = GetParam().method == Method::semi_implicit ? h * left : h;
+  const Vertices moved = simulation.state().x - settings.cloth.positions;
+  EXPECT_LT((moved.col(0).array() - way).abs().maxCoeff(), 1e-14);
+  EXPECT_LT((simulation.state().v.col(0).array() - left).abs().maxCoeff(), 1e-13);
+}
+
 }  // namespace
 }  // namespace drape::test
