@@ -15,7 +15,8 @@ class Effect;
 enum class Method {
   semi_implicit,  ///< symplectic Euler: v += h·a(x), x += h·v
   implicit,       ///< implicit Euler, minimised by Newton's method
-  liu13           ///< implicit Euler, minimised by the local/global alternation of Liu et al. 2013
+  liu13,          ///< implicit Euler, minimised by the local/global alternation of Liu et al. 2013
+  quasi_newton    ///< implicit Euler, minimised by L-BFGS that starts from the matrix of Liu et al. 2013
 };
 
 /// When an iterative step is accurate enough.
@@ -30,7 +31,7 @@ struct IntegratorSettings {
   Method method = Method::liu13;
   StoppingRule stop = StoppingRule::change;
   double tolerance = 1e-3;            ///< [m] or [N], see `stop`
-  std::optional<int> max_iterations;  ///< absent: the homework's, 20 for implicit and 100 for liu13
+  std::optional<int> max_iterations;  ///< absent: the homework's 20 for implicit and 100 for liu13; 500 for quasi_newton
 };
 
 /// An effect that a scene calls for: its name in the registry, and what its table says.

@@ -57,13 +57,15 @@ class Simulation {
   [[nodiscard]] std::vector<Collider> colliders(double time) const;
 
  private:
+  /// The sum of all forces now.
+  [[nodiscard]] const Vertices& force();
   [[noreturn]] void throw_diverged() const;
   [[nodiscard]] double time_of(std::int64_t step) const { return static_cast<double>(step) * settings_.step; }
 
   SimulationSettings settings_;
   System system_;
   State state_;
-  Vertices force_;
+  Vertices constant_force_, force_;
   std::unique_ptr<Integrator> integrator_;
   SpringNetwork springs_;
 };

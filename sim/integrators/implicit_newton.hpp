@@ -11,10 +11,10 @@ class ImplicitNewton final : public ImplicitEuler {
   ImplicitNewton(const System& system, const IntegratorSettings& settings);
 
  private:
-  double iterate(Vertices& x, const Vertices& gradient) override;
+  double iterate(Point& point) override;
 
   NewtonSystem newton_;
-  Vertices direction_, trial_;
+  Vertices direction_;
 };
 
 }  // namespace drape
