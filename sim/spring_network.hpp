@@ -35,19 +35,6 @@ class SpringNetwork {
   /// product += H·vector, H the Hessian of the blocks: K on (i,i) and (j,j), −K on (i,j) and (j,i).
   void add_product(const Blocks& blocks, const Vertices& vector, Vertices& product) const;
 
-  /// Calls visit(i, j, K) for every spring of the blocks.
-  template <class Visit>
-  void for_each_block(const Blocks& blocks, Visit&& visit) const {
-    for (std::size_t s = 0; s < stiffness_.size(); ++s) {
-      const auto row = static_cast<Eigen::Index>(s);
-      const Eigen::Vector3d along = blocks.along.row(row);
-      if (stiffness_[s] != 0) {
-        visit(i_[s], j_[s],
-              Eigen::Matrix3d(along * along.transpose() + blocks.across[row] * Eigen::Matrix3d::Identity()));
-      }
-    }
-  }
-
   /// The springs as they were given, in the same order.
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
 

@@ -1,20 +1,27 @@
 #include "sim/integrators/implicit_newton.hpp"
 
+#include "sim/linear/conjugate_gradients.hpp"
+#include "sim/linear/newton_system.hpp"
+
 namespace drape {
 namespace {
 
 constexpr int default_max_iterations = 20;  // the homework's
 
+std::unique_ptr<NewtonSolver> make_solver(LinearSolver choice, const System& system, const StepObjective& objective) {
+  if (choice == LinearSolver::cholesky) return std::make_unique<NewtonSystem>(system, objective);
+  return std::make_unique<ConjugateGradients>(system, objective);
+}
+
 }  // namespace
 
 ImplicitNewton::ImplicitNewton(const System& system, const IntegratorSettings& settings)
     : ImplicitEuler(system, settings, default_max_iterations),
-      newton_(system),
+      solver_(make_solver(settings.linear_solver, system, objective())),
       direction_(system.cloth.vertex_count(), 3) {}
 
 double ImplicitNewton::iterate(Point& point) {
-  newton_.factorize(point.x);
-  newton_.solve(point.gradient, direction_);
+  solver_->solve(point.x, point.gradient, direction_);
   return descend(point, direction_, dot(point.gradient, direction_)) * norm(direction_);
 }
 

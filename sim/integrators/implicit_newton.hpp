@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/integrators/implicit_euler.hpp"
-#include "sim/linear/newton_system.hpp"
+#include "sim/linear/newton_solver.hpp"
 
 namespace drape {
 
@@ -13,7 +13,7 @@ class ImplicitNewton final : public ImplicitEuler {
  private:
   double iterate(Point& point) override;
 
-  NewtonSystem newton_;
+  std::unique_ptr<NewtonSolver> solver_;
   Vertices direction_;
 };
 

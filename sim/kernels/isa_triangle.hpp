@@ -44,7 +44,7 @@ template <class Row, int width, class T>
 inline void backward(const Panel& panel, const int* rows, const T* values, T* x) {
   constexpr int triangle_size = width * (width - 1) / 2;
   // Narrow panels sum in several chains, so that one addition need not wait for the one before.
-  constexpr int chains = width >= 4 ? 1 : 4;
+  constexpr int chains = width >= 4 ? 1 : width == 1 ? 4 : 2;
   const T* below = values + width + triangle_size;
   Row sums[chains][width] = {};
   int p = 0;

@@ -10,7 +10,7 @@ namespace drape {
 namespace {
 
 // A panel may store this many numbers for each entry of L in it: zeros cost less than leaving the panel.
-constexpr double tolerated_zeros = 1.3;
+constexpr double tolerated_zeros = 1.6;
 
 /// The lower triangle of A over the free vertices.
 struct Matrix {
@@ -27,8 +27,9 @@ Matrix assemble(const System& system, const FreeVertices& free) {
     const auto end = rows.begin() + starts[static_cast<std::size_t>(column) + 1];
     return matrix.values[static_cast<std::size_t>(std::lower_bound(begin, end, row) - rows.begin())];
   };
-  const double h = system.step;
-  for (int f = 0; f < free.count(); ++f) at(f, f) = system.cloth.masses[free.vertex(f)] / (h * h);
+  Eigen::VectorXd diagonal = system.cloth.masses / (system.step * system.step);
+  for (const auto& energy : system.energies) energy->add_bound(diagonal);
+  for (int f = 0; f < free.count(); ++f) at(f, f) = diagonal[free.vertex(f)];
   for (const Spring& spring : system.springs) {
     const int i = free.number(spring.i), j = free.number(spring.j);
     if (i >= 0) at(i, i) += spring.stiffness;

@@ -13,9 +13,9 @@ namespace drape {
 enum class Precision { automatic, single_precision, double_precision };
 
 /// A⁻¹ for the constant matrix of Liu et al. 2013 (their M + h²L, divided by h²):
-///   A = M/h² + Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ,
-/// over the free vertices; the same n×n matrix for x, y and z. Springs' Hessians never exceed it, so x − A⁻¹∇g(x) is
-/// the local/global step, and it never raises g.
+///   A = M/h² + Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ + the bounds of the system's other energies,
+/// over the free vertices; the same n×n matrix for x, y and z. No Hessian of g exceeds it, so x − A⁻¹∇g(x) is the
+/// local/global step, and it never raises g.
 ///
 /// The factor is CHOLMOD's, repacked into panels of neighbouring columns; the three right-hand sides are solved side by
 /// side in one pass over it.
