@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "sim/effects/effect.hpp"
+#include "sim/stability.hpp"
 
 namespace drape {
 namespace {
@@ -14,6 +15,22 @@ System make_system(const SimulationSettings& settings) {
   System system(settings.cloth, settings.step);
   for (const ActiveEffect& active : settings.effects) active.effect->install(system);
   return system;
+}
+
+/// Makes the integrator, unless the motion is known beforehand to be unstable.
+std::unique_ptr<Integrator> make_stable_integrator(const SimulationSettings& settings, const System& system) {
+  const IntegratorSettings& integrator = settings.integrator;
+  if (integrator.method == Method::semi_implicit && !integrator.allow_unstable) {
+    const double largest = safe_step(system);
+    if (settings.step > largest) {
+      throw UsageError(
+          fmt::format("[time] step = {:g} s is too large for semi-implicit Euler: with these springs and masses it is "
+                      "stable up to {:.4g} s; take a smaller step or an implicit method, or set [integrator] "
+                      "allow_unstable = true to run it nevertheless",
+                      settings.step, largest));
+    }
+  }
+  return make_integrator(integrator, system);
 }
 
 State initial_state(const Cloth& cloth) {
@@ -37,7 +54,7 @@ Simulation::Simulation(SimulationSettings settings)
       state_(initial_state(settings_.cloth)),
       constant_force_(Vertices::Zero(settings_.cloth.vertex_count(), 3)),
       force_(constant_force_),
-      integrator_(make_integrator(settings_.integrator, system_)),
+      integrator_(make_stable_integrator(settings_, system_)),
       springs_(system_.springs) {
   for (const auto& force : system_.forces) {
     if (force->constant()) force->add(state_, 0, constant_force_);

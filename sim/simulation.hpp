@@ -30,6 +30,8 @@ class DivergedError : public Error {
 /// the same bits.
 class Simulation {
  public:
+  /// @throws UsageError if the step is larger than semi-implicit Euler's safe one, see safe_step(), or a matrix of the
+  ///         integrator would not fit into memory
   /// @throws std::domain_error if a matrix of the integrator cannot be factored to working precision
   explicit Simulation(SimulationSettings settings);
   ~Simulation();
