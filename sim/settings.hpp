@@ -18,7 +18,8 @@ class Effect;
 enum class Method {
   semi_implicit,  ///< symplectic Euler: v += h·a(x), x += h·v
   implicit,       ///< implicit Euler, minimised by Newton's method
-  liu13           ///< implicit Euler, minimised by the local/global alternation of Liu et al. 2013
+  liu13,          ///< implicit Euler, minimised by the local/global alternation of Liu et al. 2013
+  quasi_newton    ///< implicit Euler, minimised by L-BFGS that starts from the matrix of Liu et al. 2013
 };
 
 /// The methods as scenes write them, in the order of the enumeration.
@@ -33,12 +34,21 @@ enum class StoppingRule {
   gradient  ///< ‖∇g‖, the 2-norm of the forces out of balance on all unknowns together, is below the tolerance [N]
 };
 
+/// How Newton's equations are solved.
+enum class LinearSolver {
+  automatic,           ///< conjugate gradients, but Cholesky for small stiff cloth
+  cholesky,            ///< a sparse direct factor
+  conjugate_gradients  ///< preconditioned with Liu13's matrix
+};
+
 /// The scene's [integrator] table. Keys that a method does not use are ignored by it.
 struct IntegratorSettings {
   Method method = Method::liu13;
   StoppingRule stop = StoppingRule::change;
   double tolerance = 1e-3;            ///< [m] or [N], see `stop`
-  std::optional<int> max_iterations;  ///< absent: the homework's, 20 for implicit and 100 for liu13
+  std::optional<int> max_iterations;  ///< absent: the homework's 20 for implicit and 100 for liu13; 500 for quasi_newton
+  LinearSolver linear_solver = LinearSolver::automatic;  ///< of the implicit method
+  bool allow_unstable = false;  ///< let semi-implicit Euler run beyond its largest safe step, see safe_step()
 };
 
 /// An effect that a scene calls for: its name in the registry, and what its table says.

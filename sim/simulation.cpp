@@ -1,10 +1,12 @@
 #include "sim/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "sim/effects/effect.hpp"
+#include "sim/stability.hpp"
 
 namespace drape {
 namespace {
@@ -13,6 +15,22 @@ System make_system(const SimulationSettings& settings) {
   System system(settings.cloth, settings.step);
   for (const ActiveEffect& active : settings.effects) active.effect->install(system);
   return system;
+}
+
+/// Makes the integrator, unless the motion is known beforehand to be unstable.
+std::unique_ptr<Integrator> make_stable_integrator(const SimulationSettings& settings, const System& system) {
+  const IntegratorSettings& integrator = settings.integrator;
+  if (integrator.method == Method::semi_implicit && !integrator.allow_unstable) {
+    const double largest = safe_step(system);
+    if (settings.step > largest) {
+      throw UsageError(
+          fmt::format("[time] step = {:g} s is too large for semi-implicit Euler: with these springs and masses it is "
+                      "stable up to {:.4g} s; take a smaller step or an implicit method, or set [integrator] "
+                      "allow_unstable = true to run it nevertheless",
+                      settings.step, largest));
+    }
+  }
+  return make_integrator(integrator, system);
 }
 
 State initial_state(const Cloth& cloth) {
@@ -34,20 +52,34 @@ Simulation::Simulation(SimulationSettings settings)
     : settings_(std::move(settings)),
       system_(make_system(settings_)),
       state_(initial_state(settings_.cloth)),
-      force_(settings_.cloth.vertex_count(), 3),
-      integrator_(make_integrator(settings_.integrator, system_)),
-      springs_(system_.springs) {}
+      constant_force_(Vertices::Zero(settings_.cloth.vertex_count(), 3)),
+      force_(constant_force_),
+      integrator_(make_stable_integrator(settings_, system_)),
+      springs_(system_.springs) {
+  for (const auto& force : system_.forces) {
+    if (force->constant()) force->add(state_, 0, constant_force_);
+  }
+}
 
 Simulation::~Simulation() = default;
 
 StepReport Simulation::step() {
-  force_.setZero();
-  for (const auto& force : system_.forces) force->add(state_, time(), force_);
-  const StepReport report = integrator_->advance(state_, force_);
+  const StepReport report = integrator_->advance(state_, force());
   ++state_.step;
-  // A sum is finite only if every term is, or if it overflows, which is no better.
-  if (!std::isfinite(state_.x.sum() + state_.v.sum())) throw_diverged();
+  // What is not finite makes the sum of its squares so, and any velocity that is not moves its vertex there.
+  if (!std::isfinite(norm(state_.x))) throw_diverged();
   return report;
+}
+
+const Vertices& Simulation::force() {
+  if (std::all_of(system_.forces.begin(), system_.forces.end(), [](const auto& f) { return f->constant(); })) {
+    return constant_force_;
+  }
+  force_ = constant_force_;
+  for (const auto& force : system_.forces) {
+    if (!force->constant()) force->add(state_, time(), force_);
+  }
+  return force_;
 }
 
 void Simulation::restore(const State& state) { state_ = state; }

@@ -30,6 +30,8 @@ class DivergedError : public Error {
 /// the same bits.
 class Simulation {
  public:
+  /// @throws UsageError if the step is larger than semi-implicit Euler's safe one, see safe_step(), or a matrix of the
+  ///         integrator would not fit into memory
   /// @throws std::domain_error if a matrix of the integrator cannot be factored to working precision
   explicit Simulation(SimulationSettings settings);
   ~Simulation();
@@ -57,13 +59,15 @@ class Simulation {
   [[nodiscard]] std::vector<Collider> colliders(double time) const;
 
  private:
+  /// The sum of all forces now.
+  [[nodiscard]] const Vertices& force();
   [[noreturn]] void throw_diverged() const;
   [[nodiscard]] double time_of(std::int64_t step) const { return static_cast<double>(step) * settings_.step; }
 
   SimulationSettings settings_;
   System system_;
   State state_;
-  Vertices force_;
+  Vertices constant_force_, force_;
   std::unique_ptr<Integrator> integrator_;
   SpringNetwork springs_;
 };

@@ -97,11 +97,8 @@ SpringList SpringNetwork::list(const Block& b) const {
 }
 
 double SpringNetwork::energy(const Vertices& x) const {
-  const Kernels& k = kernels();
-  double total = 0;
-  for (const Block& b : blocks_)
-    total += b.is_run ? k.run_energy(run(b), columns(x)) : k.list_energy(list(b), columns(x));
-  return total;
+  Vertices ignored = Vertices::Zero(x.rows(), 3);
+  return add_value_gradient(x, ignored);
 }
 
 void SpringNetwork::add_gradient(const Vertices& x, Vertices& gradient) const {
@@ -111,6 +108,42 @@ void SpringNetwork::add_gradient(const Vertices& x, Vertices& gradient) const {
       k.add_run_gradient(run(b), columns(x), columns(gradient));
     } else {
       k.add_list_gradient(list(b), columns(x), columns(gradient));
+    }
+  }
+}
+
+double SpringNetwork::add_value_gradient(const Vertices& x, Vertices& gradient) const {
+  const Kernels& k = kernels();
+  double total = 0;
+  for (const Block& b : blocks_) {
+    total += b.is_run ? k.add_run_value_gradient(run(b), columns(x), columns(gradient))
+                      : k.add_list_value_gradient(list(b), columns(x), columns(gradient));
+  }
+  return total;
+}
+
+void SpringNetwork::compute_blocks(const Vertices& x, Blocks& blocks) const {
+  const Kernels& k = kernels();
+  blocks.across.resize(stored());
+  blocks.along.resize(stored(), 3);
+  for (const Block& b : blocks_) {
+    const SpringBlocks kept{blocks.across.data() + b.begin, columns(blocks.along, b.begin)};
+    if (b.is_run) {
+      k.run_blocks(run(b), columns(x), kept);
+    } else {
+      k.list_blocks(list(b), columns(x), kept);
+    }
+  }
+}
+
+void SpringNetwork::add_product(const Blocks& blocks, const Vertices& vector, Vertices& product) const {
+  const Kernels& k = kernels();
+  for (const Block& b : blocks_) {
+    const ConstSpringBlocks kept{blocks.across.data() + b.begin, columns(blocks.along, b.begin)};
+    if (b.is_run) {
+      k.add_run_product(run(b), kept, columns(vector), columns(product));
+    } else {
+      k.add_list_product(list(b), kept, columns(vector), columns(product));
     }
   }
 }

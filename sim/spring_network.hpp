@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "sim/cloth.hpp"
-#include "sim/kernels/kernels.hpp"
+#include "sim/kernels/vertices.hpp"
 
 namespace drape {
 
@@ -20,6 +20,20 @@ class SpringNetwork {
 
   /// gradient += ∇E(x), n×3 [N]. A spring of zero length pulls nowhere.
   void add_gradient(const Vertices& x, Vertices& gradient) const;
+  /// The same in one pass with E(x) [J], which it returns.
+  double add_value_gradient(const Vertices& x, Vertices& gradient) const;
+
+  /// The springs' Hessian with its negative eigenvalues left out, one symmetric 3×3 block for each spring, d = xᵢ − xⱼ:
+  ///   K = k max(0, 1 − L/‖d‖) I + k min(1, L/‖d‖) x̂x̂ᵀ = across·I + along·alongᵀ,
+  /// which is the exact Hessian where the spring is stretched and k x̂x̂ᵀ where it is compressed.
+  struct Blocks {
+    Eigen::VectorXd across;  ///< one for each spring as it is laid out here [N/m]
+    Vertices along;          ///< likewise [√(N/m)]
+  };
+  void compute_blocks(const Vertices& x, Blocks& blocks) const;
+
+  /// product += H·vector, H the Hessian of the blocks: K on (i,i) and (j,j), −K on (i,j) and (j,i).
+  void add_product(const Blocks& blocks, const Vertices& vector, Vertices& product) const;
 
   /// The springs as they were given, in the same order.
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
@@ -35,6 +49,7 @@ class SpringNetwork {
   void add_run(const std::vector<Spring>& run);
   void add_lists(std::vector<Spring> rest);
   void append(const Spring& spring);
+  [[nodiscard]] Eigen::Index stored() const { return static_cast<Eigen::Index>(stiffness_.size()); }
   [[nodiscard]] SpringRun run(const Block& block) const;
   [[nodiscard]] SpringList list(const Block& block) const;
 
@@ -43,9 +58,5 @@ class SpringNetwork {
   std::vector<int> i_, j_;
   std::vector<double> stiffness_, rest_length_;
 };
-
-/// The columns of n×3 numbers, as the kernels take them.
-inline Columns<const double> columns(const Vertices& v) { return {v.col(0).data(), v.col(1).data(), v.col(2).data()}; }
-inline Columns<double> columns(Vertices& v) { return {v.col(0).data(), v.col(1).data(), v.col(2).data()}; }
 
 }  // namespace drape

@@ -6,7 +6,8 @@
 namespace drape {
 
 /// What a step of implicit Euler minimises over the free vertices (Liu et al. 2013, eq. 5, divided by h²):
-///   g(x) = 1/(2h²) ‖x − y‖²_M + E(x),   y = xₙ + h vₙ + h² M⁻¹ f.
+///   g(x) = 1/(2h²) ‖x − y‖²_M + E(x),   y = xₙ + h vₙ + h² M⁻¹ f,
+/// with E the energy of the springs and of everything else in the system that has one.
 /// Pinned vertices keep their place: y and every gradient say so, so that plain vector arithmetic never moves them.
 class StepObjective {
  public:
@@ -16,22 +17,21 @@ class StepObjective {
   /// @param force evaluated at the start of the step, n×3 [N]
   void begin(const State& state, const Vertices& force);
 
-  /// Where the cloth would go without its springs, n×3 [m]; pins stay at xₙ.
+  /// Where the cloth would go without its energies, n×3 [m]; pins stay at xₙ.
   [[nodiscard]] const Vertices& y() const { return y_; }
 
-  /// g(x) [J].
-  [[nodiscard]] double value(const Vertices& x) const;
+  /// Computes gradient = ∇g(x), n×3 and zero on pins [N], and returns g(x) [J], in one pass.
+  double evaluate(const Vertices& x, Vertices& gradient) const;
 
-  /// The largest error that rounding can be expected to make in value(x): a multiple of the sum of its terms'
+  /// The largest error that rounding can be expected to make in a value of g: a multiple of the sum of its terms'
   /// magnitudes [J].
   [[nodiscard]] static double rounding(double value);
-
-  /// gradient = ∇g(x), n×3, zero on pins [N].
-  void gradient(const Vertices& x, Vertices& gradient) const;
 
   [[nodiscard]] const SpringNetwork& springs() const { return springs_; }
   /// m/h² of every vertex [N/m].
   [[nodiscard]] const Eigen::VectorXd& inertia() const { return inertia_; }
+  /// The time at the end of the step [s].
+  [[nodiscard]] double time() const { return time_; }
 
  private:
   const System& system_;
@@ -39,6 +39,7 @@ class StepObjective {
   Eigen::VectorXd inertia_;
   Eigen::VectorXd push_;  // h²/m, 0 on pins [m/N]
   Vertices y_;
+  double time_ = 0;
 };
 
 }  // namespace drape

@@ -19,8 +19,24 @@ struct State {
 /// A force that is evaluated once, at the start of a step.
 struct Force {
   virtual ~Force() = default;
+  /// Whether it is the same at every time and in every state.
+  [[nodiscard]] virtual bool constant() const { return false; }
   /// Adds the force on every vertex [N] at the given time [s].
   virtual void add(const State& state, double time, Vertices& force) const = 0;
+};
+
+/// Symmetric 3×3 blocks on the diagonal of a Hessian, one for each vertex: xx, xy, xz, yy, yz, zz. n×6 [N/m]
+using DiagonalBlocks = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+
+/// An energy that implicit methods solve for, E(x) ≥ 0, of every vertex by itself (what couples vertices is a spring).
+struct Energy {
+  virtual ~Energy() = default;
+  /// gradient += ∇E(x), n×3 [N]; returns E(x) [J].
+  virtual double add_gradient(const Vertices& x, double time, Vertices& gradient) const = 0;
+  /// Adds a positive semi-definite Hessian of E, the exact one or what is left of it without its negative eigenvalues.
+  virtual void add_hessian(const Vertices& x, double time, DiagonalBlocks& blocks) const = 0;
+  /// Adds an upper bound of the Hessian's eigenvalues at every vertex, whatever its place and the time. n [N/m]
+  virtual void add_bound(Eigen::VectorXd& bound) const = 0;
 };
 
 /// A change of the velocity at the end of a step.
@@ -45,6 +61,7 @@ struct System {
 
   std::vector<Spring> springs;  ///< the cloth's and those that effects add
   std::vector<std::unique_ptr<Force>> forces;
+  std::vector<std::unique_ptr<Energy>> energies;
   std::vector<std::unique_ptr<Correction>> corrections;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;
 

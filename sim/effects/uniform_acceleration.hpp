@@ -10,6 +10,7 @@ struct UniformAcceleration final : Force {
   const Eigen::VectorXd& masses;  ///< [kg], of the system's cloth
 
   UniformAcceleration(const Eigen::Vector3d& a, const Eigen::VectorXd& m) : acceleration(a), masses(m) {}
+  [[nodiscard]] bool constant() const override { return true; }
   void add(const State&, double, Vertices& force) const override {
     for (int axis = 0; axis < 3; ++axis) force.col(axis) += acceleration[axis] * masses;
   }

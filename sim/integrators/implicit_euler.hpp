@@ -13,11 +13,25 @@ class ImplicitEuler : public Integrator {
   [[nodiscard]] double residual() final;
 
  protected:
+  /// Where the minimisation is, with what g is there.
+  struct Point {
+    Vertices x;         ///< n×3 [m]
+    Vertices gradient;  ///< ∇g(x), n×3, zero on pins [N]
+    double value = 0;   ///< g(x) [J]
+  };
+
   ImplicitEuler(const System& system, const IntegratorSettings& settings, int default_max_iterations);
 
-  /// One iteration: moves x from a point where g has this gradient, and returns how far [m], the 2-norm over all
-  /// unknowns.
-  virtual double iterate(Vertices& x, const Vertices& gradient) = 0;
+  /// Begins the minimisation of another step.
+  virtual void start() {}
+  /// One iteration: moves the point, and returns how far [m], the 2-norm over all unknowns.
+  virtual double iterate(Point& point) = 0;
+
+  /// Tries x = point.x − length·direction with lengths 1, 1/2, 1/4 … until g decreases enough (Armijo's condition), and
+  /// moves the point there, so that g never rises beyond rounding.
+  /// @param slope ∇g·direction, positive [J]
+  /// @return the length, or 0 where none was found: the point is as low as it can be computed
+  double descend(Point& point, const Vertices& direction, double slope);
 
   [[nodiscard]] const StepObjective& objective() const { return objective_; }
 
@@ -29,7 +43,7 @@ class ImplicitEuler : public Integrator {
   double tolerance_;
   int max_iterations_;
   StepObjective objective_;
-  Vertices x_, gradient_;
+  Point point_, trial_;
 };
 
 }  // namespace drape

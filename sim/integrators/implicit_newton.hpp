@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/integrators/implicit_euler.hpp"
-#include "sim/linear/newton_system.hpp"
+#include "sim/linear/newton_solver.hpp"
 
 namespace drape {
 
@@ -11,10 +11,10 @@ class ImplicitNewton final : public ImplicitEuler {
   ImplicitNewton(const System& system, const IntegratorSettings& settings);
 
  private:
-  double iterate(Vertices& x, const Vertices& gradient) override;
+  double iterate(Point& point) override;
 
-  NewtonSystem newton_;
-  Vertices direction_, trial_;
+  std::unique_ptr<NewtonSolver> solver_;
+  Vertices direction_;
 };
 
 }  // namespace drape

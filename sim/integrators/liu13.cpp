@@ -12,10 +12,11 @@ Liu13::Liu13(const System& system, const IntegratorSettings& settings)
       factor_(system, Precision::automatic),
       change_(Vertices::Zero(system.cloth.vertex_count(), 3)) {}
 
-double Liu13::iterate(Vertices& x, const Vertices& gradient) {
-  factor_.solve(gradient, change_);
-  x -= change_;
-  return change_.norm();
+double Liu13::iterate(Point& point) {
+  factor_.solve(point.gradient, change_);
+  kernels().add_multiple(static_cast<std::size_t>(point.x.size()), -1.0, change_.data(), point.x.data());
+  point.value = objective().evaluate(point.x, point.gradient);
+  return norm(change_);
 }
 
 }  // namespace drape

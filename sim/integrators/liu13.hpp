@@ -13,7 +13,7 @@ class Liu13 final : public ImplicitEuler {
   Liu13(const System& system, const IntegratorSettings& settings);
 
  private:
-  double iterate(Vertices& x, const Vertices& gradient) override;
+  double iterate(Point& point) override;
 
   ConstantFactor factor_;
   Vertices change_;

@@ -5,24 +5,25 @@ namespace drape {
 SemiImplicitEuler::SemiImplicitEuler(const System& system)
     : system_(system),
       springs_(system.springs),
-      push_(system.step * system.cloth.masses.cwiseInverse()),
-      gradient_(system.cloth.vertex_count(), 3) {
-  for (const int pin : system.cloth.pins) push_[pin] = 0;
-  pull_ = -push_;
+      pull_(-system.step * system.cloth.masses.cwiseInverse()),
+      gradient_(Vertices::Zero(system.cloth.vertex_count(), 3)) {
+  for (const int pin : system.cloth.pins) pull_[pin] = 0;
 }
 
 StepReport SemiImplicitEuler::advance(State& state, const Vertices& force) {
   const Kernels& k = kernels();
   const auto count = static_cast<std::size_t>(state.x.rows());
-  gradient_.setZero();
   springs_.add_gradient(state.x, gradient_);
+  // Without corrections both updates are one pass.
+  const double drift = system_.corrections.empty() ? system_.step : 0;
   for (int axis = 0; axis < 3; ++axis) {
-    double* v = state.v.col(axis).data();
-    k.accelerate(count, push_.data(), force.col(axis).data(), v);
-    k.accelerate(count, pull_.data(), gradient_.col(axis).data(), v);
+    k.kick_and_drift(count, pull_.data(), force.col(axis).data(), drift, gradient_.col(axis).data(),
+                     state.v.col(axis).data(), state.x.col(axis).data());
   }
-  system_.correct(state);
-  k.drift(3 * count, system_.step, state.v.data(), state.x.data());
+  if (drift == 0) {
+    system_.correct(state);
+    k.add_multiple(3 * count, system_.step, state.v.data(), state.x.data());
+  }
   return {};
 }
 

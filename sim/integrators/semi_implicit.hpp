@@ -14,9 +14,8 @@ class SemiImplicitEuler final : public Integrator {
  private:
   const System& system_;
   SpringNetwork springs_;
-  Eigen::VectorXd push_;  // h/m of each vertex, 0 on pins [s/kg]
-  Eigen::VectorXd pull_;  // −h/m, the factor of a gradient
-  Vertices gradient_;
+  Eigen::VectorXd pull_;  // −h/m of each vertex, 0 on pins [s/kg]
+  Vertices gradient_;     // of the springs; zero between steps [N]
 };
 
 }  // namespace drape

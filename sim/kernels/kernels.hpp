@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -34,37 +35,75 @@ struct SpringList {
   const double* rest_length;  ///< [m]
 };
 
-/// A lower-triangular matrix by columns, its diagonal apart and inverted.
+/// The springs' Hessian blocks, one entry per spring: K = across·I + along·alongᵀ.
+template <class T>
+struct SpringBlocksOf {
+  T* across;         ///< [N/m]
+  Columns<T> along;  ///< [√(N/m)]
+};
+using SpringBlocks = SpringBlocksOf<double>;
+using ConstSpringBlocks = SpringBlocksOf<const double>;
+
+/// The widest panel of a packed triangle: its rows' unknowns stay in registers.
+inline constexpr int panel_width = 8;
+
+/// Neighbouring columns of a packed triangle that share the rows below them.
+struct Panel {
+  int first, width;  ///< columns first … first+width−1
+  int row_count;     ///< rows below the last of them
+};
+
+/// Numbers that a packed triangle stores for a panel.
+constexpr std::size_t panel_size(const Panel& panel) {
+  const auto width = static_cast<std::size_t>(panel.width);
+  return width * (width + 1) / 2 + width * static_cast<std::size_t>(panel.row_count);
+}
+
+/// A lower-triangular matrix as panels in the order of their columns. The values of a panel follow each other as the
+/// solver reads them: the inverted diagonal, the rest of the dense triangle by rows, then `width` values for each row
+/// below.
 template <class T>
 struct PackedTriangle {
-  int size;           ///< n
-  const int* starts;  ///< n+1, of each column in rows and values
-  const int* rows;    ///< below the diagonal
-  const T* values;
-  const T* inverse_diagonal;  ///< n
+  const Panel* panels;
+  int panel_count;
+  const int* rows;  ///< of all panels, one after another
+  const T* values;  ///< of all panels, one after another
 };
 
 /// The hot loops, compiled once for each instruction set. Every version gives the same bits: the same operations on
-/// each element, sums in the same order, no fused multiply-add.
+/// each element, sums in the same order, no fused multiply-add. Sums over many numbers are taken in eight interleaved
+/// lanes.
 struct Kernels {
   std::string_view name;  ///< "sse2", "avx2" or "avx512"
   int (*supported)();     ///< whether this processor can run them
 
-  /// gradient += ∇E of the springs, E = Σ k/2 (‖x_i − x_j‖ − L)².  [N]
+  /// gradient += ∇E of the springs, E = Σ k/2 (‖x_i − x_j‖ − L)² [N]. The `value` versions return E [J].
   void (*add_run_gradient)(const SpringRun&, Columns<const double> positions, Columns<double> gradient);
   void (*add_list_gradient)(const SpringList&, Columns<const double> positions, Columns<double> gradient);
+  double (*add_run_value_gradient)(const SpringRun&, Columns<const double> positions, Columns<double> gradient);
+  double (*add_list_value_gradient)(const SpringList&, Columns<const double> positions, Columns<double> gradient);
 
-  /// E of the springs [J], summed in eight interleaved lanes.
-  double (*run_energy)(const SpringRun&, Columns<const double> positions);
-  double (*list_energy)(const SpringList&, Columns<const double> positions);
+  /// The springs' positive semi-definite Hessian blocks at some positions, see SpringNetwork.
+  void (*run_blocks)(const SpringRun&, Columns<const double> positions, SpringBlocks);
+  void (*list_blocks)(const SpringList&, Columns<const double> positions, SpringBlocks);
+  /// product += the springs' Hessian times `vector`.
+  void (*add_run_product)(const SpringRun&, ConstSpringBlocks, Columns<const double> vector, Columns<double> product);
+  void (*add_list_product)(const SpringList&, ConstSpringBlocks, Columns<const double> vector, Columns<double> product);
 
-  /// velocity += factor[t]·force[t] for t < count.
-  void (*accelerate)(std::size_t count, const double* factor, const double* force, double* velocity);
-  /// difference = factor[t]·(a[t] − b[t]) for t < count.
-  void (*scaled_difference)(std::size_t count, const double* factor, const double* a, const double* b,
-                            double* difference);
-  /// position += h·velocity for count numbers.
-  void (*drift)(std::size_t count, double h, const double* velocity, double* position);
+  /// to += factor[t]·from[t] for t < count.
+  void (*add_scaled)(std::size_t count, const double* factor, const double* from, double* to);
+  /// to += factor·from for count numbers.
+  void (*add_multiple)(std::size_t count, double factor, const double* from, double* to);
+  /// difference = factor[t]·(a[t] − b[t]) for t < count; returns Σ (a[t] − b[t])·difference[t].
+  double (*scaled_difference)(std::size_t count, const double* factor, const double* a, const double* b,
+                              double* difference);
+  /// velocity += factor[t]·(gradient[t] − force[t]), then position += h·velocity, for t < count; clears the gradient.
+  void (*kick_and_drift)(std::size_t count, const double* factor, const double* force, double h, double* gradient,
+                         double* velocity, double* position);
+  /// results[k] = Σ vectors[k][t]·with[t] for k < many, t < count.
+  void (*dots)(std::size_t count, int many, const double* const* vectors, const double* with, double* results);
+  /// to += Σ factors[k]·vectors[k] for k < many, count numbers each.
+  void (*add_multiples)(std::size_t count, int many, const double* const* vectors, const double* factors, double* to);
 
   /// x = L⁻ᵀ L⁻¹ x for four right-hand sides, side by side in each row of x (4n numbers).
   void (*solve_single)(const PackedTriangle<float>&, float* x);

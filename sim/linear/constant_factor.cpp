@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "sim/kernels/kernels.hpp"
 #include "sim/linear/free_vertices.hpp"
+#include "sim/kernels/vertices.hpp"
 
 namespace drape {
 namespace {
+
+// A panel may store this many numbers for each entry of L in it: zeros cost less than leaving the panel.
+constexpr double tolerated_zeros = 1.6;
 
 /// The lower triangle of A over the free vertices.
 struct Matrix {
@@ -24,8 +27,9 @@ Matrix assemble(const System& system, const FreeVertices& free) {
     const auto end = rows.begin() + starts[static_cast<std::size_t>(column) + 1];
     return matrix.values[static_cast<std::size_t>(std::lower_bound(begin, end, row) - rows.begin())];
   };
-  const double h = system.step;
-  for (int f = 0; f < free.count(); ++f) at(f, f) = system.cloth.masses[free.vertex(f)] / (h * h);
+  Eigen::VectorXd diagonal = system.cloth.masses / (system.step * system.step);
+  for (const auto& energy : system.energies) energy->add_bound(diagonal);
+  for (int f = 0; f < free.count(); ++f) at(f, f) = diagonal[free.vertex(f)];
   for (const Spring& spring : system.springs) {
     const int i = free.number(spring.i), j = free.number(spring.j);
     if (i >= 0) at(i, i) += spring.stiffness;
@@ -40,7 +44,7 @@ void solve_packed(const PackedTriangle<double>& triangle, double* x) { kernels()
 
 }  // namespace
 
-ConstantFactor::ConstantFactor(const System& system, Precision precision) : vertex_count_(system.cloth.vertex_count()) {
+ConstantFactor::ConstantFactor(const System& system, Precision precision) : vertex_count_(system.cloth.vertex_count()), pins_(system.cloth.pins) {
   const FreeVertices free(system.cloth);
   if (free.count() == 0) return;
   const Matrix matrix = assemble(system, free);
@@ -49,17 +53,11 @@ ConstantFactor::ConstantFactor(const System& system, Precision precision) : vert
     throw std::domain_error("the cloth's constant matrix is not positive definite to working precision");
   }
 
+  for (int row = 0; row < free.count(); ++row) vertices_.push_back(free.vertex(factor.permutation()[row]));
   const auto columns = factor.columns();
-  const int n = free.count();
-  starts_.assign(1, 0);
-  for (int c = 0; c < n; ++c) {
-    vertices_.push_back(free.vertex(factor.permutation()[c]));
-    rows_.insert(rows_.end(), columns.rows + columns.starts[c] + 1,
-                 columns.rows + columns.starts[c] + columns.counts[c]);
-    starts_.push_back(static_cast<int>(rows_.size()));
-  }
-  if (precision != Precision::single_precision) copy(factor, double_);
-  if (precision != Precision::double_precision) copy(factor, single_);
+  find_panels(columns);
+  if (precision != Precision::single_precision) copy(columns, double_);
+  if (precision != Precision::double_precision) copy(columns, single_);
   if (precision == Precision::automatic) {
     if (single_suffices()) {
       double_ = {};
@@ -69,55 +67,86 @@ ConstantFactor::ConstantFactor(const System& system, Precision precision) : vert
   }
 }
 
+void ConstantFactor::find_panels(const SparseCholesky::Columns& columns) {
+  const int n = static_cast<int>(vertices_.size());
+  for (int first = 0; first < n;) {
+    // The next column shares the rows of this one if it is its parent in the elimination tree: the first row below.
+    Panel panel{.first = first, .width = 1, .row_count = columns.counts[first] - 1};
+    int last = first, entries = columns.counts[first];
+    while (panel.width < panel_width && columns.counts[last] > 1 && columns.rows[columns.starts[last] + 1] == last + 1) {
+      ++last;
+      entries += columns.counts[last];
+      const Panel wider{.first = first, .width = panel.width + 1, .row_count = columns.counts[last] - 1};
+      if (static_cast<double>(panel_size(wider)) > tolerated_zeros * entries) break;
+      panel = wider;
+    }
+    last = first + panel.width - 1;
+    rows_.insert(rows_.end(), columns.rows + columns.starts[last] + 1,
+                 columns.rows + columns.starts[last] + columns.counts[last]);
+    entries_ += panel_size(panel);
+    panels_.push_back(panel);
+    first += panel.width;
+  }
+}
+
 template <class T>
-void ConstantFactor::copy(const SparseCholesky& factor, Triangle<T>& triangle) const {
-  const auto columns = factor.columns();
-  const auto n = vertices_.size();
-  triangle.values.reserve(rows_.size());
-  triangle.inverse_diagonal.reserve(n);
-  triangle.scratch.assign(4 * n, T{0});
-  for (std::size_t c = 0; c < n; ++c) {
-    const double* column = columns.values + columns.starts[c];
-    triangle.inverse_diagonal.push_back(static_cast<T>(1 / column[0]));
-    for (int p = 1; p < columns.counts[c]; ++p) triangle.values.push_back(static_cast<T>(column[p]));
+void ConstantFactor::copy(const SparseCholesky::Columns& columns, Triangle<T>& triangle) const {
+  triangle.scratch.assign(4 * vertices_.size(), T{0});
+  triangle.values.assign(entries_, T{0});
+  std::vector<int> place(vertices_.size());  // of a row among those below the panel
+  const int* rows = rows_.data();
+  T* values = triangle.values.data();
+  for (const Panel& panel : panels_) {
+    T* dense = values + panel.width;
+    T* below = dense + panel.width * (panel.width - 1) / 2;
+    for (int p = 0; p < panel.row_count; ++p) place[static_cast<std::size_t>(rows[p])] = p;
+    for (int c = 0; c < panel.width; ++c) {
+      const int start = columns.starts[panel.first + c];
+      values[c] = static_cast<T>(1 / columns.values[start]);
+      for (int p = start + 1; p < start + columns.counts[panel.first + c]; ++p) {
+        const int r = columns.rows[p] - panel.first;
+        T& entry = r < panel.width ? dense[r * (r - 1) / 2 + c]
+                                   : below[place[static_cast<std::size_t>(columns.rows[p])] * panel.width + c];
+        entry = static_cast<T>(columns.values[p]);
+      }
+    }
+    rows += panel.row_count;
+    values += panel_size(panel);
   }
 }
 
 template <class T>
 void ConstantFactor::solve_with(Triangle<T>& triangle, const Vertices& b, Vertices& x) const {
+  const auto from = columns(b);
+  const auto to = columns(x);
   T* packed = triangle.scratch.data();
   for (const int vertex : vertices_) {
-    for (int axis = 0; axis < 3; ++axis) *packed++ = static_cast<T>(b(vertex, axis));
-    *packed++ = T{0};
+    packed[0] = static_cast<T>(from.x[vertex]);
+    packed[1] = static_cast<T>(from.y[vertex]);
+    packed[2] = static_cast<T>(from.z[vertex]);
+    packed += 4;
   }
-  const PackedTriangle<T> view{.size = static_cast<int>(vertices_.size()),
-                               .starts = starts_.data(),
+  const PackedTriangle<T> view{.panels = panels_.data(),
+                               .panel_count = static_cast<int>(panels_.size()),
                                .rows = rows_.data(),
-                               .values = triangle.values.data(),
-                               .inverse_diagonal = triangle.inverse_diagonal.data()};
+                               .values = triangle.values.data()};
   solve_packed(view, triangle.scratch.data());
   packed = triangle.scratch.data();
   for (const int vertex : vertices_) {
-    for (int axis = 0; axis < 3; ++axis) x(vertex, axis) = static_cast<double>(*packed++);
-    ++packed;
+    to.x[vertex] = static_cast<double>(packed[0]);
+    to.y[vertex] = static_cast<double>(packed[1]);
+    to.z[vertex] = static_cast<double>(packed[2]);
+    packed += 4;
   }
 }
 
 void ConstantFactor::solve(const Vertices& b, Vertices& x) {
-  if (static_cast<std::size_t>(vertex_count_) != vertices_.size()) x.setZero();
-  if (!single_precision()) {
+  for (const int pin : pins_) x.row(pin).setZero();
+  if (single_precision()) {
+    solve_with(single_, b, x);
+  } else {
     solve_with(double_, b, x);
-    return;
   }
-  // Scaled to its largest entry, no right-hand side leaves the range of single precision.
-  const double largest = b.cwiseAbs().maxCoeff();
-  if (!(largest > 0)) {
-    x.setZero();
-    return;
-  }
-  scaled_ = b / largest;
-  solve_with(single_, scaled_, x);
-  x *= largest;
 }
 
 bool ConstantFactor::single_suffices() {

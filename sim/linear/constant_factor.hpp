@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "sim/kernels/kernels.hpp"
 #include "sim/linear/sparse_cholesky.hpp"
 #include "sim/system.hpp"
 
@@ -12,11 +13,12 @@ namespace drape {
 enum class Precision { automatic, single_precision, double_precision };
 
 /// A⁻¹ for the constant matrix of Liu et al. 2013 (their M + h²L, divided by h²):
-///   A = M/h² + Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ,
-/// over the free vertices; the same n×n matrix for x, y and z. Springs' Hessians never exceed it, so x − A⁻¹∇g(x) is
-/// the local/global step, and it never raises g.
+///   A = M/h² + Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ + the bounds of the system's other energies,
+/// over the free vertices; the same n×n matrix for x, y and z. No Hessian of g exceeds it, so x − A⁻¹∇g(x) is the
+/// local/global step, and it never raises g.
 ///
-/// The factor is CHOLMOD's; the three right-hand sides are solved side by side in one pass over it.
+/// The factor is CHOLMOD's, repacked into panels of neighbouring columns; the three right-hand sides are solved side by
+/// side in one pass over it.
 class ConstantFactor {
  public:
   /// @param precision automatic: single, unless solving two test vectors shows that it loses more than a thousandth
@@ -26,30 +28,31 @@ class ConstantFactor {
   void solve(const Vertices& b, Vertices& x);
 
   [[nodiscard]] bool single_precision() const { return !single_.values.empty(); }
-  /// Stored entries of L, the diagonal included.
-  [[nodiscard]] std::size_t entries() const { return rows_.size() + vertices_.size(); }
+  /// Numbers stored for L, the zeros within panels included.
+  [[nodiscard]] std::size_t entries() const { return entries_; }
 
  private:
   template <class T>
   struct Triangle {
-    std::vector<T> values;            // below the diagonal, by columns
-    std::vector<T> inverse_diagonal;  // n
-    std::vector<T> scratch;           // 4n: x, y, z and nothing of each row
+    std::vector<T> values;   // see PackedTriangle
+    std::vector<T> scratch;  // 4n: x, y, z and nothing of each row
   };
 
+  void find_panels(const SparseCholesky::Columns& columns);
   template <class T>
-  void copy(const SparseCholesky& factor, Triangle<T>& triangle) const;
+  void copy(const SparseCholesky::Columns& columns, Triangle<T>& triangle) const;
   template <class T>
   void solve_with(Triangle<T>& triangle, const Vertices& b, Vertices& x) const;
   [[nodiscard]] bool single_suffices();
 
   int vertex_count_;
+  std::vector<int> pins_;
+  std::size_t entries_ = 0;
   std::vector<int> vertices_;  // the vertex of each row of L
-  std::vector<int> starts_;    // n+1, of each column in rows_
-  std::vector<int> rows_;
+  std::vector<Panel> panels_;
+  std::vector<int> rows_;  // below each panel, one panel after another
   Triangle<float> single_;
   Triangle<double> double_;
-  Vertices scaled_;
 };
 
 }  // namespace drape

@@ -58,7 +58,8 @@ Eigen::Matrix3d spring_hessian(const Spring& spring, const Vertices& x) {
 
 }  // namespace
 
-NewtonSystem::NewtonSystem(const System& system) : system_(system) {
+NewtonSystem::NewtonSystem(const System& system, const StepObjective& objective)
+    : system_(system), objective_(objective) {
   const FreeVertices free(system.cloth);
   const int n = free.count();
   places_.assign(system.springs.size(), Place{-1, -1, 0});
@@ -108,7 +109,6 @@ void NewtonSystem::add_below(int column_block, int rank, const Eigen::Matrix3d& 
 }
 
 void NewtonSystem::factorize(const Vertices& x) {
-  if (factor_.empty()) return;
   std::fill(values_.begin(), values_.end(), 0.0);
   for (Index row = 0; row < inertia_.size(); ++row) {
     add_diagonal(static_cast<int>(row), inertia_[row] * Eigen::Matrix3d::Identity());
@@ -122,14 +122,28 @@ void NewtonSystem::factorize(const Vertices& x) {
     add_diagonal(place.low, block);
     add_below(place.low, place.rank, -block);
   }
+  add_energies(x);
   if (!factor_.front().factorize(values_.data())) {
     throw std::domain_error("Newton's matrix is not positive definite to working precision");
   }
 }
 
-void NewtonSystem::solve(const Vertices& gradient, Vertices& direction) {
+void NewtonSystem::add_energies(const Vertices& x) {
+  if (system_.energies.empty()) return;
+  diagonal_.setZero(x.rows(), 6);
+  for (const auto& energy : system_.energies) energy->add_hessian(x, objective_.time(), diagonal_);
+  for (Index row = 0; row < vertices_.size(); ++row) {
+    const auto b = diagonal_.row(vertices_[row]);
+    Eigen::Matrix3d block;
+    block << b[0], b[1], b[2], b[1], b[3], b[4], b[2], b[4], b[5];
+    add_diagonal(static_cast<int>(row), block);
+  }
+}
+
+void NewtonSystem::solve(const Vertices& x, const Vertices& gradient, Vertices& direction) {
   direction.setZero();
   if (factor_.empty()) return;
+  factorize(x);
   for (Index row = 0; row < vertices_.size(); ++row) {
     for (int axis = 0; axis < 3; ++axis) right_hand_side_[3 * row + Index(axis)] = gradient(vertices_[row], axis);
   }

@@ -1,0 +1,36 @@
+#include "sim/integrators/quasi_newton.hpp"
+
+namespace drape {
+namespace {
+
+constexpr int default_max_iterations = 500;
+
+}  // namespace
+
+QuasiNewton::QuasiNewton(const System& system, const IntegratorSettings& settings)
+    : ImplicitEuler(system, settings, default_max_iterations),
+      factor_(system, Precision::automatic),
+      history_(system.cloth.vertex_count()),
+      preconditioned_(Vertices::Zero(system.cloth.vertex_count(), 3)),
+      direction_(preconditioned_) {}
+
+void QuasiNewton::start() { history_.clear(); }
+
+double QuasiNewton::iterate(Point& point) {
+  factor_.solve(point.gradient, preconditioned_);
+  history_.observe(point.gradient, preconditioned_);
+  history_.find_direction(preconditioned_, direction_);
+  double slope = dot(point.gradient, direction_);
+  if (!(slope > 0)) {
+    // Rounding has spoilt the pairs; A⁻¹∇g itself always descends.
+    history_.clear();
+    history_.observe(point.gradient, preconditioned_);
+    direction_ = preconditioned_;
+    slope = dot(point.gradient, direction_);
+  }
+  const double length = descend(point, direction_, slope);
+  history_.moved(direction_, length, slope);
+  return length * norm(direction_);
+}
+
+}  // namespace drape

@@ -1,0 +1,110 @@
+#include "sim/integrators/secant_history.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace drape {
+namespace {
+
+std::size_t index(int k) { return static_cast<std::size_t>(k); }
+
+}  // namespace
+
+SecantHistory::SecantHistory(int vertex_count) : last_preconditioned_(vertex_count, 3) {
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  for (Pair& pair : pairs_) {
+    pair.step.resize(vertex_count, 3);
+    pair.preconditioned.resize(vertex_count, 3);
+  }
+}
+
+void SecantHistory::clear() {
+  count_ = 0;
+  pending_ = false;
+}
+
+void SecantHistory::moved(const Vertices& direction, double length, double slope) {
+  pending_ = length > 0;
+  if (!pending_) return;
+  if (count_ == capacity) {
+    std::rotate(order_.begin(), order_.begin() + 1, order_.end());  // forgets the oldest
+  } else {
+    ++count_;
+  }
+  newest().step = -length * direction;
+  newest().step_gradient = -length * slope;
+}
+
+void SecantHistory::observe(const Vertices& gradient, const Vertices& preconditioned) {
+  const double before = gradient_norm_;
+  gradient_norm_ = dot(gradient, preconditioned);
+  if (pending_) {
+    Pair& pair = newest();
+    pair.preconditioned = preconditioned - last_preconditioned_;
+    // Of the gradient before the move: A⁻¹q·∇g = ∇g_new·A⁻¹∇g_old − ∇g_old·A⁻¹∇g_old.
+    pair.preconditioned_gradient = dot(gradient, last_preconditioned_) - before;
+  }
+  measure(gradient);
+  // A pair without positive curvature says nothing about a minimum nearby; g has none only in exact arithmetic.
+  if (pending_ && !(newest().step_change[slot(count_ - 1)] > 0)) --count_;
+  pending_ = false;
+  last_preconditioned_ = preconditioned;
+}
+
+void SecantHistory::measure(const Vertices& gradient) {
+  std::array<const double*, 2 * capacity> vectors{};
+  std::array<double, 2 * capacity> products{};
+  for (int k = 0; k < count_; ++k) {
+    vectors[index(2 * k)] = pair(k).step.data();
+    vectors[index(2 * k + 1)] = pair(k).preconditioned.data();
+  }
+  kernels().dots(static_cast<std::size_t>(gradient.size()), 2 * count_, vectors.data(), gradient.data(),
+                 products.data());
+  for (int k = 0; k < count_; ++k) {
+    const double step_gradient = products[index(2 * k)], preconditioned_gradient = products[index(2 * k + 1)];
+    if (pending_) {
+      // The newest q is the change of the gradient.
+      const std::size_t last = slot(count_ - 1);
+      pair(k).step_change[last] = step_gradient - pair(k).step_gradient;
+      pair(k).preconditioned_change[last] = preconditioned_gradient - pair(k).preconditioned_gradient;
+      newest().preconditioned_change[slot(k)] = pair(k).preconditioned_change[last];
+    }
+    pair(k).step_gradient = step_gradient;
+    pair(k).preconditioned_gradient = preconditioned_gradient;
+  }
+}
+
+void SecantHistory::find_direction(const Vertices& preconditioned, Vertices& direction) const {
+  direction = preconditioned;
+  if (count_ == 0) return;
+  std::array<double, capacity> alpha{}, beta{};
+  for (int k = count_ - 1; k >= 0; --k) {
+    double projection = pair(k).step_gradient;
+    for (int j = k + 1; j < count_; ++j) projection -= alpha[index(j)] * pair(k).step_change[slot(j)];
+    alpha[index(k)] = projection / pair(k).step_change[slot(k)];
+  }
+  const int last = count_ - 1;
+  const double scale = pair(last).step_change[slot(last)] / pair(last).preconditioned_change[slot(last)];
+  for (int k = 0; k < count_; ++k) {
+    double projection = pair(k).preconditioned_gradient;
+    for (int j = 0; j < count_; ++j) projection -= alpha[index(j)] * pair(k).preconditioned_change[slot(j)];
+    projection *= scale;
+    for (int j = 0; j < k; ++j) projection += (alpha[index(j)] - beta[index(j)]) * pair(j).step_change[slot(k)];
+    beta[index(k)] = projection / pair(k).step_change[slot(k)];
+  }
+
+  // H⁻¹∇g = γ(A⁻¹∇g − Σ α A⁻¹q) + Σ (α − β) s
+  std::array<const double*, 2 * capacity> vectors{};
+  std::array<double, 2 * capacity> factors{};
+  for (int k = 0; k < count_; ++k) {
+    vectors[index(2 * k)] = pair(k).step.data();
+    factors[index(2 * k)] = (alpha[index(k)] - beta[index(k)]) / scale;
+    vectors[index(2 * k + 1)] = pair(k).preconditioned.data();
+    factors[index(2 * k + 1)] = -alpha[index(k)];
+  }
+  kernels().add_multiples(static_cast<std::size_t>(direction.size()), 2 * count_, vectors.data(), factors.data(),
+                          direction.data());
+  direction *= scale;
+}
+
+}  // namespace drape

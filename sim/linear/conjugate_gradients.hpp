@@ -1,0 +1,29 @@
+#pragma once
+
+#include "sim/linear/constant_factor.hpp"
+#include "sim/linear/newton_solver.hpp"
+#include "sim/step_objective.hpp"
+
+namespace drape {
+
+/// Newton's equations by conjugate gradients, preconditioned with Liu13's factored matrix A. H never exceeds A, and falls
+/// below it by at most 1 + h²λ_max(M⁻¹L), so the iterations are few where Newton's method is stiff but not extremely so.
+/// H is never assembled: its springs' blocks are kept as vectors, and a product is one pass over them.
+class ConjugateGradients final : public NewtonSolver {
+ public:
+  ConjugateGradients(const System& system, const StepObjective& objective);
+  void solve(const Vertices& x, const Vertices& gradient, Vertices& direction) override;
+
+ private:
+  void linearise(const Vertices& x);
+  void apply(const Vertices& vector, Vertices& product) const;
+
+  const System& system_;
+  const StepObjective& objective_;
+  ConstantFactor preconditioner_;
+  SpringNetwork::Blocks blocks_;
+  DiagonalBlocks diagonal_;  // of the system's energies; empty without any
+  Vertices residual_, preconditioned_, search_, product_;
+};
+
+}  // namespace drape

@@ -1,0 +1,76 @@
+#include "sim/stability.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace drape {
+namespace {
+
+constexpr double tolerance = 1e-4;
+constexpr int max_iterations = 300;
+constexpr int check_every = 10;
+
+/// S v, S = M^-1/2 L M^-1/2 over the free vertices; `scale` is 1/√m, 0 on pins.
+void apply(const System& system, const Eigen::VectorXd& scale, const Eigen::VectorXd& v, Eigen::VectorXd& product) {
+  product.setZero();
+  for (const Spring& s : system.springs) {
+    const double pull = s.stiffness * (scale[s.i] * v[s.i] - scale[s.j] * v[s.j]);
+    product[s.i] += scale[s.i] * pull;
+    product[s.j] -= scale[s.j] * pull;
+  }
+}
+
+/// A fixed vector with something of every direction in it, of norm 1, zero on pins.
+Eigen::VectorXd starting_vector(const Eigen::VectorXd& scale) {
+  Eigen::VectorXd v(scale.size());
+  std::uint32_t random = 1;
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    random = random * 1664525U + 1013904223U;  // Numerical Recipes' generator
+    v[i] = scale[i] == 0 ? 0 : 1 + static_cast<double>(random) / 4294967296.0;
+    if (i % 2 == 1) v[i] = -v[i];
+  }
+  return v.norm() > 0 ? Eigen::VectorXd(v.normalized()) : v;
+}
+
+/// An upper bound of the largest eigenvalue of S [1/s²].
+double largest_eigenvalue(const System& system, const Eigen::VectorXd& scale) {
+  Eigen::VectorXd v = starting_vector(scale), previous = Eigen::VectorXd::Zero(v.size()), w(v.size());
+  std::vector<double> alpha, beta;
+  double bound = 0;
+  for (int k = 1; k <= max_iterations; ++k) {
+    apply(system, scale, v, w);
+    alpha.push_back(v.dot(w));
+    w -= alpha.back() * v;
+    if (!beta.empty()) w -= beta.back() * previous;
+    beta.push_back(w.norm());
+    const bool exhausted = beta.back() <= std::numeric_limits<double>::epsilon() * std::abs(alpha.front());
+    if (exhausted || k % check_every == 0) {
+      const auto diagonal = Eigen::Map<const Eigen::VectorXd>(alpha.data(), k);
+      const auto below = Eigen::Map<const Eigen::VectorXd>(beta.data(), k - 1);
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small;
+      small.computeFromTridiagonal(diagonal, below);
+      const double value = small.eigenvalues()[k - 1];
+      // The residual of the Ritz vector bounds how far the eigenvalue can be.
+      const double error = beta.back() * std::abs(small.eigenvectors()(k - 1, k - 1));
+      bound = value + error;
+      if (exhausted || error <= tolerance * value) break;
+    }
+    previous = v;
+    v = w / beta.back();
+  }
+  return bound;
+}
+
+}  // namespace
+
+double safe_step(const System& system) {
+  Eigen::VectorXd scale = system.cloth.masses.cwiseSqrt().cwiseInverse();
+  for (const int pin : system.cloth.pins) scale[pin] = 0;
+  const double largest = largest_eigenvalue(system, scale);
+  return largest > 0 ? 2 / std::sqrt(largest) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace drape
