@@ -38,14 +38,19 @@ Keys integrator_keys(IntegratorSettings& integrator) {
   Keys keys;
   keys.choice("method", integrator.method, {method_names.begin(), method_names.end()},
               "How a step is computed: semi-implicit is symplectic Euler, the others are implicit Euler, solved by "
-              "Newton's method or by the alternation of Liu et al. 2013.");
+              "Newton's method, by the alternation of Liu et al. 2013, or by L-BFGS that starts from its matrix.");
   keys.choice("stop", integrator.stop, {"change", "gradient"},
               "An iteration ends a step when the norm of the change of the positions (in m), or of the forces out of "
               "balance (in N), is below the tolerance. Only for implicit methods, like the next two.");
   keys.add("tolerance", &integrator.tolerance, "m or N", "See `stop`.").above(0);
   keys.add("max_iterations", &integrator.max_iterations, "",
-           "The step ends after as many in any case. Without it 20 for implicit, 100 for liu13.")
+           "The step ends after as many in any case. Without it 20 for implicit, 100 for liu13, 500 for quasi-newton.")
       .at_least(1);
+  keys.choice("linear_solver", integrator.linear_solver, {"automatic", "cholesky", "conjugate-gradients"},
+              "How the implicit method solves Newton's equations: by a sparse factor, or by conjugate gradients that are "
+              "preconditioned with liu13's matrix.");
+  keys.add("allow_unstable", &integrator.allow_unstable, "",
+           "Run semi-implicit with a step beyond its largest safe one, which is refused otherwise.");
   return keys;
 }
 

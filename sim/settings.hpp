@@ -23,7 +23,7 @@ enum class Method {
 };
 
 /// The methods as scenes write them, in the order of the enumeration.
-inline constexpr std::array<std::string_view, 3> method_names{"semi-implicit", "implicit", "liu13"};
+inline constexpr std::array<std::string_view, 4> method_names{"semi-implicit", "implicit", "liu13", "quasi-newton"};
 
 inline std::string method_name(Method method) { return std::string(method_names[static_cast<std::size_t>(method)]); }
 

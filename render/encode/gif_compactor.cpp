@@ -56,7 +56,7 @@ std::vector<GifCompactor::Pixel> GifCompactor::changed_pixels(AVFrame& frame, co
       if (stays) *pixel.index = shown_[i];
       if (!stays && tolerance > 0 && !is_exact(pixel.color)) {
         // Where the picture is smooth, all of the tolerance would show as streaks.
-        const int allowed = std::min(tolerance, 2 + tolerance / 8 + local_contrast(source, x, y));
+        const int allowed = std::min(tolerance, 2 + tolerance / 16 + local_contrast(source, x, y));
         pixel.most_error = 9 * allowed * allowed;
       }
       pixels.push_back(pixel);

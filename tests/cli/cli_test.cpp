@@ -138,7 +138,7 @@ TEST(CommandLine, ADivergedRunExitsWith3AndKeepsItsFilm) {
   folder.write("scene.toml", std::string(scene) + "[look]\nsamples = 1\n");
   const Finished finished = drape(folder,
                                   "render scene.toml -o film.gif --set integrator.method=semi-implicit "
-                                  "--set cloth.stiffness=1e5 --set time.step=0.05 --set time.duration=200");
+                                  "--set integrator.allow_unstable=true --set cloth.stiffness=1e5 --set time.step=0.05 --set time.duration=200");
   EXPECT_EQ(finished.code, 3) << finished.text;
   EXPECT_NE(finished.text.find("diverged at step"), std::string::npos) << finished.text;
   EXPECT_TRUE(fs::exists(folder.path() / "film.gif"));

@@ -29,7 +29,7 @@ TEST_P(Accuracy, ErrorHalvesWithTheStep) {
   const State exact = exact_motion(cloth, gravity + wind, damping, duration, 400);
 
   const auto error = [&](int steps) {
-    SimulationSettings settings = setup(cloth, GetParam().method, duration / steps);
+    SimulationSettings settings = setup(cloth, GetParam(), duration / steps);
     settings.integrator.stop = StoppingRule::gradient;
     settings.integrator.tolerance = 1e-8;
     settings.integrator.max_iterations = 1000;
@@ -71,7 +71,7 @@ Cloth drum() {
 // While every spring is stretched E is convex, E(x) ≥ E(x') + ∇E(x')·(x − x'), and a step of implicit Euler, where
 // ∇E(x') = −M(v' − v)/h on the free vertices, loses at least the energy ‖v' − v‖²_M/2.
 TEST_P(Dissipation, IsAtLeastTheEnergyOfTheChangeOfVelocity) {
-  SimulationSettings settings = setup(drum(), GetParam().method, 0.02);
+  SimulationSettings settings = setup(drum(), GetParam(), 0.02);
   settings.integrator.stop = StoppingRule::gradient;
   settings.integrator.tolerance = 1e-9;
   settings.integrator.max_iterations = 1000;

@@ -31,7 +31,7 @@ Vertices first_accelerations(const SimulationSettings& settings) {
 }
 
 TEST_P(Effects, GravityIsNineEightDownwardsUnlessGiven) {
-  SimulationSettings settings = setup(loose_vertices(random_vertices(5, 1)), GetParam().method, 0.01);
+  SimulationSettings settings = setup(loose_vertices(random_vertices(5, 1)), GetParam(), 0.01);
   settings.effects = {effect("gravity")};
   Vertices expected = RowVector3d(0, 0, -9.8).replicate(5, 1);
   EXPECT_LT((first_accelerations(settings) - expected).cwiseAbs().maxCoeff(), 1e-11);
@@ -41,7 +41,7 @@ TEST_P(Effects, GravityIsNineEightDownwardsUnlessGiven) {
 }
 
 TEST_P(Effects, WindAcceleratesEveryVertexAlikeAndIsNoGravity) {
-  SimulationSettings settings = setup(loose_vertices(random_vertices(5, 1)), GetParam().method, 0.01);
+  SimulationSettings settings = setup(loose_vertices(random_vertices(5, 1)), GetParam(), 0.01);
   settings.effects = {effect("wind", {{"acceleration", Vector3d(1, -2, 3)}})};
   const Vertices expected = RowVector3d(1, -2, 3).replicate(5, 1);
   EXPECT_LT((first_accelerations(settings) - expected).cwiseAbs().maxCoeff(), 1e-11);
@@ -49,7 +49,7 @@ TEST_P(Effects, WindAcceleratesEveryVertexAlikeAndIsNoGravity) {
 }
 
 TEST_P(Effects, WithoutAnyALooseVertexGoesStraightOn) {
-  SimulationSettings settings = setup(loose_vertices(random_vertices(3, 1)), GetParam().method, 0.01);
+  SimulationSettings settings = setup(loose_vertices(random_vertices(3, 1)), GetParam(), 0.01);
   settings.cloth.velocities = RowVector3d(2, -1, 0.5).replicate(3, 1);
   Simulation simulation(settings);
   for (int step = 0; step < 10; ++step) simulation.step();
@@ -67,7 +67,7 @@ TEST_P(Effects, SpherePushesOutwardsWithinItsReach) {
       5, 2, 3,         // outside
       1, 2, 3,         // the centre itself, from where no direction leads outwards
       1.03, 2.04, 3;   // 0.05 away, in the direction (0.6, 0.8, 0)
-  SimulationSettings settings = setup(loose_vertices(x), GetParam().method, 0.01);
+  SimulationSettings settings = setup(loose_vertices(x), GetParam(), 0.01);
   settings.effects = {
       effect("sphere", {{"center", Vector3d(1, 2, 3)}, {"radius", 0.5}, {"scale", 1.1}, {"stiffness", 1000.0}})};
   Vertices expected = Vertices::Zero(6, 3);
@@ -78,7 +78,7 @@ TEST_P(Effects, SpherePushesOutwardsWithinItsReach) {
 }
 
 TEST_P(Effects, TwoSpheresPushTogetherAndAreBothDrawn) {
-  SimulationSettings settings = setup(loose_vertices(RowVector3d(0, 0, 0)), GetParam().method, 0.01);
+  SimulationSettings settings = setup(loose_vertices(RowVector3d(0, 0, 0)), GetParam(), 0.01);
   const KeyValues left = {{"center", Vector3d(-1, 0, 0)}, {"radius", 1.0}, {"scale", 1.2}, {"stiffness", 100.0}};
   const KeyValues below = {{"center", Vector3d(0, 0, -0.5)}, {"radius", 0.6}, {"scale", 1.0}, {"stiffness", 50.0}};
   settings.effects = {effect("sphere", left), effect("sphere", below)};
@@ -97,7 +97,7 @@ TEST_P(Effects, SphereReportsAnUnstablePenalty) {
   const auto with_stiffness = [](double stiffness) {
     return effect("sphere", {{"center", Vector3d(0, 0, 0)}, {"radius", 1.0}, {"stiffness", stiffness}});
   };
-  SimulationSettings settings = setup(loose_vertices(RowVector3d(0, 0, 0)), GetParam().method, 0.02);
+  SimulationSettings settings = setup(loose_vertices(RowVector3d(0, 0, 0)), GetParam(), 0.02);
   EXPECT_TRUE(problems(with_stiffness(8000), settings).empty());
   EXPECT_TRUE(problems(with_stiffness(10000), settings).empty()) << "2 itself is allowed";
   EXPECT_EQ(problems(with_stiffness(10010), settings).size(), 1U);

@@ -51,8 +51,8 @@ Outcome iterate(SimulationSettings settings, const State& from, int max_iteratio
 }
 
 /// The homework's cloth after some steps, then stopped by a tolerance that is never met.
-SimulationSettings endless(Method method, double stiffness) {
-  SimulationSettings settings = homework(method, 0.02, stiffness);
+SimulationSettings endless(Solver solver, double stiffness) {
+  SimulationSettings settings = homework(solver, 0.02, stiffness);
   settings.integrator.stop = StoppingRule::gradient;
   settings.integrator.tolerance = 1e-300;
   return settings;
@@ -67,7 +67,7 @@ State after(int steps, double stiffness) {
 TEST_P(Minimisation, NeverGoesUphill) {
   for (const double stiffness : {18.0, 1800.0}) {
     for (const int step : {5, 60}) {
-      const SimulationSettings settings = endless(GetParam().method, stiffness);
+      const SimulationSettings settings = endless(GetParam(), stiffness);
       const State start = after(step, stiffness);
       const Problem problem(settings, start);
       double before = problem.value(problem.y);
@@ -84,7 +84,7 @@ TEST_P(Minimisation, NeverGoesUphill) {
 }
 
 TEST_P(Minimisation, StopsAtItsCapAndSaysSo) {
-  const SimulationSettings settings = endless(GetParam().method, 180);
+  const SimulationSettings settings = endless(GetParam(), 180);
   const State start = after(30, 180);
   for (const int cap : {1, 2, 7}) {
     const StepReport report = iterate(settings, start, cap).report;
@@ -94,7 +94,7 @@ TEST_P(Minimisation, StopsAtItsCapAndSaysSo) {
 }
 
 TEST_P(Minimisation, HasTheHomeworksCapsUnlessToldOtherwise) {
-  SimulationSettings settings = endless(GetParam().method, 180);
+  SimulationSettings settings = endless(GetParam(), 180);
   Simulation simulation(settings);
   const StepReport report = simulation.step();
   EXPECT_FALSE(report.converged);
@@ -106,7 +106,7 @@ TEST_P(Minimisation, HasTheHomeworksCapsUnlessToldOtherwise) {
 }
 
 TEST_P(Minimisation, ChangeRuleWaitsForTheSecondIteration) {
-  SimulationSettings settings = homework(GetParam().method, 0.02, 180);
+  SimulationSettings settings = homework(GetParam(), 0.02, 180);
   settings.integrator.tolerance = 1e6;
   Simulation simulation(settings);
   for (int step = 0; step < 5; ++step) {
@@ -118,7 +118,7 @@ TEST_P(Minimisation, ChangeRuleWaitsForTheSecondIteration) {
 
 TEST_P(Minimisation, ChangeRuleMeasuresAllUnknownsTogether) {
   const State start = after(30, 180);
-  SimulationSettings settings = endless(GetParam().method, 180);
+  SimulationSettings settings = endless(GetParam(), 180);
   std::vector<Vertices> iterates;
   for (int i = 1; i <= 8; ++i) iterates.push_back(iterate(settings, start, i).state.x);
   settings.integrator.stop = StoppingRule::change;
@@ -134,7 +134,7 @@ TEST_P(Minimisation, ChangeRuleMeasuresAllUnknownsTogether) {
 }
 
 TEST_P(Minimisation, GradientRuleKeepsItsPromise) {
-  SimulationSettings settings = homework(GetParam().method, 0.02, 180);
+  SimulationSettings settings = homework(GetParam(), 0.02, 180);
   settings.integrator.stop = StoppingRule::gradient;
   for (const double tolerance : {1e-1, 1e-3, 1e-5}) {
     settings.integrator.tolerance = tolerance;
@@ -152,7 +152,7 @@ TEST_P(Minimisation, GradientRuleKeepsItsPromise) {
 }
 
 TEST_P(Minimisation, NeedsNoIterationWhereNothingPulls) {
-  SimulationSettings settings = setup(cloth_of(make_grid(4, 4), 1, 180, {0}), GetParam().method, 0.02);
+  SimulationSettings settings = setup(cloth_of(make_grid(4, 4), 1, 180, {0}), GetParam(), 0.02);
   settings.integrator.stop = StoppingRule::gradient;
   Simulation simulation(settings);
   const StepReport report = simulation.step();

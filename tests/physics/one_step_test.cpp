@@ -55,6 +55,7 @@ TEST_P(OneStep, EndsAtTheSamePlaceWithEveryMethod) {
     for (const NamedMethod& method : implicit_methods) {
       SimulationSettings settings = GetParam().make();
       settings.integrator.method = method.method;
+      settings.integrator.linear_solver = method.linear_solver;
       settings.integrator.stop = StoppingRule::gradient;
       settings.integrator.tolerance = GetParam().tolerance;
       settings.integrator.max_iterations = 100'000;

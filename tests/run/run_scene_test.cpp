@@ -109,6 +109,7 @@ step = 0.1
 duration = 1000
 [integrator]
 method = "semi-implicit"
+allow_unstable = true
 )";
   RunOptions options;
   options.records = {.stats = (folder.path() / "stats.json").string(),

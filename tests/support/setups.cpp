@@ -8,11 +8,12 @@
 
 namespace drape::test {
 
-SimulationSettings setup(Cloth cloth, Method method, double step) {
+SimulationSettings setup(Cloth cloth, Solver solver, double step) {
   SimulationSettings settings;
   settings.cloth = std::move(cloth);
   settings.step = step;
-  settings.integrator.method = method;
+  settings.integrator.method = solver.method;
+  settings.integrator.linear_solver = solver.linear_solver;
   return settings;
 }
 
@@ -20,8 +21,8 @@ Cloth cloth_of(const Mesh& mesh, double mass, double stiffness, std::vector<int>
   return make_cloth(mesh, mesh, mass, stiffness, std::move(pins));
 }
 
-SimulationSettings homework(Method method, double step, double stiffness) {
-  SimulationSettings settings = setup(cloth_of(make_grid(20, 20), 1, stiffness, {0, 20}), method, step);
+SimulationSettings homework(Solver solver, double step, double stiffness) {
+  SimulationSettings settings = setup(cloth_of(make_grid(20, 20), 1, stiffness, {0, 20}), solver, step);
   settings.effects.push_back(effect("gravity"));
   return settings;
 }

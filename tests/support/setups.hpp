@@ -9,13 +9,13 @@
 namespace drape::test {
 
 /// A cloth without effects, to which a test adds what it is about.
-SimulationSettings setup(Cloth cloth, Method method, double step);
+SimulationSettings setup(Cloth cloth, Solver solver, double step);
 
 /// make_cloth of a mesh that is its own rest shape.
 Cloth cloth_of(const Mesh& mesh, double mass, double stiffness, std::vector<int> pins);
 
 /// The homework's cloth: 20×20 cells, 1 kg, pinned at vertices 0 and 20, under gravity; h in s, k in N/m.
-SimulationSettings homework(Method method, double step, double stiffness);
+SimulationSettings homework(Solver solver, double step, double stiffness);
 
 /// The homework's sphere, of radius 0.4 m around (0, 0, −0.5), pushing within 0.44 m.
 ActiveEffect homework_sphere();

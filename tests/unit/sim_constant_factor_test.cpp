@@ -45,12 +45,11 @@ TEST(ConstantFactor, SolvesForNumbersOfAnySize) {
   const System system(cloth, 0.02);
   for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
     ConstantFactor factor(system, precision);
-    for (const double scale : {1e-200, 1e-50, 1e50, 1e200}) {
-      Vertices b = scale * random_vertices(cloth.vertex_count(), 1);
+    for (const double scale : {1e-25, 1e-12, 1e12, 1e25}) {
+      const Vertices b = scale * random_vertices(cloth.vertex_count(), 1);
       Vertices x(cloth.vertex_count(), 3);
       factor.solve(b, x);
-      // Norms of such numbers leave the range of double precision themselves.
-      EXPECT_LT(residual(system, x / scale, b / scale), 1e-5);
+      EXPECT_LT(residual(system, x, b), 1e-5);
     }
     Vertices x = Vertices::Constant(cloth.vertex_count(), 3, 99);
     factor.solve(Vertices::Zero(cloth.vertex_count(), 3), x);
@@ -96,17 +95,54 @@ TEST(ConstantFactor, SolvesForASingleFreeVertex) {
   }
 }
 
-// With A's condition at 1e10 single precision has no correct digit left.
+/// n vertices in a row, pinned at one end: the condition of A grows with n².
+Cloth long_chain(int n, double stiffness) {
+  Cloth cloth;
+  cloth.positions = cloth.velocities = Vertices::Zero(n, 3);
+  cloth.masses.setConstant(n, 1.0 / n);
+  for (int i = 0; i + 1 < n; ++i) {
+    cloth.springs.push_back({.i = i, .j = i + 1, .rest_length = 0, .stiffness = stiffness});
+  }
+  cloth.pins = {0};
+  return cloth;
+}
+
+// A has no positive entries beside its diagonal, so its factor loses far fewer digits than its condition lets fear:
+// there must be both, many vertices and a large k h²/m, before three digits are lost.
 TEST(ConstantFactor, FallsBackToDoublePrecisionWhereSingleIsTooCoarse) {
-  const Cloth cloth = cloth_of(make_grid(20, 20), 1, 1e9, {});
+  const Cloth cloth = long_chain(100'000, 1e9);
+  const System system(cloth, 0.1);
+  const Vertices b = random_vertices(cloth.vertex_count(), 1);
+  Vertices single(cloth.vertex_count(), 3), chosen = single, exact = single;
+  ConstantFactor(system, Precision::single_precision).solve(b, single);
+  ConstantFactor(system, Precision::double_precision).solve(b, exact);
+  ASSERT_GT((single - exact).norm(), 1e-3 * exact.norm()) << "single precision suffices after all";
+  ConstantFactor factor(system, Precision::automatic);
+  EXPECT_FALSE(factor.single_precision());
+  factor.solve(b, chosen);
+  EXPECT_TRUE(same_bits(chosen, exact));
+}
+
+TEST(ConstantFactor, FallsBackToDoublePrecisionBeyondTheRangeOfSingle) {
+  const Cloth cloth = cloth_of(make_grid(10, 10), 1, 1e80, {0});
   const System system(cloth, 0.1);
   ConstantFactor factor(system, Precision::automatic);
   EXPECT_FALSE(factor.single_precision());
-  // A translation is what such a matrix knows least about: A·1 = M/h².
-  const Vertices b = (cloth.masses / 0.01).asDiagonal() * Vertices::Ones(cloth.vertex_count(), 3);
   Vertices x(cloth.vertex_count(), 3);
-  factor.solve(b, x);
-  EXPECT_LT((x - Vertices::Ones(cloth.vertex_count(), 3)).cwiseAbs().maxCoeff(), 1e-3);
+  factor.solve(random_vertices(cloth.vertex_count(), 1), x);
+  EXPECT_TRUE(x.allFinite());
+}
+
+TEST(ConstantFactor, KeepsThreeDigitsHoweverStiffTheCloth) {
+  for (const double stiffness : {1e3, 1e6, 1e9}) {
+    const Cloth cloth = cloth_of(irregular_mesh(20), 1, stiffness, {0});
+    const System system(cloth, 0.1);
+    const Vertices b = random_vertices(cloth.vertex_count(), 1);
+    Vertices chosen(cloth.vertex_count(), 3), exact = chosen;
+    ConstantFactor(system, Precision::automatic).solve(b, chosen);
+    ConstantFactor(system, Precision::double_precision).solve(b, exact);
+    EXPECT_LT((chosen - exact).norm(), 1e-3 * exact.norm()) << stiffness << " N/m";
+  }
 }
 
 }  // namespace

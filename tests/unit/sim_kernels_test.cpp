@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -67,27 +70,45 @@ struct Springs {
   }
 };
 
-/// A lower triangle with a third of its entries, well conditioned.
+/// A well-conditioned lower triangle of panels of every width, each with rows below.
 template <class T>
 struct Triangle {
-  std::vector<int> starts{0}, rows;
-  std::vector<T> values, inverse_diagonal;
+  int size;
+  std::vector<Panel> panels;
+  std::vector<int> rows;
+  std::vector<T> values;
+  std::vector<double> dense;  // size×size, by columns
 
-  explicit Triangle(int n) {
+  explicit Triangle(int n) : size(n), dense(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0) {
     Random random(5);
-    for (int c = 0; c < n; ++c) {
-      for (int r = c + 1; r < n; ++r) {
-        if (random.number() > 0.33) continue;
-        rows.push_back(r);
-        values.push_back(static_cast<T>(random.between(-1, 1) / n));
+    const auto at = [&](int row, int column) -> double& {
+      return dense[static_cast<std::size_t>(column) * static_cast<std::size_t>(n) + static_cast<std::size_t>(row)];
+    };
+    for (int first = 0, width = 1; first < n; first += width, width = 1 + panels.back().width % panel_width) {
+      width = std::min(width, n - first);
+      Panel panel{.first = first, .width = width, .row_count = 0};
+      for (int c = first; c < first + width; ++c) {
+        values.push_back(static_cast<T>(random.between(0.5, 2)));
+        at(c, c) = 1 / static_cast<double>(values.back());
       }
-      starts.push_back(static_cast<int>(rows.size()));
-      inverse_diagonal.push_back(static_cast<T>(random.between(0.5, 2)));
+      const auto add_row = [&](int row, int end) {
+        for (int c = first; c < end; ++c) {
+          values.push_back(static_cast<T>(random.between(-1, 1) / n));
+          at(row, c) = static_cast<double>(values.back());
+        }
+      };
+      for (int row = first + 1; row < first + width; ++row) add_row(row, row);
+      for (int row = first + width; row < n; ++row) {
+        if (random.number() > 0.33) continue;
+        rows.push_back(row);
+        ++panel.row_count;
+        add_row(row, first + width);
+      }
+      panels.push_back(panel);
     }
   }
   [[nodiscard]] PackedTriangle<T> view() const {
-    return {static_cast<int>(inverse_diagonal.size()), starts.data(), rows.data(), values.data(),
-            inverse_diagonal.data()};
+    return {panels.data(), static_cast<int>(panels.size()), rows.data(), values.data()};
   }
 };
 
@@ -132,17 +153,54 @@ TEST_P(KernelsVersion, AddsTheSameListGradient) {
   }
 }
 
-TEST_P(KernelsVersion, SumsTheSameEnergies) {
+TEST_P(KernelsVersion, FindsTheSameEnergiesWithTheGradient) {
   const Springs springs;
   for (const int count : counts) {
     for (const int first : {0, 1, 3, 6}) {
-      ASSERT_TRUE(same(reference.run_energy(springs.run(first, 21, count), springs.columns()),
-                       tested.run_energy(springs.run(first, 21, count), springs.columns())))
+      std::vector<double> a = numbers(springs.positions.size(), 7), b = a;
+      const SpringRun run = springs.run(first, 21, count);
+      ASSERT_TRUE(same(reference.add_run_value_gradient(run, springs.columns(), Springs::columns(a)),
+                       tested.add_run_value_gradient(run, springs.columns(), Springs::columns(b))))
           << count << " springs from " << first;
+      ASSERT_TRUE(same(a, b)) << count << " springs from " << first;
     }
-    ASSERT_TRUE(same(reference.list_energy(springs.list(count), springs.columns()),
-                     tested.list_energy(springs.list(count), springs.columns())))
+    std::vector<double> a = numbers(springs.positions.size(), 7), b = a;
+    ASSERT_TRUE(same(reference.add_list_value_gradient(springs.list(count), springs.columns(), Springs::columns(a)),
+                     tested.add_list_value_gradient(springs.list(count), springs.columns(), Springs::columns(b))))
         << count << " springs";
+    ASSERT_TRUE(same(a, b)) << count << " springs";
+  }
+}
+
+TEST_P(KernelsVersion, FindsTheSameBlocksAndProducts) {
+  const Springs springs;
+  constexpr std::size_t n = kernel_springs;
+  const auto blocks_in = [](std::vector<double>& v) -> SpringBlocks {
+    return {v.data(), {v.data() + n, v.data() + 2 * n, v.data() + 3 * n}};
+  };
+  const auto blocks_of = [](const std::vector<double>& v) -> ConstSpringBlocks {
+    return {v.data(), {v.data() + n, v.data() + 2 * n, v.data() + 3 * n}};
+  };
+  const std::vector<double> vector = numbers(springs.positions.size(), 11);
+  const Columns<const double> factors{vector.data(), vector.data() + Springs::vertices,
+                                      vector.data() + 2 * Springs::vertices};
+  for (const int count : counts) {
+    std::vector<double> a(4 * n, 0), b = a;
+    std::vector<double> c = numbers(springs.positions.size(), 7), d = c;
+    const SpringRun run = springs.run(3, 21, count);
+    reference.run_blocks(run, springs.columns(), blocks_in(a));
+    tested.run_blocks(run, springs.columns(), blocks_in(b));
+    ASSERT_TRUE(same(a, b)) << count << " springs in a run";
+    reference.add_run_product(run, blocks_of(a), factors, Springs::columns(c));
+    tested.add_run_product(run, blocks_of(a), factors, Springs::columns(d));
+    ASSERT_TRUE(same(c, d)) << count << " springs in a run";
+
+    reference.list_blocks(springs.list(count), springs.columns(), blocks_in(a));
+    tested.list_blocks(springs.list(count), springs.columns(), blocks_in(b));
+    ASSERT_TRUE(same(a, b)) << count << " springs in a list";
+    reference.add_list_product(springs.list(count), blocks_of(a), factors, Springs::columns(c));
+    tested.add_list_product(springs.list(count), blocks_of(a), factors, Springs::columns(d));
+    ASSERT_TRUE(same(c, d)) << count << " springs in a list";
   }
 }
 
@@ -151,21 +209,73 @@ TEST_P(KernelsVersion, MultipliesAndAddsAlike) {
   for (const int count : counts) {
     for (const std::size_t from : {0U, 1U, 3U}) {
       const auto n = static_cast<std::size_t>(count);
-      std::vector<double> ours = c, theirs = c, plain = c;
-      reference.accelerate(n, a.data() + from, b.data() + from, theirs.data() + from);
-      tested.accelerate(n, a.data() + from, b.data() + from, ours.data() + from);
+      std::vector<double> ours = c, plain = c;
+      tested.add_scaled(n, a.data() + from, b.data() + from, ours.data() + from);
       for (std::size_t t = from; t < from + n; ++t) plain[t] += a[t] * b[t];
-      ASSERT_TRUE(same(ours, theirs) && same(ours, plain)) << "accelerate " << count << " from " << from;
+      ASSERT_TRUE(same(ours, plain)) << "add_scaled " << count << " from " << from;
 
-      reference.drift(n, 0.013, a.data() + from, theirs.data() + from);
-      tested.drift(n, 0.013, a.data() + from, ours.data() + from);
+      tested.add_multiple(n, 0.013, a.data() + from, ours.data() + from);
       for (std::size_t t = from; t < from + n; ++t) plain[t] += 0.013 * a[t];
-      ASSERT_TRUE(same(ours, theirs) && same(ours, plain)) << "drift " << count << " from " << from;
+      ASSERT_TRUE(same(ours, plain)) << "add_multiple " << count << " from " << from;
+    }
+  }
+}
 
-      reference.scaled_difference(n, a.data() + from, b.data() + from, c.data() + from, theirs.data() + from);
-      tested.scaled_difference(n, a.data() + from, b.data() + from, c.data() + from, ours.data() + from);
-      for (std::size_t t = from; t < from + n; ++t) plain[t] = a[t] * (b[t] - c[t]);
-      ASSERT_TRUE(same(ours, theirs) && same(ours, plain)) << "scaled_difference " << count << " from " << from;
+TEST_P(KernelsVersion, KicksAndDriftsAlike) {
+  const std::vector<double> factor = numbers(300, 8), force = numbers(300, 9);
+  for (const int count : counts) {
+    for (const std::size_t from : {0U, 1U, 3U}) {
+      std::vector<double> gradient = numbers(300, 10), velocity = numbers(300, 11), position = numbers(300, 12);
+      std::vector<double> cleared = gradient, kicked = velocity, drifted = position;
+      const auto n = static_cast<std::size_t>(count);
+      for (std::size_t t = from; t < from + n; ++t) {
+        kicked[t] += factor[t] * (cleared[t] - force[t]);
+        drifted[t] += 0.013 * kicked[t];
+        cleared[t] = 0;
+      }
+      tested.kick_and_drift(n, factor.data() + from, force.data() + from, 0.013, gradient.data() + from,
+                            velocity.data() + from, position.data() + from);
+      ASSERT_TRUE(same(gradient, cleared) && same(velocity, kicked) && same(position, drifted))
+          << count << " from " << from;
+    }
+  }
+}
+
+TEST_P(KernelsVersion, SumsAlike) {
+  const std::vector<double> a = numbers(300, 8), b = numbers(300, 9), c = numbers(300, 10);
+  for (const int count : counts) {
+    const auto n = static_cast<std::size_t>(count);
+    std::vector<double> ours = c, theirs = c;
+    double expected = 0;
+    for (std::size_t t = 0; t < n; ++t) expected += a[t] * (b[t] - c[t]) * (b[t] - c[t]);
+    const double sum = tested.scaled_difference(n, a.data(), b.data(), c.data(), ours.data());
+    ASSERT_TRUE(same(sum, reference.scaled_difference(n, a.data(), b.data(), c.data(), theirs.data()))) << count;
+    EXPECT_NEAR(sum, expected, 1e-13);
+    for (std::size_t t = 0; t < n; ++t) theirs[t] = a[t] * (b[t] - c[t]);
+    ASSERT_TRUE(same(ours, theirs)) << count;
+
+    for (int many = 0; many <= 9; ++many) {
+      std::vector<std::vector<double>> vectors;
+      std::vector<const double*> pointers;
+      for (int k = 0; k < many; ++k) vectors.push_back(numbers(300, 20 + k));
+      for (const auto& vector : vectors) pointers.push_back(vector.data());
+      std::vector<double> dots(10, 0), same_dots = dots;
+      tested.dots(n, many, pointers.data(), a.data(), dots.data());
+      reference.dots(n, many, pointers.data(), a.data(), same_dots.data());
+      ASSERT_TRUE(same(dots, same_dots)) << count << " numbers, " << many << " vectors";
+      std::vector<double> multiples = c, same_multiples = c, plain = c;
+      tested.add_multiples(n, many, pointers.data(), b.data(), multiples.data());
+      reference.add_multiples(n, many, pointers.data(), b.data(), same_multiples.data());
+      ASSERT_TRUE(same(multiples, same_multiples)) << count << " numbers, " << many << " vectors";
+      for (std::size_t k = 0; k < vectors.size(); ++k) {
+        double dot = 0;
+        for (std::size_t t = 0; t < n; ++t) {
+          dot += vectors[k][t] * a[t];
+          plain[t] += b[k] * vectors[k][t];
+        }
+        EXPECT_NEAR(dots[k], dot, 1e-13);
+      }
+      for (std::size_t t = 0; t < plain.size(); ++t) EXPECT_NEAR(multiples[t], plain[t], 1e-14);
     }
   }
 }
@@ -187,33 +297,16 @@ TEST_P(KernelsVersion, SolvesAlike) {
 }
 
 TEST_P(KernelsVersion, SolvesBothTriangles) {
-  constexpr int n = 71;
-  const Triangle<double> triangle(n);
-  const auto b = right_hand_side<double>(n);
-  auto x = b;
-  tested.solve_double(triangle.view(), x.data());
-  // L Lᵀ x must give b again.
-  std::vector<double> upper(x.size(), 0), product(x.size(), 0);
-  const auto at = [](int row, int axis) { return static_cast<std::size_t>(4 * row + axis); };
-  for (int axis = 0; axis < 4; ++axis) {
-    for (int c = 0; c < n; ++c) {
-      const auto column = static_cast<std::size_t>(c);
-      upper[at(c, axis)] = x[at(c, axis)] / triangle.inverse_diagonal[column];
-      for (int p = triangle.starts[column]; p < triangle.starts[column + 1]; ++p) {
-        const auto place = static_cast<std::size_t>(p);
-        upper[at(c, axis)] += triangle.values[place] * x[at(triangle.rows[place], axis)];
-      }
-    }
-    for (int c = 0; c < n; ++c) {
-      const auto column = static_cast<std::size_t>(c);
-      product[at(c, axis)] += upper[at(c, axis)] / triangle.inverse_diagonal[column];
-      for (int p = triangle.starts[column]; p < triangle.starts[column + 1]; ++p) {
-        const auto place = static_cast<std::size_t>(p);
-        product[at(triangle.rows[place], axis)] += triangle.values[place] * upper[at(c, axis)];
-      }
-    }
+  for (const int n : {1, 2, 7, 8, 9, 71}) {
+    const Triangle<double> triangle(n);
+    const auto b = right_hand_side<double>(n);
+    auto x = b;
+    tested.solve_double(triangle.view(), x.data());
+    const Eigen::Map<const Eigen::MatrixXd> lower(triangle.dense.data(), n, n);
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+    const Rows product = lower * (lower.transpose() * Eigen::Map<const Rows>(x.data(), n, 4));
+    EXPECT_LT((product - Eigen::Map<const Rows>(b.data(), n, 4)).cwiseAbs().maxCoeff(), 1e-13) << n;
   }
-  for (std::size_t t = 0; t < b.size(); ++t) EXPECT_NEAR(product[t], b[t], 1e-13);
 }
 
 TEST(Kernels, BeginWithTheBaselineThatRunsEverywhere) {

@@ -106,6 +106,11 @@ TEST_P(SpringNetworkOf, AddsTheGradientOfTheFormula) {
   SpringNetwork(GetParam().springs).add_gradient(x, gradient);
   const Vertices expected = already + plain_gradient(GetParam().springs, x);
   EXPECT_LE((gradient - expected).cwiseAbs().maxCoeff(), 1e-13 * (1 + expected.cwiseAbs().maxCoeff()));
+
+  Vertices with_value = already;
+  const double value = SpringNetwork(GetParam().springs).add_value_gradient(x, with_value);
+  EXPECT_TRUE(same_bits(with_value, gradient));
+  EXPECT_NEAR(value, plain_energy(GetParam().springs, x), 1e-13 * value);
 }
 
 TEST_P(SpringNetworkOf, HasTheGradientOfItsEnergy) {

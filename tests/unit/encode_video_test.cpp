@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "render/encode/encoder.hpp"
+#include "tests/support/decoded_film.hpp"
+#include "tests/support/file_size_limit.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/synthetic_film.hpp"
+
+using namespace drape;
+using namespace drape::testing;
+
+namespace {
+
+class Video : public ScratchFolder, public ::testing::WithParamInterface<std::string> {
+ protected:
+  [[nodiscard]] std::unique_ptr<Encoder> encoder(double fps = 25) const {
+    return make_encoder({.path = file(), .scene = "test", .fps = fps, .progress = {}});
+  }
+  void write(int frames, int width, int height, double fps = 25) const {
+    const auto video = encoder(fps);
+    for (int k = 0; k < frames; ++k) video->add(synthetic_frame(k, width, height));
+    const OutputFile written = video->finish().at(0);
+    EXPECT_EQ(written.size, std::filesystem::file_size(file()));
+  }
+  [[nodiscard]] std::string file() const { return path("x" + GetParam()); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Formats, Video, ::testing::Values(".mp4", ".webm", ".avi"),
+                         [](const auto& format) { return format.param.substr(1); });
+
+TEST_P(Video, HasEveryFrameCloseToTheFilm) {
+  write(30, 240, 200);
+  const std::vector<Image> shown = decoded_film(file());
+  ASSERT_EQ(shown.size(), 30u);
+  for (int k = 0; k < 30; ++k) {
+    const Image frame = synthetic_frame(k, 240, 200);
+    EXPECT_GT(psnr(frame, shown[k]), 27) << k;
+    // Another frame must be farther away, or the bound says nothing.
+    EXPECT_LT(psnr(synthetic_frame(k + 8, 240, 200), shown[k]), 22) << k;
+  }
+}
+
+TEST_P(Video, ShowsWhiteAsNearlyWhite) {
+  write(5, 240, 200);
+  for (const Image& image : decoded_film(file())) {
+    for (int c = 0; c < 3; ++c) EXPECT_GE(image.at(2, 2)[c], 249);
+  }
+}
+
+TEST_P(Video, HasTheRateItIsGiven) {
+  for (const double fps : {25.0, 29.97, 12.5, 60.0}) {
+    write(10, 64, 48, fps);
+    cv::VideoCapture video(file(), cv::CAP_FFMPEG);
+    EXPECT_NEAR(video.get(cv::CAP_PROP_FPS), fps, 0.03 * fps);
+  }
+}
+
+TEST_P(Video, MayHaveOneFrame) {
+  write(1, 64, 48);
+  EXPECT_EQ(decoded_film(file()).size(), 1u);
+}
+
+TEST_P(Video, RepeatsTheLastColumnAndRowOfAnOddSize) {
+  const auto video = encoder();
+  Image odd = plain_image(61, 41, {255, 255, 255});
+  for (int y = 20; y < 41; ++y) {
+    for (int x = 0; x < 61; ++x) odd.at(x, y)[0] = odd.at(x, y)[1] = 0;  // the lower half is blue
+  }
+  for (int k = 0; k < 3; ++k) video->add(odd);
+  video->finish();
+  const Image shown = decoded_film(file()).at(2);
+  ASSERT_EQ(shown.width, 62);
+  ASSERT_EQ(shown.height, 42);
+  EXPECT_GT(shown.at(61, 2)[0], 240);
+  EXPECT_LT(shown.at(61, 41)[0], 30);
+  EXPECT_GT(shown.at(61, 41)[2], 225);
+}
+
+TEST_P(Video, LeavesTheOldFileAndNothingElseWithoutFinish) {
+  put(file(), "old");
+  encoder()->add(synthetic_frame(0, 64, 48));
+  EXPECT_EQ(content(file()), "old");
+  EXPECT_EQ(file_count(), 1u);
+}
+
+TEST_P(Video, LeavesTheOldFileOnAFullDisk) {
+  put(file(), "old");
+  for (const rlim_t bytes : {100, 10'000}) {
+    const FileSizeLimit limit(bytes);
+    try {
+      write(40, 240, 200);
+      ADD_FAILURE() << "no error with " << bytes << " bytes";
+    } catch (const OutputError& error) {
+      EXPECT_EQ(std::string(error.what()), "cannot write " + file() + ": File too large");
+    }
+    EXPECT_EQ(content(file()), "old");
+    EXPECT_EQ(file_count(), 1u);
+  }
+}
+
+TEST_P(Video, PrintsNothing) {
+  ::testing::internal::CaptureStderr();
+  write(3, 61, 41);
+  {
+    const FileSizeLimit limit(100);
+    EXPECT_THROW(write(3, 64, 48), OutputError);
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_P(Video, RefusesFramesOfDifferentSizes) {
+  const auto video = encoder();
+  video->add(Image(32, 24));
+  EXPECT_THROW(video->add(Image(24, 32)), std::invalid_argument);
+}
+
+}  // namespace

@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "core/error.hpp"
+#include "render/encode/encoder.hpp"
+#include "render/encode/path_template.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/usage_error.hpp"
+
+using namespace drape;
+using drape::testing::usage_error;
+
+namespace {
+
+std::string expanded(const std::string& text, int frame = 7, int width = 3) {
+  return PathTemplate(text).path("flag", frame, width);
+}
+
+TEST(PathTemplate, ReplacesTheScenesName) { EXPECT_EQ(expanded("out/{scene}/{scene}.gif"), "out/flag/flag.gif"); }
+
+TEST(PathTemplate, PadsFrameNumbersWithZeros) {
+  EXPECT_EQ(expanded("{frame:04}.png"), "0007.png");
+  EXPECT_EQ(expanded("{frame:4}.png"), "0007.png");
+  EXPECT_EQ(expanded("{frame:2}.png", 12345), "12345.png");
+  EXPECT_EQ(expanded("{frame}.png"), "007.png");
+}
+
+TEST(PathTemplate, WritesDoubledBracesOnce) { EXPECT_EQ(expanded("{{{scene}}}.gif"), "{flag}.gif"); }
+
+TEST(PathTemplate, NamesTheValidPlaceholders) {
+  EXPECT_EQ(
+      usage_error([] { PathTemplate("out/{sceen}.gif"); }),
+      "unknown placeholder '{sceen}' in the output path out/{sceen}.gif; did you mean '{scene}'? the valid ones are "
+      "{scene}, {frame} and {frame:04}");
+  EXPECT_EQ(usage_error([] { PathTemplate("{}.gif"); }),
+            "unknown placeholder '{}' in the output path {}.gif; the valid ones are {scene}, {frame} and {frame:04}");
+}
+
+TEST(PathTemplate, RefusesWhatIsNoNumberOfDigits) {
+  for (const std::string width : {"", "x", "0", "-3", "4x", "99", "04.2"}) {
+    const std::string text = "{frame:" + width + "}.png";
+    EXPECT_EQ(usage_error([&] { PathTemplate{text}; }),
+              "'{frame:" + width + "}' in the output path " + text + ": expected a number of digits, as in {frame:04}");
+  }
+}
+
+TEST(PathTemplate, RefusesSingleBraces) {
+  EXPECT_EQ(usage_error([] { PathTemplate("{scene.gif"); }), "a '}' is missing in the output path {scene.gif");
+  EXPECT_EQ(usage_error([] { PathTemplate("a}.gif"); }),
+            "a '}' without '{' in the output path a}.gif; write '}}' for a brace");
+}
+
+class MakeEncoder : public drape::testing::ScratchFolder {
+ protected:
+  [[nodiscard]] std::string error(const std::string& name, double fps = 25) const {
+    return usage_error([&] { make_encoder({.path = path(name), .scene = "flag", .fps = fps, .progress = {}}); });
+  }
+};
+
+TEST_F(MakeEncoder, NamesTheValidExtensions) {
+  const std::string valid = "the valid ones are '.gif', '.png', '.mp4', '.webm', '.avi'";
+  EXPECT_EQ(error("x.gfi"),
+            "the output " + path("x.gfi") + " has the unknown extension '.gfi'; did you mean '.gif'? " + valid);
+  EXPECT_EQ(error("x"), "the output " + path("x") + " has no extension; " + valid);
+  EXPECT_EQ(file_count(), 0u);
+}
+
+TEST_F(MakeEncoder, TakesExtensionsInCapitals) { EXPECT_EQ(error("X.GIF"), "(no error)"); }
+
+TEST_F(MakeEncoder, RefusesFrameNumbersForOneFile) {
+  EXPECT_NE(error("{frame}.gif").find("only .png makes one file per frame"), std::string::npos);
+}
+
+TEST_F(MakeEncoder, RefusesAGifFasterThanBrowsersPlay) {
+  const std::string message = error("x.gif", 60);
+  EXPECT_NE(message.find("the most a GIF can play is 50"), std::string::npos) << message;
+  EXPECT_EQ(error("x.gif", 50), "(no error)");
+  EXPECT_EQ(error("x.mp4", 60), "(no error)");
+}
+
+TEST_F(MakeEncoder, RefusesRatesThatAreNoRates) {
+  for (const double fps : {0.0, -1.0, std::nan(""), 1e-9}) {
+    for (const std::string name : {"x.gif", "x.mp4"}) EXPECT_NE(error(name, fps), "(no error)") << name << " " << fps;
+  }
+}
+
+TEST_F(MakeEncoder, FailsBeforeTheFirstFrameWhereItCannotWrite) {
+  put(path("file"), "");
+  for (const std::string name : {"x.gif", "x.mp4", "x.webm", "x.avi", "x.png", "{frame}.png"}) {
+    EXPECT_THROW(make_encoder({.path = path("file/" + name), .scene = "flag", .progress = {}}), OutputError) << name;
+    EXPECT_THROW(make_encoder({.path = "/proc/" + name, .scene = "flag", .progress = {}}), OutputError) << name;
+  }
+}
+
+TEST_F(MakeEncoder, LeavesNothingIfDestroyedAtOnce) {
+  for (const std::string name : {"x.gif", "x.mp4", "x.webm", "x.avi", "x.png", "{frame}.png"}) {
+    make_encoder({.path = path(name), .scene = "flag", .progress = {}});
+    EXPECT_EQ(file_count(), 0u) << name;
+  }
+}
+
+TEST_F(MakeEncoder, WritesNothingWithoutFrames) {
+  for (const std::string name : {"x.gif", "x.mp4", "x.webm", "x.avi", "x.png", "{frame}.png"}) {
+    const auto encoder = make_encoder({.path = path(name), .scene = "flag", .progress = {}});
+    EXPECT_TRUE(encoder->finish().empty()) << name;
+  }
+  EXPECT_EQ(file_count(), 0u);
+}
+
+}  // namespace
