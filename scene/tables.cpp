@@ -76,6 +76,11 @@ Keys look_keys(Look& look) {
   Keys keys;
   keys.add("texture", &look.texture, "", "The picture on the cloth, which needs a mesh with texture coordinates.");
   keys.add("color", &look.color, "", "Of the cloth, where it has no texture.");
+  keys.add("anisotropy", &look.anisotropy, "",
+           "How much finer the texture is filtered across a slanted view than along it, where OpenGL can; 1 is off. In "
+           "software it takes about nine times as long.")
+      .at_least(1)
+      .at_most(16);
   keys.add("mesh_lines", &look.mesh_lines, "", "Draws the edges of the triangles.");
   keys.add("line_color", &look.line_color, "", "Of these edges.");
   keys.add("line_width", &look.line_width, "pixels", "Of these edges.").above(0).at_most(64);
