@@ -48,7 +48,8 @@ ConstantFactor::ConstantFactor(const System& system, Precision precision) : vert
   const FreeVertices free(system.cloth);
   if (free.count() == 0) return;
   const Matrix matrix = assemble(system, free);
-  SparseCholesky factor(matrix.pattern, FactorKind::simplicial, false);
+  SparseCholesky factor(matrix.pattern, FactorKind::simplicial, false,
+                        tolerated_zeros * (sizeof(double) + sizeof(float)));
   if (!factor.factorize(matrix.values.data())) {
     throw std::domain_error("the cloth's constant matrix is not positive definite to working precision");
   }
