@@ -98,21 +98,28 @@ void ConstantFactor::copy(const SparseCholesky::Columns& columns, Triangle<T>& t
   const int* rows = rows_.data();
   T* values = triangle.values.data();
   for (const Panel& panel : panels_) {
-    T* dense = values + panel.width;
-    T* below = dense + panel.width * (panel.width - 1) / 2;
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(panel.width, panel.width);
+    T* below = values + panel.width * (panel.width + 1) / 2;
     for (int p = 0; p < panel.row_count; ++p) place[static_cast<std::size_t>(rows[p])] = p;
     for (int c = 0; c < panel.width; ++c) {
       const int start = columns.starts[panel.first + c];
-      values[c] = static_cast<T>(1 / columns.values[start]);
-      for (int p = start + 1; p < start + columns.counts[panel.first + c]; ++p) {
+      for (int p = start; p < start + columns.counts[panel.first + c]; ++p) {
         const int r = columns.rows[p] - panel.first;
-        T& entry = r < panel.width ? dense[r * (r - 1) / 2 + c]
-                                   : below[place[static_cast<std::size_t>(columns.rows[p])] * panel.width + c];
-        entry = static_cast<T>(columns.values[p]);
+        if (r < panel.width) {
+          dense(r, c) = columns.values[p];
+        } else {
+          below[place[static_cast<std::size_t>(columns.rows[p])] * panel.width + c] = static_cast<T>(columns.values[p]);
+        }
       }
     }
+    // The inverse of a triangle is applied without one row waiting for the one before.
+    const Eigen::MatrixXd inverse =
+        dense.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(panel.width, panel.width));
+    for (int r = 0; r < panel.width; ++r) {
+      for (int c = 0; c <= r; ++c) *values++ = static_cast<T>(inverse(r, c));
+    }
+    values += panel.width * panel.row_count;
     rows += panel.row_count;
-    values += panel_size(panel);
   }
 }
 
