@@ -24,7 +24,8 @@ class StepObjective {
   double evaluate(const Vertices& x, Vertices& gradient) const;
 
   /// The error that rounding can be expected to make where g has this value [J]. A length L is known to ε·L, which
-  /// changes the energy of a spring by k·|‖d‖ − L|·ε·L; the sum of these is at most ε √(2g) √(Σ k L²), and so for inertia.
+  /// changes the energy of a spring by k·|‖d‖ − L|·ε·L; the sum of these is at most ε √(2g) √(Σ k L²), and so for
+  /// inertia.
   [[nodiscard]] double rounding(double value) const;
 
   [[nodiscard]] const SpringNetwork& springs() const { return springs_; }

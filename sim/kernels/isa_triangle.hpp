@@ -19,7 +19,8 @@ std::ptrdiff_t stored(const Panel& panel) {
   return panel.width * (panel.width + 1) / 2 + std::ptrdiff_t{panel.width} * panel.row_count;
 }
 
-/// x := L⁻¹x for the columns of one panel: multiplies by its inverted triangle and takes what follows from the rows below.
+/// x := L⁻¹x for the columns of one panel: multiplies by its inverted triangle and takes what follows from the rows
+/// below.
 template <class Row, int width, class T>
 inline void forward(const Panel& panel, const int* rows, const T* values, T* x) {
   T* own = x + 4 * panel.first;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "sim/linear/free_vertices.hpp"
 #include "sim/kernels/vertices.hpp"
+#include "sim/linear/free_vertices.hpp"
 
 namespace drape {
 namespace {
@@ -44,7 +44,8 @@ void solve_packed(const PackedTriangle<double>& triangle, double* x) { kernels()
 
 }  // namespace
 
-ConstantFactor::ConstantFactor(const System& system, Precision precision) : vertex_count_(system.cloth.vertex_count()), pins_(system.cloth.pins) {
+ConstantFactor::ConstantFactor(const System& system, Precision precision)
+    : vertex_count_(system.cloth.vertex_count()), pins_(system.cloth.pins) {
   const FreeVertices free(system.cloth);
   if (free.count() == 0) return;
   const Matrix matrix = assemble(system, free);
@@ -74,7 +75,8 @@ void ConstantFactor::find_panels(const SparseCholesky::Columns& columns) {
     // The next column shares the rows of this one if it is its parent in the elimination tree: the first row below.
     Panel panel{.first = first, .width = 1, .row_count = columns.counts[first] - 1};
     int last = first, entries = columns.counts[first];
-    while (panel.width < panel_width && columns.counts[last] > 1 && columns.rows[columns.starts[last] + 1] == last + 1) {
+    while (panel.width < panel_width && columns.counts[last] > 1 &&
+           columns.rows[columns.starts[last] + 1] == last + 1) {
       ++last;
       entries += columns.counts[last];
       const Panel wider{.first = first, .width = panel.width + 1, .row_count = columns.counts[last] - 1};

@@ -54,8 +54,7 @@ struct SparseCholesky::Implementation {
   }
 };
 
-SparseCholesky::SparseCholesky(const LowerPattern& pattern, FactorKind kind, bool order_given,
-                               double caller_bytes)
+SparseCholesky::SparseCholesky(const LowerPattern& pattern, FactorKind kind, bool order_given, double caller_bytes)
     : implementation_(std::make_unique<Implementation>(pattern)) {
   auto& i = *implementation_;
   i.common.supernodal = kind == FactorKind::simplicial ? CHOLMOD_SIMPLICIAL : CHOLMOD_SUPERNODAL;

@@ -74,7 +74,8 @@ TEST_P(Agreement, NoIterationRaisesTheObjective) {
       simulation.restore(start);
       simulation.step();
       const double after = objective.evaluate(simulation.state().x, gradient);
-      EXPECT_LE(after, before + objective.rounding(before)) << "iteration " << iterations << " of method " << static_cast<int>(method);
+      EXPECT_LE(after, before + objective.rounding(before))
+          << "iteration " << iterations << " of method " << static_cast<int>(method);
       before = after;
     }
   }

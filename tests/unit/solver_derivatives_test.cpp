@@ -70,8 +70,7 @@ TEST_P(Derivatives, TheSphereAloneAgreesWithItsSlope) {
   Vertices g, ignored;
   ASSERT_GT(energy_at(x, g), 0) << "no vertex touches the sphere";
   const double e = 1e-6;
-  const double slope =
-      (energy_at(x + e * direction_, ignored) - energy_at(x - e * direction_, ignored)) / (2 * e);
+  const double slope = (energy_at(x + e * direction_, ignored) - energy_at(x - e * direction_, ignored)) / (2 * e);
   EXPECT_NEAR(g.cwiseProduct(direction_).sum(), slope, 1e-6 * g.norm());
 }
 
