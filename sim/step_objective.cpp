@@ -1,5 +1,6 @@
 #include "sim/step_objective.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace drape {
@@ -11,6 +12,7 @@ StepObjective::StepObjective(const System& system)
       push_(inertia_.cwiseInverse()),
       y_(system.cloth.vertex_count(), 3) {
   for (const int pin : system.cloth.pins) push_[pin] = 0;
+  for (const Spring& s : system.springs) elastic_scale_ += s.stiffness * s.rest_length * s.rest_length;
 }
 
 void StepObjective::begin(const State& state, const Vertices& force) {
@@ -22,6 +24,7 @@ void StepObjective::begin(const State& state, const Vertices& force) {
   for (int axis = 0; axis < 3; ++axis) {
     k.add_scaled(count, push_.data(), force.col(axis).data(), y_.col(axis).data());
   }
+  scale_ = elastic_scale_ + inertia_.dot(y_.rowwise().squaredNorm());
 }
 
 double StepObjective::evaluate(const Vertices& x, Vertices& gradient) const {
@@ -37,9 +40,9 @@ double StepObjective::evaluate(const Vertices& x, Vertices& gradient) const {
   return value;
 }
 
-double StepObjective::rounding(double value) {
-  // Every term of g is positive, so its sum has a relative error of a few units in the last place of each.
-  return 64 * std::numeric_limits<double>::epsilon() * value;
+double StepObjective::rounding(double value) const {
+  constexpr double units = 4;  // roundings on the way to each term
+  return units * std::numeric_limits<double>::epsilon() * (value + std::sqrt(2 * value * scale_));
 }
 
 }  // namespace drape

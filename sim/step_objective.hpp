@@ -23,9 +23,10 @@ class StepObjective {
   /// Computes gradient = ∇g(x), n×3 and zero on pins [N], and returns g(x) [J], in one pass.
   double evaluate(const Vertices& x, Vertices& gradient) const;
 
-  /// The largest error that rounding can be expected to make in a value of g: a multiple of the sum of its terms'
-  /// magnitudes [J].
-  [[nodiscard]] static double rounding(double value);
+  /// The error that rounding can be expected to make where g has this value [J]. A length L is known to ε·L, which
+  /// changes the energy of a spring by k·|‖d‖ − L|·ε·L; the sum of these is at most ε √(2g) √(Σ k L²), and so for
+  /// inertia.
+  [[nodiscard]] double rounding(double value) const;
 
   [[nodiscard]] const SpringNetwork& springs() const { return springs_; }
   /// m/h² of every vertex [N/m].
@@ -40,6 +41,7 @@ class StepObjective {
   Eigen::VectorXd push_;  // h²/m, 0 on pins [m/N]
   Vertices y_;
   double time_ = 0;
+  double elastic_scale_ = 0, scale_ = 0;  // Σ k L², and that with Σ m/h² ‖y‖² [J]
 };
 
 }  // namespace drape

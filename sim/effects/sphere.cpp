@@ -112,9 +112,10 @@ class Sphere final : public Effect {
   void check(const SimulationSettings& settings, const ProblemSink& problem) const override {
     if (values_.response == Response::implicit_energy) {
       if (settings.integrator.method == Method::semi_implicit) {
-        problem("response",
-                "semi-implicit Euler evaluates every force at the start of a step and solves for nothing, so the push can "
-                "only be \"explicit\" with it; the other methods take \"implicit\" too");
+        problem(
+            "response",
+            "semi-implicit Euler evaluates every force at the start of a step and solves for nothing, so the push can "
+            "only be \"explicit\" with it; the other methods take \"implicit\" too");
       }
       return;
     }

@@ -48,7 +48,7 @@ double ImplicitEuler::descend(Point& point, const Vertices& direction, double sl
     kernels().add_multiple(count, -length, direction.data(), trial_.x.data());
     trial_.value = objective_.evaluate(trial_.x, trial_.gradient);
     // Near the minimum g changes by less than it can be computed to; the direction is trusted there.
-    const double highest = point.value - sufficient_decrease * length * slope + StepObjective::rounding(point.value);
+    const double highest = point.value - sufficient_decrease * length * slope + objective_.rounding(point.value);
     if (trial_.value <= highest) {
       std::swap(point, trial_);
       return length;

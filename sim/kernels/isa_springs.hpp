@@ -204,7 +204,8 @@ double add_value_gradient(const Springs& springs, Columns<const double> position
 }
 
 template <class Springs>
-void add_product(const Springs& springs, ConstSpringBlocks blocks, Columns<const double> vector, Columns<double> product) {
+void add_product(const Springs& springs, ConstSpringBlocks blocks, Columns<const double> vector,
+                 Columns<double> product) {
   ProductLaw law{blocks};
   scatter(springs, vector, product, law);
 }

@@ -19,33 +19,34 @@ std::ptrdiff_t stored(const Panel& panel) {
   return panel.width * (panel.width + 1) / 2 + std::ptrdiff_t{panel.width} * panel.row_count;
 }
 
-/// x := L⁻¹x for the columns of one panel: solves its dense triangle and takes what follows from the rows below.
+/// x := L⁻¹x for the columns of one panel: multiplies by its inverted triangle and takes what follows from the rows
+/// below.
 template <class Row, int width, class T>
 inline void forward(const Panel& panel, const int* rows, const T* values, T* x) {
   T* own = x + 4 * panel.first;
-  Row solved[width];
-  const T* triangle = values + width;
+  Row given[width], solved[width];
+  for (int r = 0; r < width; ++r) given[r] = load<Row>(own + 4 * r);
   for (int r = 0; r < width; ++r) {
-    Row value = load<Row>(own + 4 * r);
-    for (int c = 0; c < r; ++c) value -= *triangle++ * solved[c];
-    solved[r] = value * values[r];
+    solved[r] = *values++ * given[0];
+    for (int c = 1; c <= r; ++c) solved[r] += *values++ * given[c];
     store<Row>(own + 4 * r, solved[r]);
   }
-  for (int p = 0; p < panel.row_count; ++p, triangle += width) {
+  for (int p = 0; p < panel.row_count; ++p, values += width) {
+    // Two sums, so that an addition waits for fewer others.
+    Row even = values[0] * solved[0], odd = {};
+    for (int c = 1; c < width; c += 2) odd += values[c] * solved[c];
+    for (int c = 2; c < width; c += 2) even += values[c] * solved[c];
     T* target = x + 4 * rows[p];
-    Row sum = triangle[0] * solved[0];
-    for (int c = 1; c < width; ++c) sum += triangle[c] * solved[c];
-    store<Row>(target, load<Row>(target) - sum);
+    store<Row>(target, load<Row>(target) - (even + odd));
   }
 }
 
 /// x := L⁻ᵀx for the columns of one panel.
 template <class Row, int width, class T>
 inline void backward(const Panel& panel, const int* rows, const T* values, T* x) {
-  constexpr int triangle_size = width * (width - 1) / 2;
-  // Narrow panels sum in several chains, so that one addition need not wait for the one before.
+  // Narrow panels sum in several chains for the same reason.
   constexpr int chains = width >= 4 ? 1 : width == 1 ? 4 : 2;
-  const T* below = values + width + triangle_size;
+  const T* below = values + width * (width + 1) / 2;
   Row sums[chains][width] = {};
   int p = 0;
   for (; p + chains <= panel.row_count; p += chains) {
@@ -65,12 +66,10 @@ inline void backward(const Panel& panel, const int* rows, const T* values, T* x)
     for (int chain = 1; chain < chains; ++chain) sum += sums[chain][c];
     rest[c] = load<Row>(own + 4 * c) - sum;
   }
-  const T* triangle = values + width;
-  for (int r = width - 1; r >= 0; --r) {
-    const Row solved = rest[r] * values[r];
-    store<Row>(own + 4 * r, solved);
-    const T* row = triangle + r * (r - 1) / 2;
-    for (int c = 0; c < r; ++c) rest[c] -= row[c] * solved;
+  for (int c = 0; c < width; ++c) {
+    Row solved = values[c * (c + 1) / 2 + c] * rest[c];
+    for (int r = c + 1; r < width; ++r) solved += values[r * (r + 1) / 2 + c] * rest[r];
+    store<Row>(own + 4 * c, solved);
   }
 }
 

@@ -60,7 +60,7 @@ constexpr std::size_t panel_size(const Panel& panel) {
 }
 
 /// A lower-triangular matrix as panels in the order of their columns. The values of a panel follow each other as the
-/// solver reads them: the inverted diagonal, the rest of the dense triangle by rows, then `width` values for each row
+/// solver reads them: the inverse of the dense triangle on the diagonal, by rows, then `width` values for each row
 /// below.
 template <class T>
 struct PackedTriangle {

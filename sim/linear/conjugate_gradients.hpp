@@ -6,9 +6,9 @@
 
 namespace drape {
 
-/// Newton's equations by conjugate gradients, preconditioned with Liu13's factored matrix A. H never exceeds A, and falls
-/// below it by at most 1 + h²λ_max(M⁻¹L), so the iterations are few where Newton's method is stiff but not extremely so.
-/// H is never assembled: its springs' blocks are kept as vectors, and a product is one pass over them.
+/// Newton's equations by conjugate gradients, preconditioned with Liu13's factored matrix A. H never exceeds A, and
+/// falls below it by at most 1 + h²λ_max(M⁻¹L), so the iterations are few where Newton's method is stiff but not
+/// extremely so. H is never assembled: its springs' blocks are kept as vectors, and a product is one pass over them.
 class ConjugateGradients final : public NewtonSolver {
  public:
   ConjugateGradients(const System& system, const StepObjective& objective);

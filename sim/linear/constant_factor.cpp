@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "sim/linear/free_vertices.hpp"
 #include "sim/kernels/vertices.hpp"
+#include "sim/linear/free_vertices.hpp"
 
 namespace drape {
 namespace {
@@ -44,11 +44,13 @@ void solve_packed(const PackedTriangle<double>& triangle, double* x) { kernels()
 
 }  // namespace
 
-ConstantFactor::ConstantFactor(const System& system, Precision precision) : vertex_count_(system.cloth.vertex_count()), pins_(system.cloth.pins) {
+ConstantFactor::ConstantFactor(const System& system, Precision precision)
+    : vertex_count_(system.cloth.vertex_count()), pins_(system.cloth.pins) {
   const FreeVertices free(system.cloth);
   if (free.count() == 0) return;
   const Matrix matrix = assemble(system, free);
-  SparseCholesky factor(matrix.pattern, FactorKind::simplicial, false);
+  SparseCholesky factor(matrix.pattern, FactorKind::simplicial, false,
+                        tolerated_zeros * (sizeof(double) + sizeof(float)));
   if (!factor.factorize(matrix.values.data())) {
     throw std::domain_error("the cloth's constant matrix is not positive definite to working precision");
   }
@@ -73,7 +75,8 @@ void ConstantFactor::find_panels(const SparseCholesky::Columns& columns) {
     // The next column shares the rows of this one if it is its parent in the elimination tree: the first row below.
     Panel panel{.first = first, .width = 1, .row_count = columns.counts[first] - 1};
     int last = first, entries = columns.counts[first];
-    while (panel.width < panel_width && columns.counts[last] > 1 && columns.rows[columns.starts[last] + 1] == last + 1) {
+    while (panel.width < panel_width && columns.counts[last] > 1 &&
+           columns.rows[columns.starts[last] + 1] == last + 1) {
       ++last;
       entries += columns.counts[last];
       const Panel wider{.first = first, .width = panel.width + 1, .row_count = columns.counts[last] - 1};
@@ -97,21 +100,28 @@ void ConstantFactor::copy(const SparseCholesky::Columns& columns, Triangle<T>& t
   const int* rows = rows_.data();
   T* values = triangle.values.data();
   for (const Panel& panel : panels_) {
-    T* dense = values + panel.width;
-    T* below = dense + panel.width * (panel.width - 1) / 2;
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(panel.width, panel.width);
+    T* below = values + panel.width * (panel.width + 1) / 2;
     for (int p = 0; p < panel.row_count; ++p) place[static_cast<std::size_t>(rows[p])] = p;
     for (int c = 0; c < panel.width; ++c) {
       const int start = columns.starts[panel.first + c];
-      values[c] = static_cast<T>(1 / columns.values[start]);
-      for (int p = start + 1; p < start + columns.counts[panel.first + c]; ++p) {
+      for (int p = start; p < start + columns.counts[panel.first + c]; ++p) {
         const int r = columns.rows[p] - panel.first;
-        T& entry = r < panel.width ? dense[r * (r - 1) / 2 + c]
-                                   : below[place[static_cast<std::size_t>(columns.rows[p])] * panel.width + c];
-        entry = static_cast<T>(columns.values[p]);
+        if (r < panel.width) {
+          dense(r, c) = columns.values[p];
+        } else {
+          below[place[static_cast<std::size_t>(columns.rows[p])] * panel.width + c] = static_cast<T>(columns.values[p]);
+        }
       }
     }
+    // The inverse of a triangle is applied without one row waiting for the one before.
+    const Eigen::MatrixXd inverse =
+        dense.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(panel.width, panel.width));
+    for (int r = 0; r < panel.width; ++r) {
+      for (int c = 0; c <= r; ++c) *values++ = static_cast<T>(inverse(r, c));
+    }
+    values += panel.width * panel.row_count;
     rows += panel.row_count;
-    values += panel_size(panel);
   }
 }
 

@@ -10,7 +10,8 @@
 namespace drape {
 
 /// Newton's equations by a Cholesky factor of H = M/h² + Σ Kₛ, with one symmetric 3×3 block per spring, and the blocks
-/// of the system's energies on its diagonal. The sparsity is analysed once, on the n×n graph of vertices; every assembly writes the values in place.
+/// of the system's energies on its diagonal. The sparsity is analysed once, on the n×n graph of vertices; every
+/// assembly writes the values in place.
 class NewtonSystem final : public NewtonSolver {
  public:
   NewtonSystem(const System& system, const StepObjective& objective);
@@ -37,7 +38,7 @@ class NewtonSystem final : public NewtonSolver {
   std::vector<double> values_;      // lower triangle of H
   std::vector<double> inertia_;     // m/h² of each block row
   std::vector<double> right_hand_side_;
-  DiagonalBlocks diagonal_;         // of the system's energies
+  DiagonalBlocks diagonal_;             // of the system's energies
   std::vector<SparseCholesky> factor_;  // one, absent where everything is pinned
 };
 

@@ -2,10 +2,15 @@
 
 #include <cholmod.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <new>
 #include <stdexcept>
+#include <string>
+
+#include "core/error.hpp"
+#include "sim/linear/memory.hpp"
 
 namespace drape {
 
@@ -49,7 +54,7 @@ struct SparseCholesky::Implementation {
   }
 };
 
-SparseCholesky::SparseCholesky(const LowerPattern& pattern, FactorKind kind, bool order_given)
+SparseCholesky::SparseCholesky(const LowerPattern& pattern, FactorKind kind, bool order_given, double caller_bytes)
     : implementation_(std::make_unique<Implementation>(pattern)) {
   auto& i = *implementation_;
   i.common.supernodal = kind == FactorKind::simplicial ? CHOLMOD_SIMPLICIAL : CHOLMOD_SUPERNODAL;
@@ -61,6 +66,13 @@ SparseCholesky::SparseCholesky(const LowerPattern& pattern, FactorKind kind, boo
   }
   i.matrix.xtype = CHOLMOD_PATTERN;
   i.factor = cholmod_analyze(&i.matrix, &i.common);
+  // CHOLMOD's int version numbers entries up to 2³¹; a factor beyond that would not fit anywhere near this limit.
+  constexpr double largest = 2147483647.0;
+  const double entry = sizeof(double) + (kind == FactorKind::simplicial ? sizeof(int) : 0);
+  const bool too_large = i.common.status == CHOLMOD_TOO_LARGE || i.common.lnz > largest;
+  require_memory("a sparse factor of " + std::to_string(pattern.size()) + " rows",
+                 too_large ? std::max(i.common.lnz, largest) * entry : i.common.lnz * (entry + caller_bytes));
+  if (too_large) throw UsageError("a sparse factor of this cloth has more than 2³¹ entries: take conjugate gradients");
   i.require(i.factor != nullptr);
   i.matrix.xtype = CHOLMOD_REAL;
 }

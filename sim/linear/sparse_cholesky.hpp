@@ -24,10 +24,11 @@ enum class FactorKind { simplicial, supernodal };
 class SparseCholesky {
  public:
   /// Analyses the pattern.
-  /// @param order_given keep the order of the rows as it is (a caller that has a fill-reducing one already); else
-  /// CHOLMOD
-  ///                    chooses a permutation
-  SparseCholesky(const LowerPattern& pattern, FactorKind kind, bool order_given);
+  /// @param order_given  keep the order of the rows as it is (a caller that has a fill-reducing one already); else
+  ///                     CHOLMOD chooses a permutation
+  /// @param caller_bytes that the caller will keep for each entry of the factor
+  /// @throws UsageError if the factor cannot fit into memory
+  SparseCholesky(const LowerPattern& pattern, FactorKind kind, bool order_given, double caller_bytes = 0);
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;

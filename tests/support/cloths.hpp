@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/cloth.hpp"
+#include "sim/effects/effect.hpp"
+#include "sim/settings.hpp"
+
+namespace drape::testing {
+
+/// A grid as the homework has it, 1 kg, pinned at two corners.
+inline Cloth grid_cloth(int cells, double stiffness = 180) {
+  const Mesh grid = make_grid(cells, cells);
+  return make_cloth(grid, grid, 1.0, stiffness, {0, cells});
+}
+
+/// Vertices strewn over a bent sheet in no order, so that no spring follows another.
+inline Cloth irregular_cloth(double stiffness = 180) {
+  Mesh mesh = make_grid(9, 7);
+  const int n = static_cast<int>(mesh.positions.rows());
+  const auto shuffled = [n](int v) { return v * 37 % n; };  // n = 80 and 37 have no common divisor
+  Mesh result = mesh;
+  for (int v = 0; v < n; ++v) {
+    Eigen::RowVector3d p = mesh.positions.row(v);
+    p += Eigen::RowVector3d(0.03 * std::sin(7.0 * v), 0.03 * std::cos(5.0 * v), 0.1 * std::sin(3.0 * v));
+    result.positions.row(shuffled(v)) = p;
+  }
+  for (Triangle& triangle : result.triangles) {
+    for (int& v : triangle) v = shuffled(v);
+  }
+  return make_cloth(result, result, 1.0, stiffness, {shuffled(0), shuffled(5)});
+}
+
+/// Three sheets that meet in one edge, and a vertex that belongs to nothing.
+inline Cloth non_manifold_cloth(double stiffness = 180) {
+  Mesh mesh;
+  mesh.positions.resize(6, 3);
+  mesh.positions << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, -1, 0.2, 0.5, 0, 1, 5, 5, 5;
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
+  return make_cloth(mesh, mesh, 1.0, stiffness, {2});
+}
+
+/// The same cloth stretched here and compressed there, and in motion.
+inline Cloth disturbed(Cloth cloth) {
+  for (Eigen::Index v = 0; v < cloth.positions.rows(); ++v) {
+    const auto t = static_cast<double>(v);
+    cloth.positions.row(v) += Eigen::RowVector3d(0.04 * std::sin(3 * t), 0.05 * std::cos(2 * t), 0.06 * std::sin(t));
+    cloth.velocities.row(v) << std::cos(t), std::sin(2 * t), -1;
+  }
+  return cloth;
+}
+
+inline std::shared_ptr<Effect> make_effect(const std::string& name) {
+  for (const EffectType& type : effect_types()) {
+    if (type.name == name) return type.make();
+  }
+  throw std::invalid_argument("no effect named " + name);
+}
+
+inline ActiveEffect gravity() { return {"gravity", make_effect("gravity")}; }
+
+/// The homework's sphere under the cloth.
+inline ActiveEffect sphere(bool implicit) {
+  auto effect = make_effect("sphere");
+  Keys keys;
+  effect->describe(keys);
+  for (const Key& key : keys.all()) {
+    if (key.name == "center") *std::get<Eigen::Vector3d*>(key.target) = {0, 0, -0.5};
+    if (key.name == "radius") *std::get<double*>(key.target) = 0.4;
+    if (key.name == "response") std::get<Choice>(key.target).set(implicit ? 1 : 0);
+  }
+  return {"sphere", effect};
+}
+
+}  // namespace drape::testing

@@ -1,0 +1,159 @@
+// Every energy, gradient and Hessian against finite differences.
+
+#include <gtest/gtest.h>
+
+#include "sim/linear/conjugate_gradients.hpp"
+#include "sim/linear/newton_system.hpp"
+#include "sim/step_objective.hpp"
+#include "tests/support/cloths.hpp"
+
+namespace drape {
+namespace {
+
+struct Case {
+  std::string name;
+  Cloth cloth;
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+Vertices wave(Eigen::Index rows, double frequency) {
+  Vertices v(rows, 3);
+  for (Eigen::Index i = 0; i < v.size(); ++i) v.data()[i] = std::sin(frequency * static_cast<double>(i + 1));
+  return v;
+}
+
+class Derivatives : public ::testing::TestWithParam<Case> {
+ protected:
+  // The sphere lies so that some vertices are within its reach and some are not.
+  Derivatives() : cloth_(testing::disturbed(GetParam().cloth)), system_(cloth_, 0.02) {
+    testing::sphere(true).effect->install(system_);
+    Vertices& x = cloth_.positions;
+    x.col(2).array() -= 0.1;
+    objective_ = std::make_unique<StepObjective>(system_);
+    objective_->begin({.x = x, .v = cloth_.velocities, .step = 0}, Vertices::Zero(x.rows(), 3));
+    direction_ = wave(x.rows(), 1.7);
+    for (const int pin : cloth_.pins) direction_.row(pin).setZero();
+  }
+
+  double value(const Vertices& x) const {
+    Vertices ignored(x.rows(), 3);
+    return objective_->evaluate(x, ignored);
+  }
+  Vertices gradient(const Vertices& x) const {
+    Vertices result(x.rows(), 3);
+    objective_->evaluate(x, result);
+    return result;
+  }
+
+  Cloth cloth_;
+  System system_;
+  std::unique_ptr<StepObjective> objective_;
+  Vertices direction_;
+};
+
+TEST_P(Derivatives, TheGradientIsTheSlopeOfTheValue) {
+  const Vertices& x = cloth_.positions;
+  const double e = 1e-6;
+  const double slope = (value(x + e * direction_) - value(x - e * direction_)) / (2 * e);
+  EXPECT_NEAR(dot(gradient(x), direction_), slope, 1e-6 * gradient(x).norm());
+}
+
+TEST_P(Derivatives, TheSphereAloneAgreesWithItsSlope) {
+  // Its share of g would drown in the springs'.
+  Vertices x = cloth_.positions;
+  x.col(2).array() -= 0.5;
+  const Energy& energy = *system_.energies.front();
+  const auto energy_at = [&](const Vertices& at, Vertices& g) {
+    g.setZero(at.rows(), 3);
+    return energy.add_gradient(at, 0, g);
+  };
+  Vertices g, ignored;
+  ASSERT_GT(energy_at(x, g), 0) << "no vertex touches the sphere";
+  const double e = 1e-6;
+  const double slope = (energy_at(x + e * direction_, ignored) - energy_at(x - e * direction_, ignored)) / (2 * e);
+  EXPECT_NEAR(g.cwiseProduct(direction_).sum(), slope, 1e-6 * g.norm());
+}
+
+// Where every spring is stretched, nothing is left out of the Hessian.
+TEST_P(Derivatives, TheHessianOfStretchedClothIsTheSlopeOfTheGradient) {
+  const Vertices x = 5 * cloth_.positions;
+  const SpringNetwork& springs = objective_->springs();
+  for (const Spring& s : springs.springs()) ASSERT_GT((x.row(s.i) - x.row(s.j)).norm(), s.rest_length);
+  SpringNetwork::Blocks blocks;
+  springs.compute_blocks(x, blocks);
+  Vertices product = Vertices::Zero(x.rows(), 3), above = product, below = product;
+  springs.add_product(blocks, direction_, product);
+  const double e = 1e-6;
+  springs.add_gradient(x + e * direction_, above);
+  springs.add_gradient(x - e * direction_, below);
+  EXPECT_LT((product - (above - below) / (2 * e)).norm(), 1e-6 * product.norm());
+}
+
+TEST_P(Derivatives, BothLinearSolversSolveTheSameEquations) {
+  const Vertices& x = cloth_.positions;
+  const Vertices g = gradient(x);
+  Vertices exact(x.rows(), 3), iterated(x.rows(), 3);
+  NewtonSystem(system_, *objective_).solve(x, g, exact);
+  ConjugateGradients(system_, *objective_).solve(x, g, iterated);
+  // To the tolerance of the inner iteration, in the norm of the forces, which the equations' smallest eigenvalue m/h²
+  // turns into one of lengths.
+  const double smallest = objective_->inertia().minCoeff();
+  EXPECT_LT((exact - iterated).norm(), 1.1e-2 * g.norm() / smallest);
+  for (const int pin : cloth_.pins) {
+    EXPECT_EQ(exact.row(pin).norm(), 0);
+    EXPECT_EQ(iterated.row(pin).norm(), 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, Derivatives,
+                         ::testing::Values(Case{"grid", testing::grid_cloth(20)},
+                                           Case{"wide_grid", testing::grid_cloth(70)},
+                                           Case{"irregular", testing::irregular_cloth()},
+                                           Case{"non_manifold", testing::non_manifold_cloth()}),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST(SpringKernels, GiveTheSameBitsAtEveryVectorWidth) {
+  const Cloth cloth = testing::disturbed(testing::grid_cloth(23));
+  const auto count = static_cast<std::size_t>(cloth.positions.size());
+  std::vector<double> k(256), rest(256);
+  for (std::size_t t = 0; t < k.size(); ++t) {
+    k[t] = 100 + static_cast<double>(t);
+    rest[t] = 0.05 + 0.001 * static_cast<double>(t % 50);
+  }
+  for (const int offset : {1, 7, 24, 200}) {
+    const SpringRun run{3, 3 + offset, 251, k.data(), rest.data()};
+    Vertices expected;
+    double expected_energy = 0, expected_dot = 0;
+    for (const Kernels* version : all_kernels()) {
+      if (version->supported() == 0) continue;
+      Vertices gradient = wave(cloth.positions.rows(), 0.3);
+      const double energy = version->add_run_value_gradient(run, columns(cloth.positions), columns(gradient));
+      const double* vector = gradient.data();
+      double dot = 0;
+      version->dots(count, 1, &vector, cloth.positions.data(), &dot);
+      if (expected.size() == 0) {
+        expected = gradient;
+        expected_energy = energy;
+        expected_dot = dot;
+      }
+      EXPECT_EQ(gradient, expected) << version->name << ", offset " << offset;
+      EXPECT_EQ(energy, expected_energy) << version->name;
+      EXPECT_EQ(dot, expected_dot) << version->name;
+    }
+  }
+}
+
+TEST(SpringKernels, ASpringOfZeroLengthPullsNowhere) {
+  Cloth cloth = testing::grid_cloth(4);
+  cloth.positions.setZero();
+  const SpringNetwork springs(cloth.springs);
+  Vertices gradient = Vertices::Zero(cloth.positions.rows(), 3);
+  const double energy = springs.add_value_gradient(cloth.positions, gradient);
+  EXPECT_EQ(gradient, Vertices::Zero(cloth.positions.rows(), 3));
+  double expected = 0;
+  for (const Spring& s : cloth.springs) expected += 0.5 * s.stiffness * s.rest_length * s.rest_length;
+  EXPECT_NEAR(energy, expected, 1e-12 * expected);
+}
+
+}  // namespace
+}  // namespace drape
