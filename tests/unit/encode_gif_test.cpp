@@ -158,7 +158,7 @@ TEST_F(Gif, LeavesNoBandsOnASoftGradient) {
       }
     }
   }
-  EXPECT_LT(worst, 2.0);
+  EXPECT_LT(worst, 1.0);
 }
 
 TEST_F(Gif, OfEightSecondsStaysUnderSixMegabytes) {
