@@ -26,7 +26,8 @@ class GifCompactor {
 
   /// @param frame      palette indices, of the same size every time; changed in place
   /// @param source     the picture it was made from
-  /// @param tolerance  the most a channel may be off where there is much contrast; 0 to change nothing
+  /// @param tolerance  how far a colour may be off where there is much contrast: the root of the weighted mean square
+  ///                   of its channels, in steps of 1/255; 0 to change nothing
   void compact(AVFrame& frame, const Image& source, int tolerance);
 
  private:
