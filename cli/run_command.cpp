@@ -10,6 +10,8 @@
 #include "render/encode/path_template.hpp"
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
+#include "sim/simulation.hpp"
+#include "sim/stability.hpp"
 
 namespace drape {
 namespace {
@@ -69,7 +71,8 @@ void check_names(const RunArguments& arguments) {
 RunOptions run_options(const RunArguments& arguments, const Scene& scene) {
   const auto expanded = [&](const std::string& text) {
     const PathTemplate path(text);
-    if (path.has_frame()) throw UsageError(fmt::format("'{}' is one file for the whole run: it cannot hold {{frame}}", text));
+    if (path.has_frame())
+      throw UsageError(fmt::format("'{}' is one file for the whole run: it cannot hold {{frame}}", text));
     return path.path(scene.name, 0, 1);
   };
   RunOptions options;
@@ -86,6 +89,11 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene) {
 
 ExitCode run(const Scene& scene, const RunOptions& options, const CommonOptions& common) {
   spdlog::info(describe(scene, options));
+  if (scene.simulation.integrator.allow_unstable) {
+    if (const auto problem = stability_problem(scene.simulation, make_system(scene.simulation))) {
+      spdlog::warn("{}: {}", scene.file.string(), *problem);
+    }
+  }
   Progress progress;
   ProgressDisplay display(progress, ProgressDisplay::fitting_style(common.quiet || options.step_by_step));
   const RunResult result = run_scene(scene, options, interruption(), progress, [&] { display.update(); });

@@ -9,6 +9,8 @@
 #include "scene/overrides.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/tables.hpp"
+#include "sim/simulation.hpp"
+#include "sim/stability.hpp"
 
 namespace drape {
 namespace {
@@ -32,6 +34,15 @@ class Checks {
     } else if (!(frames <= most_frames)) {
       add("video", "fps",
           fmt::format("the film would have {:.4g} frames, at most {:g} can be drawn", frames, most_frames));
+    }
+  }
+
+  /// Of the whole simulation, once nothing else is wrong with it.
+  void stability() const {
+    const SimulationSettings& settings = scene_.simulation;
+    if (settings.integrator.allow_unstable) return;
+    if (const auto problem = stability_problem(settings, make_system(settings))) {
+      add("time", "step", "step: " + *problem);
     }
   }
 
@@ -102,6 +113,8 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   }
   problems.throw_if_any();
   for (const ReadEffect& effect : effects) scene.simulation.effects.push_back(effect.active);
+  checks.stability();
+  problems.throw_if_any();
   return scene;
 }
 

@@ -29,9 +29,8 @@ FlippedPairs::FlippedPairs(const std::vector<Triangle>& triangles) : triangles_(
       sides.push_back({{low, high}, static_cast<int>(t)});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.edge, a.triangle) < std::tie(b.edge, b.triangle);
-  });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return std::tie(a.edge, a.triangle) < std::tie(b.edge, b.triangle); });
   for (std::size_t s = 1; s < sides.size(); ++s) {
     if (sides[s].edge == sides[s - 1].edge) neighbours_.push_back({sides[s - 1].triangle, sides[s].triangle});
   }

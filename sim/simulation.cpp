@@ -11,26 +11,12 @@
 namespace drape {
 namespace {
 
-System make_system(const SimulationSettings& settings) {
-  System system(settings.cloth, settings.step);
-  for (const ActiveEffect& active : settings.effects) active.effect->install(system);
-  return system;
-}
-
 /// Makes the integrator, unless the motion is known beforehand to be unstable.
 std::unique_ptr<Integrator> make_stable_integrator(const SimulationSettings& settings, const System& system) {
-  const IntegratorSettings& integrator = settings.integrator;
-  if (integrator.method == Method::semi_implicit && !integrator.allow_unstable) {
-    const double largest = safe_step(system);
-    if (settings.step > largest) {
-      throw UsageError(
-          fmt::format("[time] step = {:g} s is too large for semi-implicit Euler: with these springs and masses it is "
-                      "stable up to {:.4g} s; take a smaller step or an implicit method, or set [integrator] "
-                      "allow_unstable = true to run it nevertheless",
-                      settings.step, largest));
-    }
+  if (!settings.integrator.allow_unstable) {
+    if (const auto problem = stability_problem(settings, system)) throw UsageError(*problem);
   }
-  return make_integrator(integrator, system);
+  return make_integrator(settings.integrator, system);
 }
 
 State initial_state(const Cloth& cloth) {
@@ -40,6 +26,12 @@ State initial_state(const Cloth& cloth) {
 }
 
 }  // namespace
+
+System make_system(const SimulationSettings& settings) {
+  System system(settings.cloth, settings.step);
+  for (const ActiveEffect& active : settings.effects) active.effect->install(system);
+  return system;
+}
 
 DivergedError::DivergedError(std::int64_t step, double time, int vertex)
     : Error(ExitCode::diverged,

@@ -26,6 +26,9 @@ class DivergedError : public Error {
   DivergedError(std::int64_t step, double time, int vertex);
 };
 
+/// What acts on the cloth with the settings' effects. Refers to the settings, which must outlive it.
+System make_system(const SimulationSettings& settings);
+
 /// A cloth in motion: owns its state, what acts on it, and the integrator. No threads, no files. The same settings give
 /// the same bits.
 class Simulation {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <fmt/format.h>
 #include <vector>
 
 namespace drape {
@@ -71,6 +73,16 @@ double safe_step(const System& system) {
   for (const int pin : system.cloth.pins) scale[pin] = 0;
   const double largest = largest_eigenvalue(system, scale);
   return largest > 0 ? 2 / std::sqrt(largest) : std::numeric_limits<double>::infinity();
+}
+
+std::optional<std::string> stability_problem(const SimulationSettings& settings, const System& system) {
+  if (settings.integrator.method != Method::semi_implicit) return std::nullopt;
+  const double largest = safe_step(system);
+  if (settings.step <= largest) return std::nullopt;
+  return fmt::format(
+      "{:g} s is too long for semi-implicit Euler: with these springs and masses it is stable up to {:.4g} s; take a "
+      "shorter step or an implicit method, or set [integrator] allow_unstable = true to run it nevertheless",
+      settings.step, largest);
 }
 
 }  // namespace drape

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
+#include "sim/settings.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
@@ -10,5 +14,9 @@ namespace drape {
 ///
 /// λ_max is found by Lanczos iteration to a relative 1e-4 from below, and the error bound of that value is added to it.
 double safe_step(const System& system);
+
+/// Why the settings' step makes the motion unstable, with the largest safe one: a sentence if the method is
+/// semi-implicit Euler and the step is beyond safe_step(); nothing otherwise, and for the implicit methods.
+std::optional<std::string> stability_problem(const SimulationSettings& settings, const System& system);
 
 }  // namespace drape

@@ -35,20 +35,26 @@ const Kernels& fastest() {
   return *best;
 }
 
-TEST(InstructionSetDeathTest, CanBeLimitedToTheBaseline) {
+class InstructionSetDeathTest : public testing::Test {
+ protected:
+  // Starts the program again for each of them: in this process the choice may be made already.
+  InstructionSetDeathTest() { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
+};
+
+TEST_F(InstructionSetDeathTest, CanBeLimitedToTheBaseline) {
   EXPECT_EXIT(choose("sse2"), testing::ExitedWithCode(0), "chosen: sse2");
 }
 
-TEST(InstructionSetDeathTest, IsTheFastestUnlessLimited) {
+TEST_F(InstructionSetDeathTest, IsTheFastestUnlessLimited) {
   EXPECT_EXIT(choose(nullptr), testing::ExitedWithCode(0), "chosen: " + std::string(fastest().name));
 }
 
-TEST(InstructionSetDeathTest, IsNeverOneThatTheProcessorLacks) {
+TEST_F(InstructionSetDeathTest, IsNeverOneThatTheProcessorLacks) {
   const std::string largest(all_kernels().back()->name);
   EXPECT_EXIT(choose(largest.c_str()), testing::ExitedWithCode(0), "chosen: " + std::string(fastest().name));
 }
 
-TEST(InstructionSetDeathTest, IsRefusedUnderAWrongName) {
+TEST_F(InstructionSetDeathTest, IsRefusedUnderAWrongName) {
   EXPECT_EXIT(choose("avx3"), testing::ExitedWithCode(2), "DRAPE_ISA.*avx3.*sse2");
   EXPECT_EXIT(choose("sse2x"), testing::ExitedWithCode(2), "sse2x");
 }

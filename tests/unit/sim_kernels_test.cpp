@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -32,7 +32,7 @@ std::vector<double> numbers(std::size_t count, int seed) {
 
 template <class T>
 bool same(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
@@ -73,36 +73,31 @@ struct Springs {
 /// A well-conditioned lower triangle of panels of every width, each with rows below.
 template <class T>
 struct Triangle {
-  int size;
   std::vector<Panel> panels;
   std::vector<int> rows;
   std::vector<T> values;
-  std::vector<double> dense;  // size×size, by columns
+  Eigen::MatrixXd dense;
 
-  explicit Triangle(int n) : size(n), dense(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0) {
+  explicit Triangle(int n) : dense(Eigen::MatrixXd::Zero(n, n)) {
     Random random(5);
-    const auto at = [&](int row, int column) -> double& {
-      return dense[static_cast<std::size_t>(column) * static_cast<std::size_t>(n) + static_cast<std::size_t>(row)];
-    };
     for (int first = 0, width = 1; first < n; first += width, width = 1 + panels.back().width % panel_width) {
       width = std::min(width, n - first);
       Panel panel{.first = first, .width = width, .row_count = 0};
-      for (int c = first; c < first + width; ++c) {
-        values.push_back(static_cast<T>(random.between(0.5, 2)));
-        at(c, c) = 1 / static_cast<double>(values.back());
+      Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(width, width);
+      for (int r = 0; r < width; ++r) {
+        for (int c = 0; c < r; ++c) inverse(r, c) = random.between(-1, 1) / n;
+        inverse(r, r) = random.between(0.5, 2);
+        for (int c = 0; c <= r; ++c) values.push_back(static_cast<T>(inverse(r, c)));
       }
-      const auto add_row = [&](int row, int end) {
-        for (int c = first; c < end; ++c) {
-          values.push_back(static_cast<T>(random.between(-1, 1) / n));
-          at(row, c) = static_cast<double>(values.back());
-        }
-      };
-      for (int row = first + 1; row < first + width; ++row) add_row(row, row);
+      dense.block(first, first, width, width) = inverse.inverse();
       for (int row = first + width; row < n; ++row) {
         if (random.number() > 0.33) continue;
         rows.push_back(row);
         ++panel.row_count;
-        add_row(row, first + width);
+        for (int c = first; c < first + width; ++c) {
+          dense(row, c) = random.between(-1, 1) / n;
+          values.push_back(static_cast<T>(dense(row, c)));
+        }
       }
       panels.push_back(panel);
     }
@@ -302,9 +297,8 @@ TEST_P(KernelsVersion, SolvesBothTriangles) {
     const auto b = right_hand_side<double>(n);
     auto x = b;
     tested.solve_double(triangle.view(), x.data());
-    const Eigen::Map<const Eigen::MatrixXd> lower(triangle.dense.data(), n, n);
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
-    const Rows product = lower * (lower.transpose() * Eigen::Map<const Rows>(x.data(), n, 4));
+    const Rows product = triangle.dense * (triangle.dense.transpose() * Eigen::Map<const Rows>(x.data(), n, 4));
     EXPECT_LT((product - Eigen::Map<const Rows>(b.data(), n, 4)).cwiseAbs().maxCoeff(), 1e-13) << n;
   }
 }
