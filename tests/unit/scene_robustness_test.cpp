@@ -98,6 +98,8 @@ TEST(SceneSteps, AreTheNearestWholeNumberToTheDuration) {
   EXPECT_EQ(steps(8.334, 0.001), 8334);
   EXPECT_EQ(steps(0.3, 0.1), 3) << "0.3/0.1 is a little less than 3";
   EXPECT_EQ(steps(0, 0.1), 0);
+  EXPECT_EQ(steps(1.4, 1), 1);
+  EXPECT_EQ(steps(1.6, 1), 2);
   EXPECT_EQ(steps(1e9, 1), 1000000000);
 }
 
