@@ -46,6 +46,16 @@ struct Correction {
   virtual void apply(State& state, double h) const = 0;
 };
 
+/// A change of the motion of a step before the vertices move: contact, friction, limits of strain (after Bridson, Fedkiw
+/// and Anderson 2002, section 4: whatever the integrator, a step ends at x + h·v with v corrected for what it would do).
+struct MotionFilter {
+  virtual ~MotionFilter() = default;
+  /// Changes v, the velocities n×3 [m/s] with which the cloth is about to go from x to x + h·v, between `time` and
+  /// time + h [s]. Leaves the rows of pinned vertices as they are. What it keeps between calls is memory only: the
+  /// result depends on the arguments alone.
+  virtual void apply(const Vertices& x, double time, double h, Vertices& v) = 0;
+};
+
 /// Something the cloth can touch, whose place is a function of time.
 struct ColliderMotion {
   virtual ~ColliderMotion() = default;
@@ -63,6 +73,7 @@ struct System {
   std::vector<std::unique_ptr<Force>> forces;
   std::vector<std::unique_ptr<Energy>> energies;
   std::vector<std::unique_ptr<Correction>> corrections;
+  std::vector<std::unique_ptr<MotionFilter>> filters;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;
 
   System(const Cloth& c, double h) : cloth(c), step(h), springs(c.springs) {}
@@ -70,6 +81,11 @@ struct System {
   /// Applies every correction to the velocity of a step.
   void correct(State& state) const {
     for (const auto& correction : corrections) correction->apply(state, step);
+  }
+
+  /// Applies every filter to the velocities with which a step is about to leave state.x.
+  void filter(State& state) const {
+    for (const auto& f : filters) f->apply(state.x, static_cast<double>(state.step) * step, step, state.v);
   }
 };
 

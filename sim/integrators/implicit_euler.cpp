@@ -26,7 +26,12 @@ StepReport ImplicitEuler::advance(State& state, const Vertices& force) {
   start();
   const StepReport report = minimise();
   state.v = (point_.x - state.x) / system_.step;
-  state.x = point_.x;
+  if (system_.filters.empty()) {
+    state.x = point_.x;
+  } else {
+    system_.filter(state);
+    state.x += system_.step * state.v;
+  }
   system_.correct(state);
   return report;
 }

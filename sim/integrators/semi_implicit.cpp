@@ -14,14 +14,15 @@ StepReport SemiImplicitEuler::advance(State& state, const Vertices& force) {
   const Kernels& k = kernels();
   const auto count = static_cast<std::size_t>(state.x.rows());
   springs_.add_gradient(state.x, gradient_);
-  // Without corrections both updates are one pass.
-  const double drift = system_.corrections.empty() ? system_.step : 0;
+  // Where nothing changes the velocity in between, both updates are one pass.
+  const double drift = system_.corrections.empty() && system_.filters.empty() ? system_.step : 0;
   for (int axis = 0; axis < 3; ++axis) {
     k.kick_and_drift(count, pull_.data(), force.col(axis).data(), drift, gradient_.col(axis).data(),
                      state.v.col(axis).data(), state.x.col(axis).data());
   }
   if (drift == 0) {
     system_.correct(state);
+    system_.filter(state);
     k.add_multiple(3 * count, system_.step, state.v.data(), state.x.data());
   }
   return {};
