@@ -132,6 +132,16 @@ struct Kernels {
   /// to += Σ factors[k]·vectors[k] for k < many, count numbers each.
   void (*add_multiples)(std::size_t count, int many, const double* const* vectors, const double* factors, double* to);
 
+  /// packed[4·row[v] + axis] = from[axis][v] for v < count; the fourth number of a row is zero.
+  void (*pack_single)(int count, Columns<const double> from, const int* row, float* packed);
+  void (*pack_double)(int count, Columns<const double> from, const int* row, double* packed);
+  /// to[axis][v] = packed[4·row[v] + axis] for v < count.
+  void (*unpack_single)(int count, const float* packed, const int* row, Columns<double> to);
+  void (*unpack_double)(int count, const double* packed, const int* row, Columns<double> to);
+  /// from[axis][v] −= packed[4·row[v] + axis] for v < count; returns the sum of the squares of what it subtracts.
+  double (*subtract_packed_single)(int count, const float* packed, const int* row, Columns<double> from);
+  double (*subtract_packed_double)(int count, const double* packed, const int* row, Columns<double> from);
+
   /// x = L⁻ᵀ L⁻¹ x for four right-hand sides, side by side in each row of x (4n numbers).
   void (*solve_single)(const PackedTriangle<float>&, float* x);
   void (*solve_double)(const PackedTriangle<double>&, double* x);

@@ -4,6 +4,7 @@
 // run.
 
 #include "sim/kernels/isa_bands.hpp"
+#include "sim/kernels/isa_packing.hpp"
 #include "sim/kernels/isa_springs.hpp"
 #include "sim/kernels/isa_triangle.hpp"
 #include "sim/kernels/isa_vectors.hpp"
@@ -49,6 +50,12 @@ constexpr Kernels DRAPE_TABLE = {
     .add_multiple = add_multiple,
     .dots = dots,
     .add_multiples = add_multiples,
+    .pack_single = pack<FourSingles, float>,
+    .pack_double = pack<FourDoubles, double>,
+    .unpack_single = unpack<FourSingles, float>,
+    .unpack_double = unpack<FourDoubles, double>,
+    .subtract_packed_single = subtract_packed<FourSingles, float>,
+    .subtract_packed_double = subtract_packed<FourDoubles, double>,
     .solve_single = solve_packed<FourSingles, float>,
     .solve_double = solve_packed<FourDoubles, double>,
 };

@@ -297,6 +297,43 @@ TEST_P(KernelsVersion, SumsAlike) {
   }
 }
 
+TEST_P(KernelsVersion, PacksAndUnpacks) {
+  for (const int count : counts) {
+    const auto n = static_cast<std::size_t>(count);
+    const std::vector<double> from = numbers(3 * n, 31), before = numbers(3 * n, 32);
+    const auto columns = [n](auto& v) { return Columns{v.data(), v.data() + n, v.data() + 2 * n}; };
+    std::vector<int> row(n);  // a permutation: 7 has no common divisor with a power of two
+    for (std::size_t v = 0; v < n; ++v) row[v] = static_cast<int>(7 * v % 256);
+    std::vector<double> doubles(4 * 256, -1), there = before, difference = before;
+    std::vector<float> singles(4 * 256, -1);
+    tested.pack_double(count, columns(from), row.data(), doubles.data());
+    tested.pack_single(count, columns(from), row.data(), singles.data());
+    double squares = 0;
+    for (std::size_t v = 0; v < n; ++v) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto at = 4 * static_cast<std::size_t>(row[v]) + axis;
+        ASSERT_EQ(doubles[at], from[axis * n + v]);
+        ASSERT_EQ(singles[at], static_cast<float>(from[axis * n + v]));
+        squares += from[axis * n + v] * from[axis * n + v];
+      }
+    }
+    tested.unpack_double(count, doubles.data(), row.data(), columns(there));
+    ASSERT_TRUE(same(there, from)) << count;
+    const double sum = tested.subtract_packed_double(count, doubles.data(), row.data(), columns(difference));
+    for (std::size_t t = 0; t < 3 * n; ++t) ASSERT_EQ(difference[t], before[t] - from[t]);
+    EXPECT_NEAR(sum, squares, 1e-13 * squares);
+    std::vector<double> elsewhere = before;
+    ASSERT_TRUE(same(sum, reference.subtract_packed_double(count, doubles.data(), row.data(), columns(elsewhere))));
+
+    std::vector<double> rounded = before, same_rounded = before;
+    tested.unpack_single(count, singles.data(), row.data(), columns(there));
+    for (std::size_t t = 0; t < 3 * n; ++t) ASSERT_EQ(there[t], static_cast<double>(static_cast<float>(from[t])));
+    ASSERT_TRUE(same(tested.subtract_packed_single(count, singles.data(), row.data(), columns(rounded)),
+                     reference.subtract_packed_single(count, singles.data(), row.data(), columns(same_rounded))));
+    ASSERT_TRUE(same(rounded, same_rounded)) << count;
+  }
+}
+
 TEST_P(KernelsVersion, SolvesAlike) {
   for (const int n : {0, 1, 2, 3, 4, 5, 8, 13, 30, 71}) {
     const Triangle<float> singles(n);
