@@ -61,17 +61,26 @@ Markup& Markup::operator+=(const Markup& other) {
 }
 
 Markup element(std::string_view tag, const Attributes& attributes, const Markup& content) {
-  std::string html = "<" + std::string(tag);
-  for (const Attribute& attribute : attributes) {
-    if (attribute.name.ends_with('?')) {
-      if (!attribute.value.empty()) html += " " + std::string(attribute.name.substr(0, attribute.name.size() - 1));
-      continue;
-    }
-    html += " " + std::string(attribute.name) + "=\"" + escape(attribute.value) + "\"";
+  std::string html("<");
+  html += tag;
+  for (const auto& [name, value] : attributes) {
+    const bool optional = name.ends_with('?');
+    if (optional && value.empty()) continue;
+    html += ' ';
+    html += optional ? name.substr(0, name.size() - 1) : name;
+    if (optional) continue;
+    html += "=\"";
+    html += escape(value);
+    html += '"';
   }
-  html += ">";
-  if (std::find(void_elements.begin(), void_elements.end(), tag) != void_elements.end()) return Markup::trusted(html);
-  return Markup::trusted(html + content.html() + "</" + std::string(tag) + ">");
+  html += '>';
+  if (std::find(void_elements.begin(), void_elements.end(), tag) == void_elements.end()) {
+    html += content.html();
+    html += "</";
+    html += tag;
+    html += '>';
+  }
+  return Markup::trusted(std::move(html));
 }
 
 Markup element(std::string_view tag, const Markup& content) { return element(tag, {}, content); }
@@ -87,7 +96,11 @@ std::string data_uri(std::string_view type, std::string_view bytes) {
   av_base64_encode(encoded.data(), static_cast<int>(encoded.size()),
                    reinterpret_cast<const std::uint8_t*>(bytes.data()), static_cast<int>(bytes.size()));
   encoded.pop_back();  // the terminating zero
-  return "data:" + std::string(type) + ";base64," + encoded;
+  std::string uri("data:");
+  uri += type;
+  uri += ";base64,";
+  uri += encoded;
+  return uri;
 }
 
 }  // namespace drape::html
