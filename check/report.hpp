@@ -66,7 +66,8 @@ struct Deviation {
 
 /// A few steps of motion, computed from a golden state.
 struct WindowResult {
-  int frame = 0;  ///< the compared frame at which it begins
+  std::optional<int> frame;  ///< the compared frame at which it begins; absent: the start of a motion whose frame 0 is
+                             ///< not compared
   std::int64_t first_step = 0, last_step = 0;
   MotionVerdict verdict = MotionVerdict::same_bits;
   std::vector<double> deviations;    ///< the largest distance of any vertex from its golden place, at every step from
