@@ -19,6 +19,10 @@ using Command = std::function<ExitCode()>;
 /// Adds the subcommands that run scenes, render and simulate. The one that is chosen sets `command`.
 void add_run_commands(CLI::App& app, const CommonOptions& common, Command& command);
 
+/// Add check and bless likewise.
+void add_check_command(CLI::App& app, const CommonOptions& common, Command& command);
+void add_bless_command(CLI::App& app, const CommonOptions& common, Command& command);
+
 /// Reads the command line, runs the chosen subcommand and returns the exit code; errors go to standard error.
 ExitCode run_command_line(int argc, const char* const* argv);
 
