@@ -204,9 +204,6 @@ Markup scene_content(const SceneResult& scene, const std::string& id) {
   for (const std::string& sentence : scene.findings) {
     findings.push_back({findings.empty() ? tone_of(scene.verdict) : Tone::neutral, sentence});
   }
-  if (scene.scene_changed) {
-    findings.push_back({Tone::caution, "The scene file says something else than when the golden was recorded."});
-  }
   Markup content;
   if (!findings.empty()) content += html::findings(findings);
   if (!scene.rerun_command.empty()) content += html::command("Run this check again", scene.rerun_command);

@@ -111,6 +111,7 @@ struct SceneResult {
   bool scene_changed = false;  ///< the scene says something else than when it was recorded
   std::string recorded_at;     ///< "2026-01-31T12:00:00Z"; empty without a golden
   Machine recorded_on;
+  std::string renderer;       ///< what drew the pictures now
   std::array<int, 2> size{};  ///< of the pictures [pixels]
   std::string animation;      ///< a GIF's bytes: expected, actual and difference side by side, looping around the
                               ///< first bad frame; empty if there is none
@@ -138,7 +139,8 @@ const char* verdict_name(PictureVerdict verdict);
 const char* verdict_name(SceneVerdict verdict);
 
 /// The folder of a scene's files beside the report, relative to it: "5/".
-/// @returns `name`/frame_0040.KIND.png for "expected", "actual", "difference" and "flip"
+/// @returns `name`/frame_0040.KIND.png for "expected", "actual", "difference" and "flip", and with "end_to_end." before
+///          those for the pictures of the whole motion
 std::filesystem::path frame_file(const SceneResult& scene, int frame, const std::string& kind);
 
 }  // namespace drape

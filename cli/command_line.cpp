@@ -90,6 +90,8 @@ ExitCode run_command_line(int argc, const char* const* argv) {
 
   Command command;
   add_run_commands(app, common, command);
+  add_check_command(app, common, command);
+  add_bless_command(app, common, command);
   add_doctor_command(app, command);
   try {
     app.parse(argc, argv);
