@@ -139,12 +139,12 @@ Markup provenance(const SceneResult& scene) {
                               limits.flip)}});
 }
 
-Markup comparison_content(const SceneResult& scene, const Comparison& comparison, const std::string& id) {
-  Markup content = viewer(scene, comparison, id);
+/// Curves and tables.
+Markup figures(const SceneResult& scene, const Comparison& comparison) {
   std::vector<Markup> charts;
   if (!comparison.windows.empty()) charts.push_back(motion_chart(scene, comparison));
   if (!comparison.frames.empty()) charts.push_back(picture_chart(scene, comparison));
-  content += html::row(charts);
+  const Markup content = html::row(charts);
   Markup tables;
   if (!comparison.windows.empty()) tables += windows_table(comparison);
   if (!comparison.frames.empty()) tables += frames_table(comparison);
@@ -208,15 +208,16 @@ Markup scene_content(const SceneResult& scene, const std::string& id) {
   if (!findings.empty()) content += html::findings(findings);
   if (!scene.rerun_command.empty()) content += html::command("Run this check again", scene.rerun_command);
   if (!scene.bless_command.empty()) content += html::command("Accept what it is now", scene.bless_command);
-  content += comparison_content(scene, scene.windows, id);
+  content += viewer(scene, scene.windows, id);
   if (!scene.animation.empty()) {
     content += html::figure(
         html::picture("image/gif", scene.animation, "Expected, actual and difference side by side, as an animation"),
         "Expected, actual and difference around the first frame that changed.");
   }
+  content += figures(scene, scene.windows);
   if (scene.end_to_end) {
     content += html::section(3, id + "-end-to-end", "The whole motion, run again from its start",
-                             comparison_content(scene, *scene.end_to_end, id + "-whole"));
+                             viewer(scene, *scene.end_to_end, id + "-whole") + figures(scene, *scene.end_to_end));
   }
   return content + html::details("How the golden was recorded", provenance(scene));
 }

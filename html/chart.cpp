@@ -67,7 +67,8 @@ Markup levels(const Chart& chart, const Frame& frame) {
   Markup parts;
   for (const ChartLevel& level : chart.levels) {
     const double y = frame.down(level.y);
-    parts += line("level", left, y, width - right, y) + text(width - right - 4, y - 5, "end", level.label);
+    parts += line("level", left, y, width - right, y) +
+             text(width - right - 4, y > top + 16 ? y - 5 : y + 14, "end", level.label);
   }
   return element("g", {{"class", "levels"}}, parts);
 }
