@@ -176,7 +176,7 @@ class Pipeline {
     const std::optional<View> view = view_.pop();
     if (!view) return images_.close();
     Renderer renderer(data_folder(), scene_.video.size, *view, scene_.look, simulation_.cloth().vertex_count(),
-                      simulation_.cloth().triangles, scene_.uvs);
+                      simulation_.cloth().triangles, scene_.uvs, options_.backend);
     result_.renderer = renderer.description();
     while (const std::optional<Frame> frame = frames_.pop()) {
       const auto begin = Clock::now();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scene/document.hpp"
 #include "scene/problems.hpp"
@@ -41,6 +42,10 @@ std::optional<Eigen::Vector3d> read_vector(const TomlValue& value, const std::st
 /// Reads an array of two whole numbers, each in the range.
 std::optional<Eigen::Vector2i> read_int_pair(const TomlValue& value, const std::string& name, const Range& range,
                                              Problems& problems);
+
+/// Reads an array of whole numbers, each in the range.
+std::optional<std::vector<int>> read_ints(const TomlValue& value, const std::string& name, const Range& range,
+                                          Problems& problems);
 
 /// Reads the name of a file: relative to `folder`, the scene's, or else in the data folder's textures/. An empty string
 /// stays empty: no file.
