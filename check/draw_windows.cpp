@@ -41,10 +41,10 @@ FrameResult compare_frame(const std::filesystem::path& golden_file, const Image&
 
 }  // namespace
 
-DrawWindows::DrawWindows(const Scene& scene, const Eigen::Vector2i& size, const View& view)
+DrawWindows::DrawWindows(const Scene& scene, const Eigen::Vector2i& size, const View& view, GlBackend backend)
     : simulation_(scene.simulation),
       renderer_(data_folder(), size, view, scene.look, scene.simulation.cloth.vertex_count(),
-                scene.simulation.cloth.triangles, scene.uvs) {}
+                scene.simulation.cloth.triangles, scene.uvs, backend) {}
 
 Image DrawWindows::draw(int frame, double time, const Vertices& positions) {
   return renderer_.draw(

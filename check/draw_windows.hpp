@@ -7,6 +7,7 @@
 
 #include "check/golden.hpp"
 #include "check/report.hpp"
+#include "render/backend.hpp"
 #include "render/renderer.hpp"
 #include "run/progress.hpp"
 #include "scene/scene.hpp"
@@ -17,7 +18,7 @@ namespace drape {
 class DrawWindows {
  public:
   /// @throws UsageError, OutputError as Renderer
-  DrawWindows(const Scene& scene, const Eigen::Vector2i& size, const View& view);
+  DrawWindows(const Scene& scene, const Eigen::Vector2i& size, const View& view, GlBackend backend);
 
   /// What draws.
   [[nodiscard]] std::string renderer() const { return renderer_.description(); }

@@ -15,6 +15,7 @@ namespace {
 struct BlessArguments {
   std::vector<std::string> scenes;
   std::string frames;
+  GlBackend backend = GlBackend::automatic;
 };
 
 ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
@@ -24,7 +25,7 @@ ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
     if (!frames.empty()) settings.frames = frames;
     std::optional<Blessing> blessing;
     run_watched(common, [&](const std::stop_token& stop, Progress& progress) {
-      blessing = bless_scene(scene, settings, stop, progress);
+      blessing = bless_scene(scene, settings, arguments.backend, stop, progress);
     });
     if (!blessing) {
       spdlog::error("interrupted; {} is as it was", golden_folder(scene.file).string());
@@ -45,6 +46,7 @@ void add_bless_command(CLI::App& app, const CommonOptions& common, Command& comm
   CLI::App* sub = app.add_subcommand("bless", "Record the golden frames and motion that drape check compares with");
   sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
   sub->add_option("--frames", arguments->frames, "A,B,C: compare these frames of the film, see [check] in the scene");
+  add_backend_option(*sub, arguments->backend);
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return bless(*arguments, common); }; });
 }

@@ -25,6 +25,7 @@ struct RunArguments {
   std::string frames;
   std::optional<std::int64_t> steps;
   RecordPaths records;
+  GlBackend backend = GlBackend::automatic;
   bool step_by_step = false;
 };
 
@@ -69,6 +70,7 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene) {
                      .trace = expanded(arguments.records.trace)};
   options.steps = arguments.steps;
   if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
+  options.backend = arguments.backend;
   options.step_by_step = arguments.step_by_step;
   return options;
 }
@@ -137,6 +139,7 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
                    "A film (.gif .mp4 .webm .avi), frames ({frame:04}.png) or a still (.png); repeatable; "
                    "default out/{scene}.gif")
       ->allow_extra_args(false);
+  add_backend_option(*render, arguments->backend);
   add_shared_options(*render, *arguments);
   render->callback([arguments, &common, &command] {
     if (arguments->outputs.empty()) arguments->outputs = {"out/{scene}.gif"};
