@@ -23,12 +23,12 @@ enum class UpdateMode {
 
 /// What a check of a scene should do.
 struct CheckOptions {
-  std::vector<int> frames;  ///< compare only these of the golden frames; empty: all of them
+  std::vector<int> frames = {};  ///< compare only these of the golden frames; empty: all of them
   GlBackend backend = GlBackend::automatic;
   bool end_to_end = false;  ///< run the whole motion and draw it as well
   UpdateMode update = UpdateMode::missing;
   std::size_t threads = 0;          ///< that compute windows; 0: as many as the processor has
-  std::filesystem::path artefacts;  ///< folder for the animation of a failed scene; empty: it is not made
+  std::filesystem::path artefacts = {};  ///< folder for the animation of a failed scene; empty: it is not made
 };
 
 /// What bless did.

@@ -49,29 +49,29 @@ class Flip : public ::testing::TestWithParam<Reference> {};
 // The figures are those of the authors' own program (flip_api.py of NVlabs/flip 1.2), in double precision.
 INSTANTIATE_TEST_SUITE_P(
     Of, Flip,
-    ::testing::Values(
-        Reference{"block",
-                  [](int x, int y) {
-                    return x >= 20 && x < 28 && y >= 10 && y < 18 ? Pixel{255, 255, 255} : pattern(x, y);
-                  },
-                  0.040545,
-                  0.984289,
-                  {0, 0.979193, 0.670373, 0, 0}},
-        Reference{"shift",
-                  [](int x, int y) { return pattern(std::max(x - 1, 0), y); },
-                  0.317886,
-                  0.810896,
-                  {0.023955, 0.320384, 0.177944, 0.309592, 0.370471}},
-        Reference{"brighter", brighter, 0.081626, 0.108796, {0.052517, 0.083192, 0.083242, 0.103662, 0.070996}},
-        Reference{"swapped",
-                  [](int x, int y) {
-                    const Pixel p = pattern(x, y);
-                    return Pixel{p[2], p[1], p[0]};
-                  },
-                  0.597752,
-                  0.968067,
-                  {0.050177, 0.472442, 0.806243, 0.439243, 0.301721}}),
-    [](const auto& info) { return info.param.name; });
+    ::testing::Values(Reference{"block",
+                                [](int x, int y) {
+                                  return x >= 20 && x < 28 && y >= 10 && y < 18 ? Pixel{255, 255, 255} : pattern(x, y);
+                                },
+                                0.040545,
+                                0.984289,
+                                {0, 0.979193, 0.670373, 0, 0}},
+                      Reference{"shift",
+                                [](int x, int y) { return pattern(std::max(x - 1, 0), y); },
+                                0.317886,
+                                0.810896,
+                                {0.023955, 0.320384, 0.177944, 0.309592, 0.370471}},
+                      Reference{
+                          "brighter", brighter, 0.081626, 0.108796, {0.052517, 0.083192, 0.083242, 0.103662, 0.070996}},
+                      Reference{"swapped",
+                                [](int x, int y) {
+                                  const Pixel p = pattern(x, y);
+                                  return Pixel{p[2], p[1], p[0]};
+                                },
+                                0.597752,
+                                0.968067,
+                                {0.050177, 0.472442, 0.806243, 0.439243, 0.301721}}),
+    [](const auto& tested) { return tested.param.name; });
 
 TEST_P(Flip, AgreesWithItsAuthorsProgram) {
   const Reference& expected = GetParam();
