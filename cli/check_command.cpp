@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "check/check_scene.hpp"
+#include "check/html_report.hpp"
 #include "check/json_report.hpp"
 #include "check/junit_report.hpp"
 #include "check/machine.hpp"
@@ -71,6 +72,7 @@ std::string command_options(const CheckArguments& arguments) {
   for (const std::string& value : arguments.overrides) text += " --set " + shell_word(value);
   if (!arguments.frames.empty()) text += " --frames " + arguments.frames;
   if (arguments.end_to_end) text += " --end-to-end";
+  if (arguments.backend != GlBackend::automatic) text += fmt::format(" --backend {}", backend_name(arguments.backend));
   if (arguments.motion_tolerance) text += fmt::format(" --motion-tolerance {}", *arguments.motion_tolerance);
   if (arguments.channel) text += fmt::format(" --channel-limit {}", *arguments.channel);
   if (arguments.pixels) text += fmt::format(" --pixel-limit {}", *arguments.pixels);
@@ -97,6 +99,7 @@ std::string describe(const SceneResult& scene) {
 
 void write_reports(const CheckReport& report, const std::filesystem::path& folder) {
   write_frame_files(report, folder);
+  write_html_report(report, folder / "report.html");
   write_file_atomically(folder / "report.json", json_report(report));
   write_file_atomically(folder / "junit.xml", junit_report(report));
 }
@@ -137,7 +140,7 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   report.machine = this_machine(report.machine.renderer);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   write_reports(report, arguments.report);
-  if (!common.quiet) fmt::print("{}\n", (std::filesystem::path(arguments.report) / "report.json").string());
+  if (!common.quiet) fmt::print("{}\n", (std::filesystem::path(arguments.report) / "report.html").string());
   return report.passed() ? ExitCode::ok : ExitCode::differs;
 }
 
@@ -166,7 +169,7 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
          "all, changed, missing or none: which goldens to write; missing is the default, and fails all the same")
       ->type_name("WHICH");
   add_backend_option(*sub, arguments->backend);
-  sub->add_option("--report", arguments->report, "Folder for the reports; default out/check");
+  sub->add_option("--report", arguments->report, "Folder for the reports (HTML, JSON, JUnit); default out/check");
   sub->add_option("--threads", arguments->threads, "How many windows of motion are computed at once");
   add_limits(*sub, *arguments);
   sub->callback(

@@ -28,8 +28,10 @@ std::string value_in(const char* file, std::string_view key, char separator) {
 }
 
 std::vector<std::string> processor_flags() {
-  constexpr std::array<std::string_view, 9> wanted{"sse2",    "sse4_2",   "avx",      "avx2",       "fma",
-                                                   "avx512f", "avx512dq", "avx512vl", "avx512_vnni"};
+  // Those that decide how floating-point code is compiled or dispatched.
+  constexpr std::array<std::string_view, 15> wanted{"sse2",    "sse3",     "ssse3",    "sse4_1",   "sse4_2",
+                                                    "avx",     "f16c",     "fma",      "avx2",     "bmi2",
+                                                    "avx512f", "avx512bw", "avx512dq", "avx512vl", "avx512_vnni"};
   std::vector<std::string> flags;
   std::istringstream words(value_in("/proc/cpuinfo", "flags", ':'));
   for (std::string word; words >> word;) {

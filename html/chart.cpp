@@ -11,7 +11,7 @@ namespace drape::html {
 namespace {
 
 // In the units of the drawing, which is scaled to the page.
-constexpr double width = 640, height = 340, left = 72, right = 14, top = 12, bottom = 50;
+constexpr double width = 640, height = 340, left = 72, right = 24, top = 12, bottom = 50;
 constexpr std::size_t styles = 6;        // colours and signs of the style sheet
 constexpr std::size_t crowded = 60;      // points in a series from which on signs would cover the line
 constexpr std::size_t table_rows = 500;  // more would be no help to anybody
@@ -67,7 +67,8 @@ Markup levels(const Chart& chart, const Frame& frame) {
   Markup parts;
   for (const ChartLevel& level : chart.levels) {
     const double y = frame.down(level.y);
-    parts += line("level", left, y, width - right, y) + text(width - right - 4, y - 5, "end", level.label);
+    parts += line("level", left, y, width - right, y) +
+             text(width - right - 4, y > top + 16 ? y - 5 : y + 14, "end", level.label);
   }
   return element("g", {{"class", "levels"}}, parts);
 }
@@ -136,8 +137,9 @@ Markup points_table(const Chart& chart) {
 
 Markup chart(const Chart& chart) {
   const Frame frame = frame_of(chart);
-  Markup drawing = axes(chart, frame) + levels(chart, frame);
+  Markup drawing = axes(chart, frame);
   for (std::size_t i = 0; i < chart.series.size(); ++i) drawing += draw(chart.series[i], i % styles, frame);
+  drawing += levels(chart, frame);
   const Markup svg = element("svg",
                              {{"viewBox", fmt::format("0 0 {} {}", width, height)},
                               {"role", "img"},

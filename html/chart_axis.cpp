@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace drape::html {
@@ -10,6 +11,15 @@ namespace {
 
 constexpr int wanted_ticks = 6;
 constexpr double room_for_zero = 0.1;
+
+/// 10 to a power: "0.01", "100", and beyond that "10⁻⁷".
+std::string power_of_ten(int exponent) {
+  if (std::abs(exponent) <= 3) return short_number(std::pow(10, exponent));
+  constexpr std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(exponent))) text += digits[static_cast<std::size_t>(digit - '0')];
+  return text;
+}
 
 }  // namespace
 
@@ -56,7 +66,7 @@ void AxisMap::make_logarithmic(double low, double high) {
   const int stride = (decades + wanted_ticks) / (wanted_ticks + 1);
   for (int k = 0; k <= decades; k += stride) {
     const double value = std::pow(10, low_ + k);
-    ticks_.push_back({place(value), short_number(value)});
+    ticks_.push_back({place(value), power_of_ten(static_cast<int>(low_) + k)});
     if (decades > 2 || k == decades) continue;
     for (const int factor : {2, 5}) ticks_.push_back({place(factor * value), short_number(factor * value)});
   }

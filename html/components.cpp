@@ -26,7 +26,7 @@ Markup badge(const std::string& word, Tone tone) {
 }
 
 Markup section(int level, const std::string& id, const Markup& heading, const Markup& content) {
-  const std::string tag = "h" + std::to_string(level);
+  const std::string tag = level == 2 ? "h2" : "h3";
   return element("section", {{"aria-labelledby", id}}, element(tag, {{"id", id}}, heading) + content);
 }
 

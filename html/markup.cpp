@@ -83,8 +83,6 @@ Markup element(std::string_view tag, const Attributes& attributes, const Markup&
   return Markup::trusted(std::move(html));
 }
 
-Markup element(std::string_view tag, const Markup& content) { return element(tag, {}, content); }
-
 Markup join(const std::vector<Markup>& pieces) {
   Markup all;
   for (const Markup& piece : pieces) all += piece;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <initializer_list>
+#include <concepts>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,7 +41,12 @@ using Attributes = std::vector<Attribute>;
 
 /// <tag name="value" …>content</tag>, without an end tag for elements that have no content, such as img.
 Markup element(std::string_view tag, const Attributes& attributes, const Markup& content = {});
-Markup element(std::string_view tag, const Markup& content);
+/// A template, since attributes in braces could be read as text as well.
+template <class Content>
+  requires std::convertible_to<Content, Markup>
+Markup element(std::string_view tag, const Content& content) {
+  return element(tag, {}, content);
+}
 
 /// The pieces one after another.
 Markup join(const std::vector<Markup>& pieces);

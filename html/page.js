@@ -45,6 +45,7 @@
       const list = radios(name);
       if (!list.length) return;
       const radio = list[(index + list.length) % list.length];
+      if (list.includes(document.activeElement)) radio.focus();
       radio.checked = true;
       radio.dispatchEvent(new Event("change", { bubbles: true }));
     };
