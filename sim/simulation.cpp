@@ -78,9 +78,12 @@ void Simulation::restore(const State& state) { state_ = state; }
 
 Energies Simulation::energies() const {
   const Eigen::VectorXd& m = settings_.cloth.masses;
+  double elastic = springs_.energy(state_.x);
+  Vertices ignored = Vertices::Zero(state_.x.rows(), 3);
+  for (const auto& energy : system_.coupled_energies) elastic += energy->add_gradient(state_.x, ignored);
   return {.kinetic = 0.5 * m.dot(state_.v.rowwise().squaredNorm()),
           .gravity = -m.dot(state_.x * system_.gravity),
-          .elastic = springs_.energy(state_.x)};
+          .elastic = elastic};
 }
 
 std::vector<Collider> Simulation::colliders(double time) const {

@@ -1,3 +1,4 @@
+#include "sim/effects/bending.hpp"
 #include "sim/effects/damping.hpp"
 #include "sim/effects/effect.hpp"
 #include "sim/effects/gravity.hpp"
@@ -10,6 +11,7 @@ std::span<const EffectType> effect_types() {
   static constexpr EffectType types[] = {
       {"gravity", false, make_gravity},
       {"wind", false, make_wind},
+      {"bending", false, make_bending},
       {"sphere", true, make_sphere},
       {"damping", false, make_damping},
   };

@@ -14,6 +14,7 @@ StepReport SemiImplicitEuler::advance(State& state, const Vertices& force) {
   const Kernels& k = kernels();
   const auto count = static_cast<std::size_t>(state.x.rows());
   springs_.add_gradient(state.x, gradient_);
+  for (const auto& energy : system_.coupled_energies) energy->add_gradient(state.x, gradient_);
   // Where nothing changes the velocity in between, both updates are one pass.
   const double drift = system_.corrections.empty() && system_.filters.empty() ? system_.step : 0;
   for (int axis = 0; axis < 3; ++axis) {
