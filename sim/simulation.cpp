@@ -56,7 +56,8 @@ Simulation::Simulation(SimulationSettings settings)
 Simulation::~Simulation() = default;
 
 StepReport Simulation::step() {
-  const StepReport report = integrator_->advance(state_, force());
+  StepReport report = integrator_->advance(state_, force());
+  for (const auto& filter : system_.filters) report.converged = report.converged && filter->converged();
   ++state_.step;
   // What is not finite makes the sum of its squares so, and any velocity that is not moves its vertex there.
   if (!std::isfinite(norm(state_.x))) throw_diverged();

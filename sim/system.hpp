@@ -80,6 +80,8 @@ struct MotionFilter {
   /// time + h [s]. Leaves the rows of pinned vertices as they are. What it keeps between calls is memory only: the
   /// result depends on the arguments alone.
   virtual void apply(const Vertices& x, double time, double h, Vertices& v) = 0;
+  /// Whether the last call did all that the filter is for, rather than stop at its cap.
+  [[nodiscard]] virtual bool converged() const { return true; }
 };
 
 /// Something the cloth can touch, whose place is a function of time.

@@ -3,6 +3,7 @@
 #include "sim/effects/effect.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/effects/sphere.hpp"
+#include "sim/effects/strain_limit.hpp"
 #include "sim/effects/wind.hpp"
 
 namespace drape {
@@ -13,6 +14,7 @@ std::span<const EffectType> effect_types() {
       {"wind", false, make_wind},
       {"bending", false, make_bending},
       {"sphere", true, make_sphere},
+      {"strain_limit", false, make_strain_limit},
       {"damping", false, make_damping},
   };
   return types;
