@@ -2,6 +2,7 @@
 #include "sim/effects/damping.hpp"
 #include "sim/effects/effect.hpp"
 #include "sim/effects/gravity.hpp"
+#include "sim/effects/self_collision.hpp"
 #include "sim/effects/sphere.hpp"
 #include "sim/effects/strain_limit.hpp"
 #include "sim/effects/wind.hpp"
@@ -15,6 +16,7 @@ std::span<const EffectType> effect_types() {
       {"bending", false, make_bending},
       {"sphere", true, make_sphere},
       {"strain_limit", false, make_strain_limit},
+      {"self_collision", false, make_self_collision},
       {"damping", false, make_damping},
   };
   return types;
