@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/collision/impact.hpp"
+
 namespace drape {
 namespace {
 
@@ -75,10 +77,14 @@ void CollisionCandidates::add(const FeaturePair& pair, const std::vector<Point>&
   if (std::all_of(v.begin(), v.end(), [&](int i) { return pinned_[static_cast<std::size_t>(i)]; })) return;
   // On straight lines a distance along a fixed axis changes linearly: what it separates at both ends, it separates in
   // between.
-  const FourPoints start = gather(from, v), end = gather(to, v);
+  const FourPoints start = gather(from, v);
+  FourPoints end = gather(to, v);
   const Point axis = from_second_to_first(pair.feature, start);
   const double far = reach * axis.norm();
   if (separated(pair.feature, axis, start, far) && separated(pair.feature, axis, end, far)) return;
+  for (std::size_t i = 0; i < 4; ++i) end[i] -= start[i];
+  const double near = reach + largest_change(pair.feature, end);
+  if (nearest(pair.feature, start).squared > near * near) return;
   pairs_.push_back(pair);
 }
 

@@ -9,6 +9,10 @@ namespace drape {
 /// The part of the distance that two features had before, down to which they may come before they count as colliding.
 inline constexpr double kept_gap = 0.1;
 
+/// How far the distance of two features can change while their points move by `move` [m]: what all four do together
+/// does not count.
+double largest_change(Feature feature, const FourPoints& move);
+
 /// When two features that move on straight lines, p + t·move for t in [0, 1], come nearer than `kept_gap` times their
 /// distance at t = 0: a time at which they are about that near and before which they never touched, or nothing if they
 /// stay further apart. Never misses a collision, whatever the motion: it goes from time to time by steps that are too

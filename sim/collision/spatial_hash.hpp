@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -39,8 +42,8 @@ class SpatialHash {
           const std::size_t slot = slot_of(key);
           for (int e = starts_[slot]; e < starts_[slot + 1]; ++e) {
             const Entry& entry = entries_[static_cast<std::size_t>(e)];
-            const Box& other = boxes_[static_cast<std::size_t>(entry.box)];
-            if (entry.key == key && box.overlaps(other) && is_first(cell, box, other)) visit(entry.box);
+            if (entry.key != key || !is_first(cell, low, lows_[static_cast<std::size_t>(entry.box)])) continue;
+            if (box.overlaps(boxes_[static_cast<std::size_t>(entry.box)])) visit(entry.box);
           }
         }
       }
@@ -49,16 +52,19 @@ class SpatialHash {
 
   /// Calls visit(k, l), k < l, for every two boxes that overlap.
   template <class Visit>
-  void for_pairs(Visit&& visit) const {
+  void for_pairs(Visit&& visit) {
     for (std::size_t slot = 0; slot + 1 < starts_.size(); ++slot) {
-      for (int e = starts_[slot]; e < starts_[slot + 1]; ++e) {
-        const Entry& first = entries_[static_cast<std::size_t>(e)];
-        const Box& box = boxes_[static_cast<std::size_t>(first.box)];
-        for (int f = e + 1; f < starts_[slot + 1]; ++f) {
-          const Entry& second = entries_[static_cast<std::size_t>(f)];
-          if (second.key != first.key || second.box == first.box) continue;
-          const Box& other = boxes_[static_cast<std::size_t>(second.box)];
-          if (box.overlaps(other) && is_first(first.cell, box, other)) visit(first.box, second.box);
+      const auto begin = static_cast<std::size_t>(starts_[slot]), end = static_cast<std::size_t>(starts_[slot + 1]);
+      if (end - begin < 2) continue;
+      gather(begin, end);
+      for (std::size_t e = begin; e + 1 < end; ++e) {
+        compare(e - begin, end - begin);
+        for (std::size_t f = e + 1; f < end; ++f) {
+          if (overlap_[f - begin] == 0) continue;
+          const Entry &first = entries_[e], &second = entries_[f];
+          const auto k = static_cast<std::size_t>(first.box), l = static_cast<std::size_t>(second.box);
+          if (first.key != second.key || k == l || !is_first(cell_at(first.key), lows_[k], lows_[l])) continue;
+          if (boxes_[k].overlaps(boxes_[l])) visit(first.box, second.box);
         }
       }
     }
@@ -71,40 +77,53 @@ class SpatialHash {
   /// A box in a cell.
   struct Entry {
     std::uint64_t key;
-    Cell cell;
     int box;
   };
 
   [[nodiscard]] Cell cell_of(const Eigen::Vector3d& place) const {
-    const Eigen::Vector3d p = ((place - origin_) / size_).cwiseMax(-1.0).cwiseMin(cells_per_axis);
-    return {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())),
-            static_cast<int>(std::floor(p.z()))};
+    return {index((place.x() - origin_.x()) * inverse_size_), index((place.y() - origin_.y()) * inverse_size_),
+            index((place.z() - origin_.z()) * inverse_size_)};
   }
+  /// Rounds down, to −1 and less at −1.
+  static int index(double place) {
+    return static_cast<int>(std::min(std::max(place, -1.0), static_cast<double>(cells_per_axis)) + 1) - 1;
+  }
+  static constexpr unsigned axis_bits = 21;
   static std::uint64_t key_of(const Cell& c) {
-    return static_cast<std::uint64_t>(c.x) | static_cast<std::uint64_t>(c.y) << 21U |
-           static_cast<std::uint64_t>(c.z) << 42U;
+    return static_cast<std::uint64_t>(c.x) | static_cast<std::uint64_t>(c.y) << axis_bits |
+           static_cast<std::uint64_t>(c.z) << (2 * axis_bits);
+  }
+  static Cell cell_at(std::uint64_t key) {
+    constexpr std::uint64_t mask = (std::uint64_t{1} << axis_bits) - 1;
+    return {static_cast<int>(key & mask), static_cast<int>(key >> axis_bits & mask),
+            static_cast<int>(key >> (2 * axis_bits))};
   }
   [[nodiscard]] std::size_t slot_of(std::uint64_t key) const {
     return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >> shift_);  // Fibonacci hashing (Knuth, section 6.4)
   }
-  /// Whether a cell is that of the lowest corner of two boxes' intersection.
-  [[nodiscard]] bool is_first(const Cell& cell, const Box& a, const Box& b) const {
-    const Cell first = cell_of(a.low.cwiseMax(b.low));
-    return first.x == cell.x && first.y == cell.y && first.z == cell.z;
+  /// Whether a cell is that of the lowest corner of the intersection of two boxes whose lowest corners are in these.
+  static bool is_first(const Cell& cell, const Cell& a, const Cell& b) {
+    return std::max(a.x, b.x) == cell.x && std::max(a.y, b.y) == cell.y && std::max(a.z, b.z) == cell.z;
   }
-  /// How many cells the boxes reach into in all.
-  [[nodiscard]] double entries() const;
-  void choose_cells();
+  /// Copies the boxes of some entries side by side, in single precision and a little larger.
+  void gather(std::size_t begin, std::size_t end);
+  /// Sets overlap_ of the gathered boxes behind the first.
+  void compare(std::size_t first, std::size_t count);
+  /// Chooses their size; returns how many the boxes reach into in all.
+  std::size_t choose_cells();
 
-  static constexpr double cells_per_axis = 1 << 20;
+  static constexpr int cells_per_axis = 1 << 20;
 
   std::span<const Box> boxes_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero(), extent_ = origin_;
-  double size_ = 1;
+  double inverse_size_ = 1;
   Cell count_;
   unsigned shift_ = 63;
-  std::vector<int> starts_;  // of each slot's entries
+  std::vector<Cell> lows_, highs_;  // of the lowest and highest corner of each box
+  std::vector<int> starts_;         // of each slot's entries
   std::vector<Entry> entries_;
+  std::array<std::vector<float>, 6> gathered_;  // lowest x, y, z, highest x, y, z
+  std::vector<unsigned char> overlap_;
 };
 
 }  // namespace drape
