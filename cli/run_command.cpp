@@ -68,7 +68,7 @@ void check_names(const RunArguments& arguments) {
   }
 }
 
-RunOptions run_options(const RunArguments& arguments, const Scene& scene) {
+RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool verbose) {
   const auto expanded = [&](const std::string& text) {
     const PathTemplate path(text);
     if (path.has_frame())
@@ -84,6 +84,7 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene) {
   options.steps = arguments.steps;
   if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
   options.step_by_step = arguments.step_by_step;
+  options.time_effects = verbose || !arguments.records.stats.empty();
   return options;
 }
 
@@ -99,6 +100,7 @@ ExitCode run(const Scene& scene, const RunOptions& options, const CommonOptions&
   const RunResult result = run_scene(scene, options, interruption(), progress, [&] { display.update(); });
   display.clear();
   if (!result.renderer.empty()) spdlog::debug("drawn by {}", result.renderer);
+  if (common.verbose) spdlog::debug(effect_shares(result.statistics));
   if (!common.quiet) fmt::print(stderr, "{}\n", summarize(result));
   switch (result.outcome) {
     case Outcome::completed:
@@ -117,7 +119,7 @@ ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
   check_names(arguments);
   ExitCode worst = ExitCode::ok;
   for (const Scene& scene : load_scenes(arguments)) {
-    const ExitCode code = run(scene, run_options(arguments, scene), common);
+    const ExitCode code = run(scene, run_options(arguments, scene, common.verbose), common);
     if (code == ExitCode::interrupted) return code;
     if (worst == ExitCode::ok) worst = code;
   }

@@ -22,6 +22,7 @@ struct RunOptions {
   std::optional<std::int64_t> steps;  ///< instead of the scene's duration
   std::optional<FrameRange> frames;   ///< draw only these, and simulate no further than they need
   bool step_by_step = false;          ///< print every step and wait for a line of input
+  bool time_effects = false;          ///< measure which part of the steps' time each effect takes
 };
 
 enum class Outcome { completed, interrupted, diverged };

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "core/keys.hpp"
 #include "scene/document.hpp"
 #include "scene/problems.hpp"
 
@@ -41,6 +42,9 @@ std::optional<Eigen::Vector3d> read_vector(const TomlValue& value, const std::st
 /// Reads an array of two whole numbers, each in the range.
 std::optional<Eigen::Vector2i> read_int_pair(const TomlValue& value, const std::string& name, const Range& range,
                                              Problems& problems);
+
+/// Reads keyframes, an array of { time, NAME = [x, y, z] }, at least one, whose times increase from 0 on.
+void read_keyframes(const TomlValue& value, const std::string& name, const KeyframeList& list, Problems& problems);
 
 /// Reads the name of a file: relative to `folder`, the scene's, or else in the data folder's textures/. An empty string
 /// stays empty: no file.

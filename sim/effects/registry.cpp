@@ -1,17 +1,24 @@
-#include "sim/effects/damping.hpp"
 #include "sim/effects/effect.hpp"
 #include "sim/effects/gravity.hpp"
+
+#ifndef DRAPE_ONLY_GRAVITY
+#include "sim/effects/air.hpp"
+#include "sim/effects/damping.hpp"
+#include "sim/effects/ground.hpp"
+#include "sim/effects/moving_pins.hpp"
 #include "sim/effects/sphere.hpp"
 #include "sim/effects/wind.hpp"
+#endif
 
 namespace drape {
 
 std::span<const EffectType> effect_types() {
   static constexpr EffectType types[] = {
       {"gravity", false, make_gravity},
-      {"wind", false, make_wind},
-      {"sphere", true, make_sphere},
-      {"damping", false, make_damping},
+#ifndef DRAPE_ONLY_GRAVITY
+      {"wind", false, make_wind},       {"air", false, make_air},      {"moving_pins", true, make_moving_pins},
+      {"sphere", true, make_sphere},    {"ground", true, make_ground}, {"damping", false, make_damping},
+#endif
   };
   return types;
 }
