@@ -73,6 +73,9 @@ double largest_eigenvalue(const System& system, const Eigen::VectorXd& scale) {
 double safe_step(const System& system) {
   Eigen::VectorXd scale = system.cloth.masses.cwiseSqrt().cwiseInverse();
   for (const int pin : system.cloth.pins) scale[pin] = 0;
+  for (const PinRelease& release : system.pin_releases) {
+    for (const int vertex : release.vertices) scale[vertex] = 1 / std::sqrt(system.cloth.masses[vertex]);
+  }
   const double largest = largest_eigenvalue(system, scale);
   return largest > 0 ? 2 / std::sqrt(largest) : std::numeric_limits<double>::infinity();
 }

@@ -30,6 +30,7 @@ void StepObjective::begin(const State& state, const Vertices& force) {
   for (int axis = 0; axis < 3; ++axis) {
     k.add_scaled(count, push_.data(), force.col(axis).data(), y_.col(axis).data());
   }
+  system_.place_pins(state, y_);
   scale_ = elastic_scale_ + inertia_.dot(y_.rowwise().squaredNorm());
 }
 

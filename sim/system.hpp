@@ -6,6 +6,7 @@
 
 #include "sim/cloth.hpp"
 #include "sim/collider.hpp"
+#include "sim/pin_motion.hpp"
 
 namespace drape {
 
@@ -104,6 +105,8 @@ struct System {
   std::vector<std::unique_ptr<Correction>> corrections;
   std::vector<std::unique_ptr<MotionFilter>> filters;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;
+  std::vector<PinMotion> pin_motions;    ///< of pins that do not stay where they are
+  std::vector<PinRelease> pin_releases;  ///< a simulation makes its system anew, without these pins, when it gets there
 
   System(const Cloth& c, double h) : cloth(c), step(h), springs(c.springs) {}
 
@@ -124,7 +127,22 @@ struct System {
 
   /// Applies every filter to the velocities with which a step is about to leave state.x.
   void filter(State& state) const {
-    for (const auto& f : filters) f->apply(state.x, static_cast<double>(state.step) * step, step, state.v);
+    for (const auto& f : filters) f->apply(state.x, time_after(state, 0), step, state.v);
+  }
+
+  /// Gives the pins that move the velocities of the step that begins at state.step.
+  void drive_pins(State& state) const {
+    for (const PinMotion& motion : pin_motions) motion.drive(time_after(state, 0), time_after(state, 1), state.v);
+  }
+
+  /// Writes where the pins that move are when the step ends that begins at state.step into their rows of x.
+  void place_pins(const State& state, Vertices& x) const {
+    for (const PinMotion& motion : pin_motions) motion.place(time_after(state, 1), x);
+  }
+
+ private:
+  [[nodiscard]] double time_after(const State& state, int steps) const {
+    return static_cast<double>(state.step + steps) * step;
   }
 };
 
