@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
+#include <utility>
 
 #include "bench/moving_cloth.hpp"
 #include "bench/subject.hpp"
@@ -74,9 +74,9 @@ Subject make_textbook(const Comparison& c) {
 ActiveEffect make_effect(std::string_view name) {
   const auto types = effect_types();
   const auto type = std::find_if(types.begin(), types.end(), [&](const EffectType& t) { return t.name == name; });
-  ActiveEffect active{.name = std::string(name), .effect = type->make()};
+  std::unique_ptr<Effect> effect = type->make();
   Keys keys;
-  active.effect->describe(keys);
+  effect->describe(keys);
   const textbook::Sphere sphere;
   for (const Key& key : keys.all()) {
     if (key.name == "center") *std::get<Eigen::Vector3d*>(key.target) = sphere.center;
@@ -84,7 +84,7 @@ ActiveEffect make_effect(std::string_view name) {
     if (key.name == "scale") *std::get<double*>(key.target) = sphere.scale;
     if (key.name == "stiffness") *std::get<double*>(key.target) = sphere.stiffness;
   }
-  return active;
+  return {.name = std::string(name), .effect = std::move(effect)};
 }
 
 /// One simulation for every step: each has its own residual to reach.
