@@ -88,7 +88,7 @@ Image side_by_side(const Pair& pair, double factor) {
 }  // namespace
 
 std::string difference_animation(const Scene& scene, const Golden& golden, const std::vector<GoldenWindow>& windows,
-                                 const SceneResult& result, const std::filesystem::path& folder) {
+                                 const SceneResult& result, GlBackend backend, const std::filesystem::path& folder) {
   const Comparison& shown = result.windows.first_bad_frame || !result.end_to_end ? result.windows : *result.end_to_end;
   if (!shown.first_bad_frame) return {};
   const auto changed = std::find_if(shown.windows.begin(), shown.windows.end(), [](const WindowResult& window) {
@@ -96,8 +96,7 @@ std::string difference_animation(const Scene& scene, const Golden& golden, const
   });
   const bool moved = changed != shown.windows.end();
   const std::vector<Pair> pairs =
-      moved ? motion_pairs(scene, golden, windows[static_cast<std::size_t>(changed - shown.windows.begin())],
-                           result.settings.backend)
+      moved ? motion_pairs(scene, golden, windows[static_cast<std::size_t>(changed - shown.windows.begin())], backend)
             : picture_pairs(shown.frames, *shown.first_bad_frame);
   if (pairs.empty()) return {};
 

@@ -6,6 +6,7 @@
 
 #include "check/golden.hpp"
 #include "check/report.hpp"
+#include "render/backend.hpp"
 #include "scene/scene.hpp"
 
 namespace drape {
@@ -17,6 +18,6 @@ namespace drape {
 /// @returns the file's bytes; empty if there is nothing to show
 /// @throws OutputError
 std::string difference_animation(const Scene& scene, const Golden& golden, const std::vector<GoldenWindow>& windows,
-                                 const SceneResult& result, const std::filesystem::path& folder);
+                                 const SceneResult& result, GlBackend backend, const std::filesystem::path& folder);
 
 }  // namespace drape

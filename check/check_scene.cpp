@@ -86,7 +86,7 @@ class SceneCheck {
     if (options_.update == UpdateMode::none) {
       result_.findings.push_back("there is no golden to compare with");
     } else if (options_.update == UpdateMode::missing) {
-      bless_scene(scene_, settings_, stop_, progress_);
+      bless_scene(scene_, settings_, options_.backend, stop_, progress_);
       result_.findings.push_back("there was no golden to compare with; it has been recorded now: look at it");
     } else {
       update("recorded");
@@ -94,7 +94,7 @@ class SceneCheck {
   }
 
   void update(const char* what) {
-    const auto blessing = bless_scene(scene_, settings_, stop_, progress_);
+    const auto blessing = bless_scene(scene_, settings_, options_.backend, stop_, progress_);
     if (!blessing) return;
     result_.verdict = SceneVerdict::updated;
     result_.findings.insert(result_.findings.begin(), fmt::format("the golden was {}", what));
@@ -201,7 +201,7 @@ class SceneCheck {
   void compare_golden_pictures() {
     const View view = current_view();
     if (stop_.stop_requested()) return;
-    DrawWindows drawing(scene_, golden_.size, view, settings_.backend);
+    DrawWindows drawing(scene_, golden_.size, view, options_.backend);
     result_.renderer = drawing.renderer();
     result_.windows.frames = drawing.compare(windows_, windows_, result_.golden, settings_.limits, stop_, progress_);
     worst_picture(result_.windows);
@@ -234,7 +234,7 @@ class SceneCheck {
     if (whole.motion == MotionVerdict::changed) {
       result_.findings.push_back("end to end, " + describe_motion(whole.windows));
     }
-    DrawWindows drawing(scene_, golden_.size, recorded->view, settings_.backend);
+    DrawWindows drawing(scene_, golden_.size, recorded->view, options_.backend);
     whole.frames = drawing.compare(windows_, recorded->windows, result_.golden, settings_.limits, stop_, progress_);
     worst_picture(whole);
     find_first_bad(whole);
@@ -284,7 +284,8 @@ class SceneCheck {
       result_.findings.push_back("the scene says something else than when the golden was recorded");
     }
     if (changed && !options_.artefacts.empty() && !stop_.stop_requested()) {
-      result_.animation = difference_animation(scene_, golden_, windows_, result_, options_.artefacts);
+      result_.animation =
+          difference_animation(scene_, golden_, windows_, result_, options_.backend, options_.artefacts);
     }
   }
 
@@ -300,11 +301,11 @@ class SceneCheck {
 
 }  // namespace
 
-std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, const std::stop_token& stop,
-                                    Progress& progress) {
+std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
+                                    const std::stop_token& stop, Progress& progress) {
   std::optional<Golden> golden = record_motion(scene, settings, plan_windows(scene, settings), stop, progress);
   if (!golden) return std::nullopt;
-  DrawWindows drawing(scene, golden->size, golden->view, settings.backend);
+  DrawWindows drawing(scene, golden->size, golden->view, backend);
   const std::vector<Png> pictures = drawing.draw(golden->windows, stop, progress);
   if (stop.stop_requested()) return std::nullopt;
   golden->date = utc_now();

@@ -7,6 +7,7 @@
 
 #include "check/golden.hpp"
 #include "check/report.hpp"
+#include "render/backend.hpp"
 #include "run/progress.hpp"
 #include "scene/scene.hpp"
 
@@ -22,11 +23,12 @@ enum class UpdateMode {
 
 /// What a check of a scene should do.
 struct CheckOptions {
-  std::vector<int> frames;  ///< compare only these of the golden frames; empty: all of them
+  std::vector<int> frames = {};  ///< compare only these of the golden frames; empty: all of them
+  GlBackend backend = GlBackend::automatic;
   bool end_to_end = false;  ///< run the whole motion and draw it as well
   UpdateMode update = UpdateMode::missing;
   std::size_t threads = 0;          ///< that compute windows; 0: as many as the processor has
-  std::filesystem::path artefacts;  ///< folder for the animation of a failed scene; empty: it is not made
+  std::filesystem::path artefacts = {};  ///< folder for the animation of a failed scene; empty: it is not made
 };
 
 /// What bless did.
@@ -40,8 +42,8 @@ struct Blessing {
 /// @param settings  Scene::check with what the command line says
 /// @returns nothing if it was stopped; then nothing has been written
 /// @throws DivergedError, UsageError, OutputError
-std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, const std::stop_token& stop,
-                                    Progress& progress);
+std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
+                                    const std::stop_token& stop, Progress& progress);
 
 /// Compares a scene with its golden.
 /// @param name of the scene in the report

@@ -7,6 +7,7 @@
 
 #include "check/golden.hpp"
 #include "check/report.hpp"
+#include "render/backend.hpp"
 #include "render/renderer.hpp"
 #include "run/progress.hpp"
 #include "scene/scene.hpp"

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <utility>
 
 #include "core/build_info.hpp"
 #include "core/machine.hpp"
@@ -13,9 +14,10 @@
 namespace drape {
 
 Machine this_machine(std::string renderer) {
+  const BuildInfo& build = build_info();
   const MachineFacts facts = machine_facts();
-  return {.drape = build_info().version,
-          .compiler = build_info().compiler,
+  return {.drape = build.version,
+          .compiler = build.compiler,
           .system = facts.system,
           .processor = facts.processor,
           .cpu_flags = fmt::format("{}", fmt::join(facts.flags, " ")),

@@ -4,8 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "render/backend.hpp"
-
 namespace drape {
 
 /// How far two pictures may be apart and still count as the same but for rounding. All of them must hold.
@@ -22,7 +20,6 @@ struct CheckSettings {
   int window = 20;                      ///< steps of motion that are compared from each of the frames on
   double motion_tolerance = 1e-6;       ///< how far a vertex may end from its golden place [m]
   PictureLimits limits;
-  GlBackend backend = GlBackend::automatic;  ///< what draws; not a key, only the command line names it
 };
 
 }  // namespace drape

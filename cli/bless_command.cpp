@@ -22,11 +22,10 @@ ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
   const std::vector<int> frames = parse_frame_list(arguments.frames);
   for (const Scene& scene : load_scenes(arguments.scenes, {})) {
     CheckSettings settings = scene.check;
-    settings.backend = arguments.backend;
     if (!frames.empty()) settings.frames = frames;
     std::optional<Blessing> blessing;
     run_watched(common, [&](const std::stop_token& stop, Progress& progress) {
-      blessing = bless_scene(scene, settings, stop, progress);
+      blessing = bless_scene(scene, settings, arguments.backend, stop, progress);
     });
     if (!blessing) {
       spdlog::error("interrupted; {} is as it was", golden_folder(scene.file).string());

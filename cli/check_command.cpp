@@ -18,6 +18,7 @@
 #include "cli/scene_files.hpp"
 #include "cli/watched.hpp"
 #include "core/atomic_file.hpp"
+#include "core/nearest.hpp"
 
 namespace drape {
 namespace {
@@ -26,18 +27,24 @@ struct CheckArguments {
   std::vector<std::string> scenes, overrides;
   std::string frames;
   std::string report = "out/check";
-  UpdateMode update = UpdateMode::missing;
+  std::string update = "missing";
+  GlBackend backend = GlBackend::automatic;
   bool end_to_end = false;
   std::size_t threads = 0;
-  GlBackend backend = GlBackend::automatic;
   std::optional<double> motion_tolerance, pixels, flip;
   std::optional<int> channel;
 };
 
+UpdateMode parse_update(const std::string& name) {
+  static const std::vector<std::string> names{"all", "changed", "missing", "none"};  // as the enumeration
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<UpdateMode>(found - names.begin());
+  throw UsageError(fmt::format("--update: unknown '{}'{}", name, did_you_mean(name, names, "the choices are")));
+}
+
 /// The table [check] of a scene with what the command line says.
 CheckSettings settings_of(const Scene& scene, const CheckArguments& arguments) {
   CheckSettings settings = scene.check;
-  settings.backend = arguments.backend;
   settings.motion_tolerance = arguments.motion_tolerance.value_or(settings.motion_tolerance);
   settings.limits.channel = arguments.channel.value_or(settings.limits.channel);
   settings.limits.pixels = arguments.pixels.value_or(settings.limits.pixels);
@@ -102,8 +109,9 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, arguments.overrides);
   const std::vector<std::string> names = unique_names(scenes);
   const CheckOptions options{.frames = parse_frame_list(arguments.frames),
+                             .backend = arguments.backend,
                              .end_to_end = arguments.end_to_end,
-                             .update = arguments.update,
+                             .update = parse_update(arguments.update),
                              .threads = arguments.threads,
                              .artefacts = arguments.report};
   CheckReport report;
@@ -156,16 +164,13 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
       ->allow_extra_args(false);
   sub->add_option("--frames", arguments->frames, "A,B,C: compare only these of the golden frames");
   sub->add_flag("--end-to-end", arguments->end_to_end, "Run the whole motion and draw it, too");
-  const std::map<std::string, UpdateMode> modes{{"all", UpdateMode::all},
-                                                {"changed", UpdateMode::changed},
-                                                {"missing", UpdateMode::missing},
-                                                {"none", UpdateMode::none}};
-  sub->add_option("--update", arguments->update,
-                  "Which goldens to write: all, changed, missing (the default; it fails all the same) or none")
-      ->transform(CLI::CheckedTransformer(modes).description("all|changed|missing|none"));
+  sub->add_option(
+         "--update", arguments->update,
+         "all, changed, missing or none: which goldens to write; missing is the default, and fails all the same")
+      ->type_name("WHICH");
+  add_backend_option(*sub, arguments->backend);
   sub->add_option("--report", arguments->report, "Folder for the reports (HTML, JSON, JUnit); default out/check");
   sub->add_option("--threads", arguments->threads, "How many windows of motion are computed at once");
-  add_backend_option(*sub, arguments->backend);
   add_limits(*sub, *arguments);
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return check(*arguments, common); }; });

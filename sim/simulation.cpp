@@ -47,7 +47,7 @@ Simulation::Simulation(SimulationSettings settings)
       constant_force_(Vertices::Zero(settings_.cloth.vertex_count(), 3)),
       force_(constant_force_),
       integrator_(make_stable_integrator(settings_, system_)),
-      springs_(system_.springs) {
+      springs_(system_.springs, settings_.cloth.vertex_count()) {
   for (const auto& force : system_.forces) {
     if (force->constant()) force->add(state_, 0, constant_force_);
   }

@@ -15,7 +15,6 @@ class SemiImplicitEuler final : public Integrator {
   const System& system_;
   SpringNetwork springs_;
   Eigen::VectorXd pull_;  // −h/m of each vertex, 0 on pins [s/kg]
-  Vertices gradient_;     // of the springs; zero between steps [N]
 };
 
 }  // namespace drape
