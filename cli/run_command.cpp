@@ -55,7 +55,7 @@ void check_names(const RunArguments& arguments) {
   }
 }
 
-RunOptions run_options(const RunArguments& arguments, const Scene& scene) {
+RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool verbose) {
   const auto expanded = [&](const std::string& text) {
     const PathTemplate path(text);
     if (path.has_frame())
@@ -72,6 +72,7 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene) {
   if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
   options.backend = arguments.backend;
   options.step_by_step = arguments.step_by_step;
+  options.time_effects = verbose || !arguments.records.stats.empty();
   return options;
 }
 
@@ -87,6 +88,7 @@ ExitCode run(const Scene& scene, const RunOptions& options, const CommonOptions&
   const RunResult result = run_scene(scene, options, interruption(), progress, [&] { display.update(); });
   display.clear();
   if (!result.renderer.empty()) spdlog::debug("drawn by {}", result.renderer);
+  if (common.verbose) spdlog::debug(effect_shares(result.statistics));
   if (!common.quiet) fmt::print(stderr, "{}\n", summarize(result));
   switch (result.outcome) {
     case Outcome::completed:
@@ -105,7 +107,7 @@ ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
   check_names(arguments);
   ExitCode worst = ExitCode::ok;
   for (const Scene& scene : load_scenes(arguments.scenes, arguments.overrides)) {
-    const ExitCode code = run(scene, run_options(arguments, scene), common);
+    const ExitCode code = run(scene, run_options(arguments, scene, common.verbose), common);
     if (code == ExitCode::interrupted) return code;
     if (worst == ExitCode::ok) worst = code;
   }

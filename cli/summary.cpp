@@ -30,6 +30,14 @@ std::string describe(const Scene& scene, const RunOptions& options) {
   return text;
 }
 
+std::string effect_shares(const Statistics& statistics) {
+  std::string text;
+  for (const auto& [name, share] : statistics.effects()) {
+    text += fmt::format("{}{} {:.1f} %", text.empty() ? "of the steps' time: " : ", ", name, 100 * share.value_or(0));
+  }
+  return text.empty() ? "no effects" : text;
+}
+
 std::string summarize(const RunResult& result) {
   const Statistics& s = result.statistics;
   std::string text = fmt::format("{} steps", s.steps());

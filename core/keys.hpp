@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -36,24 +37,50 @@ struct OwnForm {
   const TomlValue** value = nullptr;  ///< set to where it stands if it is given, as long as the document lasts
 };
 
+/// A value at a moment.
+struct Keyframe {
+  double time = 0;  ///< [s]
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+};
+
+/// Keyframes, [{ time = 0, NAME = [x, y, z] }, …], at times that increase from 0 on.
+struct KeyframeList {
+  std::vector<std::string> names;  ///< that the value can have, one and the same in the whole list
+  std::vector<Keyframe>* keyframes = nullptr;
+  std::size_t* name = nullptr;  ///< set to the place in `names` of the one that was used
+};
+
+/// Vertices of the cloth, in the forms that [cloth] pins takes; ascending, each once.
+struct VertexSelection {
+  std::vector<int>* vertices = nullptr;
+};
+
+/// A sphere's place as a function of time, see sim/sphere_track.hpp. As a key it is the name of a file.
+class SphereTrack;
+
 /// One key of a settings table: its name, the variable its value is written to, which values make sense, and one
 /// sentence that says what it means. Readers, error messages and the reference pages are all made from this.
 struct Key {
-  using Target = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice, OwnForm,
-                              Eigen::Vector2i*, Eigen::Vector3d*, std::vector<int>*, std::optional<int>*,
-                              std::optional<double>*, std::optional<Rgb>*, std::optional<Eigen::Vector2i>*,
-                              std::optional<Eigen::Vector3d>*>;
+  using Target =
+      std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice, OwnForm, KeyframeList,
+                   VertexSelection, std::shared_ptr<const SphereTrack>*, Eigen::Vector2i*, Eigen::Vector3d*,
+                   std::vector<int>*, std::optional<int>*, std::optional<double>*, std::optional<Rgb>*,
+                   std::optional<Eigen::Vector2i>*, std::optional<Eigen::Vector3d>*>;
 
   std::string name;
   Target target;
   std::string unit;  ///< "m", "N/m", "1/s²"; empty for a pure number
   std::string help;
   bool required = false;
+  std::vector<std::string> alternatives = {};  ///< a required key may be left out where one of these is given
   double minimum = -std::numeric_limits<double>::infinity();  ///< applies to every component of a vector
   double maximum = std::numeric_limits<double>::infinity();
   bool minimum_excluded = false;
 
   Key& must_be_given() { return required = true, *this; }
+  Key& must_be_given_unless(std::vector<std::string> others) {
+    return required = true, alternatives = std::move(others), *this;
+  }
   Key& at_least(double value) { return minimum = value, *this; }
   Key& at_most(double value) { return maximum = value, *this; }
   Key& above(double value) { return minimum = value, minimum_excluded = true, *this; }

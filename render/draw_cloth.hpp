@@ -23,6 +23,8 @@ class DrawCloth {
 
   void draw(const Shot& shot);
 
+  [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
+
  private:
   /// What of a GL vertex stays the same in all frames.
   struct Corner {

@@ -1,5 +1,7 @@
 #include "render/draw_sphere.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -14,8 +16,13 @@ constexpr unsigned segments = 128, rings = 12;
 
 }  // namespace
 
-DrawSphere::DrawSphere(const GlFunctions& gl, const std::filesystem::path& data_folder, const Look& look)
-    : gl_(gl), program_(gl, data_folder, "sphere"), array_(gl), vertex_buffer_(gl), index_buffer_(gl) {
+DrawSphere::DrawSphere(const GlFunctions& gl, const std::filesystem::path& data_folder, const Look& look,
+                       std::size_t ground_count)
+    : gl_(gl),
+      program_(gl, data_folder, "sphere", {fmt::format("GROUNDS {}", ground_count)}),
+      array_(gl),
+      vertex_buffer_(gl),
+      index_buffer_(gl) {
   // Polar coordinates of the cap: how far from its middle (0) to its rim (1), and the direction.
   std::vector<Eigen::Vector3f> vertices;
   for (unsigned ring = 0; ring <= rings; ++ring) {

@@ -14,7 +14,9 @@ namespace drape {
 /// exact outline, so that multisampling gives it clean edges.
 class DrawSphere {
  public:
-  DrawSphere(const GlFunctions& gl, const std::filesystem::path& data_folder, const Look& look);
+  /// @param ground_count that the camera sees in every frame; what is below them is not drawn
+  DrawSphere(const GlFunctions& gl, const std::filesystem::path& data_folder, const Look& look,
+             std::size_t ground_count);
 
   void draw(const Shot& shot);
 

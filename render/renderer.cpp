@@ -7,6 +7,7 @@
 
 #include "render/canvas.hpp"
 #include "render/draw_cloth.hpp"
+#include "render/draw_ground.hpp"
 #include "render/draw_sphere.hpp"
 #include "render/gl/context.hpp"
 #include "render/gl/functions.hpp"
@@ -53,8 +54,12 @@ class Renderer::Implementation {
     context_->make_current();
     const Shot shot(frame, view_, aspect_);
     canvas_.begin();
+    if (!shot.grounds.empty()) {
+      if (!grounds_) grounds_.emplace(gl_, data_folder_, look_, cloth_.triangles(), shot.spheres.size());
+      grounds_->draw(shot);
+    }
     if (!shot.spheres.empty()) {
-      if (!spheres_) spheres_.emplace(gl_, data_folder_, look_);
+      if (!spheres_) spheres_.emplace(gl_, data_folder_, look_, shot.grounds.size());
       spheres_->draw(shot);
     }
     cloth_.draw(shot);
@@ -77,6 +82,7 @@ class Renderer::Implementation {
   Canvas canvas_;
   DrawCloth cloth_;
   std::optional<DrawSphere> spheres_;  // made when a frame first has one
+  std::optional<DrawGround> grounds_;  // likewise
 };
 
 Renderer::Renderer(const std::filesystem::path& data_folder, Eigen::Vector2i size, const View& view, const Look& look,

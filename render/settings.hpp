@@ -24,14 +24,16 @@ struct Camera {
 struct Look {
   std::filesystem::path texture;  ///< an image file; empty: the plain `color`
   Rgb color{0.85, 0.65, 0.13};    ///< of the cloth, where it has no texture
-  int anisotropy = 1;                      ///< of the texture's filter, 1 is off: in software it is slow
+  int anisotropy = 1;             ///< of the texture's filter, 1 is off: in software it is slow
   bool mesh_lines = false;        ///< draw the triangles' edges as thin dark lines
   Rgb line_color{0.16, 0.12, 0.06};
   double line_width = 0.8;            ///< [pixels]
   Rgb background{1, 1, 1};            ///< at the bottom of the picture, and everywhere without the next
   std::optional<Rgb> background_top;  ///< at the top: a gradient
   Rgb sphere_color{0.75, 0.04, 0.04};
-  int samples = 4;  ///< per pixel: 1 (off), 2, 4
+  Rgb ground_color{0.84, 0.83, 0.81};
+  double ground_grid = 0.5;  ///< distance of the lines on the ground, 0 without lines [m]
+  int samples = 4;           ///< per pixel: 1 (off), 2, 4
 };
 
 /// The film: its size in pixels, its frames per second, and how much faster than the scene's time it plays.

@@ -9,12 +9,13 @@ Shot::Shot(const Frame& shown, const View& view, double aspect) : frame(shown) {
 
   const Eigen::Matrix3d axes = view.axes();
   const Eigen::Vector3d sky = view.up.normalized();
-  const auto towards = [&](double right, double upwards, double back) {
-    return (right * axes.row(0).transpose() + upwards * sky + back * axes.row(2).transpose())
+  const auto towards = [&](double right, double upwards, double backwards) {
+    return (right * axes.row(0).transpose() + upwards * sky + backwards * axes.row(2).transpose())
         .normalized()
         .cast<float>()
         .eval();
   };
+  back = axes.row(2).transpose().cast<float>();
   up = sky.cast<float>();
   key_direction = towards(-0.45, 0.65, 0.75);
   fill_direction = towards(0.8, 0.15, 0.5);
@@ -23,6 +24,8 @@ Shot::Shot(const Frame& shown, const View& view, double aspect) : frame(shown) {
     if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
       const Eigen::Vector4d packed{sphere->center.x(), sphere->center.y(), sphere->center.z(), sphere->radius};
       spheres.push_back(packed.cast<float>());
+    } else if (const auto* ground = std::get_if<GroundShape>(&collider)) {
+      if (ground->normal.dot(view.position) > ground->height) grounds.push_back(*ground);
     }
   }
 }
@@ -34,6 +37,12 @@ void Shot::set_uniforms(const Program& program) const {
   program.set("key_direction", key_direction);
   program.set("fill_direction", fill_direction);
   program.set("spheres", spheres);
+  std::vector<Eigen::Vector4f> planes;
+  for (const GroundShape& ground : grounds) {
+    planes.emplace_back();
+    planes.back() << ground.normal.cast<float>(), static_cast<float>(ground.height);
+  }
+  program.set("grounds", planes);
 }
 
 }  // namespace drape

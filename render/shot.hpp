@@ -14,10 +14,12 @@ struct Shot {
   const Frame& frame;
   Eigen::Matrix4f view_projection;       ///< from the world to clip space
   Eigen::Vector3f eye;                   ///< [m]
+  Eigen::Vector3f back;                  ///< unit vector from where the camera looks to the camera
   Eigen::Vector3f up;                    ///< the sky is there
   Eigen::Vector3f key_direction;         ///< unit vector towards the key light
   Eigen::Vector3f fill_direction;        ///< unit vector towards the fill light
   std::vector<Eigen::Vector4f> spheres;  ///< center and radius of each [m]
+  std::vector<GroundShape> grounds;      ///< those that are seen from above
 
   /// The lights stand with the camera, so that a scene looks alike from every side.
   Shot(const Frame& shown, const View& view, double aspect);

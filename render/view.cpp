@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 namespace drape {
@@ -35,9 +36,12 @@ struct Ball {
   double radius;
 };
 
-Ball bounding_ball(const SphereShape& sphere) { return {sphere.center, sphere.radius}; }
+std::optional<Ball> bounding_ball(const SphereShape& sphere) { return Ball{sphere.center, sphere.radius}; }
 
-Ball bounding_ball(const Collider& collider) {
+/// It has no end: a picture shows what lies on it.
+std::optional<Ball> bounding_ball(const GroundShape&) { return std::nullopt; }
+
+std::optional<Ball> bounding_ball(const Collider& collider) {
   return std::visit([](const auto& shape) { return bounding_ball(shape); }, collider);
 }
 
@@ -83,8 +87,7 @@ DepthRange depth_range(const View& view, const Frame& frame) {
   };
   for (Eigen::Index i = 0; i < frame.positions.rows(); ++i) add(frame.positions.row(i).dot(forward) - origin, 0);
   for (const Collider& collider : frame.colliders) {
-    const Ball ball = bounding_ball(collider);
-    add(ball.center.dot(forward) - origin, ball.radius);
+    if (const auto ball = bounding_ball(collider)) add(ball->center.dot(forward) - origin, ball->radius);
   }
   if (!(farthest > 0)) return {};  // all of it is behind the camera
   const double room = 0.01 * std::max(farthest - nearest, 1e-3 * farthest);
@@ -120,8 +123,7 @@ void Framing::add(const Vertices& positions) {
 }
 
 void Framing::add(const Collider& collider) {
-  const Ball ball = bounding_ball(collider);
-  add_ball(ball.center, ball.radius);
+  if (const auto ball = bounding_ball(collider)) add_ball(ball->center, ball->radius);
 }
 
 void Framing::add_ball(const Eigen::Vector3d& center, double radius) {

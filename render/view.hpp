@@ -54,6 +54,7 @@ class Framing {
   Framing(const Camera& camera, double aspect);
 
   void add(const Vertices& positions);
+  /// A ground, which has no end, is not added.
   void add(const Collider& collider);
 
   /// Whether nothing has been added.

@@ -70,7 +70,7 @@ class Pipeline {
         options_(options),
         progress_(progress),
         extent_(film_extent(scene, options)),
-        simulation_(scene.simulation),
+        simulation_(scene.simulation, options.time_effects ? Timing::effects : Timing::none),
         encoders_(make_encoders(scene, options, extent_.frames, progress)),
         records_(options.records) {}
 

@@ -24,6 +24,7 @@ struct RunOptions {
   std::optional<FrameRange> frames;   ///< draw only these, and simulate no further than they need
   GlBackend backend = GlBackend::automatic;
   bool step_by_step = false;          ///< print every step and wait for a line of input
+  bool time_effects = false;          ///< measure which part of the steps' time each effect takes
 };
 
 enum class Outcome { completed, interrupted, diverged };

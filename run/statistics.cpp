@@ -11,12 +11,11 @@ void Statistics::begin(const Simulation& simulation) {
   vertices_ = simulation.cloth().vertex_count();
   springs_ = static_cast<std::int64_t>(simulation.springs().size());
   h_ = simulation.settings().step;
-  for (const ActiveEffect& active : simulation.settings().effects) {
-    if (std::find(effects_.begin(), effects_.end(), active.name) == effects_.end()) effects_.push_back(active.name);
-  }
+  for (const ActiveEffect& active : simulation.settings().effects) effects_.push_back(active.name);
 }
 
-void Statistics::after_step(const Simulation&, const StepReport& report, double seconds) {
+void Statistics::after_step(const Simulation& simulation, const StepReport& report, double seconds) {
+  effect_seconds_ = simulation.effect_seconds();
   microseconds_.push_back(static_cast<float>(1e6 * seconds));
   iterations_ += report.iterations;
   max_iterations_ = std::max(max_iterations_, report.iterations);
@@ -44,7 +43,21 @@ double Statistics::total_seconds() const {
   return 1e-6 * std::accumulate(microseconds_.begin(), microseconds_.end(), 0.0);
 }
 
+std::vector<Statistics::EffectShare> Statistics::effects() const {
+  std::vector<EffectShare> shares;
+  for (std::size_t i = 0; i < effects_.size(); ++i) {
+    shares.push_back({effects_[i], {}});
+    if (!effect_seconds_.empty() && total_seconds() > 0) shares.back().share = effect_seconds_[i] / total_seconds();
+  }
+  return shares;
+}
+
 std::string Statistics::to_json(const std::string& outcome) const {
+  nlohmann::ordered_json effects = nlohmann::ordered_json::array();
+  for (const EffectShare& effect : this->effects()) {
+    effects.push_back({{"name", effect.name}});
+    if (effect.share) effects.back()["share"] = *effect.share;
+  }
   const nlohmann::ordered_json json = {
       {"method", method_},
       {"vertices", vertices_},
@@ -53,7 +66,7 @@ std::string Statistics::to_json(const std::string& outcome) const {
       {"steps", steps()},
       {"iterations", {{"mean", mean_iterations()}, {"max", max_iterations_}, {"steps_not_converged", not_converged_}}},
       {"step_us", {{"mean", mean_microseconds()}, {"median", median_microseconds()}}},
-      {"effects", effects_},
+      {"effects", effects},
       {"outcome", outcome}};
   return json.dump(2) + "\n";
 }

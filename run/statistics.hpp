@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,14 @@ class Statistics final : public StepObserver {
   [[nodiscard]] double median_microseconds() const;
   [[nodiscard]] double total_seconds() const;
 
+  /// An effect of the scene, and which part of the steps' time it took.
+  struct EffectShare {
+    std::string name;
+    std::optional<double> share;  ///< 0 to 1; absent where it was not measured
+  };
+  /// Every effect of the scene, in the order of their evaluation.
+  [[nodiscard]] std::vector<EffectShare> effects() const;
+
   /// The --stats file.
   /// @param outcome "completed", "interrupted" or "diverged"
   [[nodiscard]] std::string to_json(const std::string& outcome) const;
@@ -32,6 +41,7 @@ class Statistics final : public StepObserver {
   std::int64_t vertices_ = 0, springs_ = 0;
   double h_ = 0;
   std::vector<std::string> effects_;
+  std::vector<double> effect_seconds_;  // empty unless the simulation measures them
   std::vector<float> microseconds_;
   std::int64_t iterations_ = 0, not_converged_ = 0;
   int max_iterations_ = 0;

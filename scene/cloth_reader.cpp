@@ -120,10 +120,11 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
     }
   }
   std::vector<int> pins;
-  if (table.pins != nullptr) pins = read_pins(*table.pins, start ? &*start : nullptr, problems);
+  if (table.pins != nullptr) pins = read_pins(*table.pins, start ? &start->positions : nullptr, problems);
   const std::optional<Eigen::Vector3d> scale = read_scale(table.scale, problems);
   if (!start || !scale || problems.count() != problems_before) return std::nullopt;
 
+  Vertices unplaced = start->positions;
   // Turning and moving would only round the rest lengths, so they are taken before that.
   scale_by(*scale, *start);
   if (!rest) rest = *start;
@@ -134,7 +135,8 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
     return std::nullopt;
   }
 
-  ClothAndUvs result{make_cloth(*start, *rest, table.mass, table.stiffness, std::move(pins)), std::move(start->uvs)};
+  ClothAndUvs result{make_cloth(*start, *rest, table.mass, table.stiffness, std::move(pins)), std::move(start->uvs),
+                     std::move(unplaced)};
   result.cloth.velocities.rowwise() = table.velocity.transpose();
   for (const int pin : result.cloth.pins) result.cloth.velocities.row(pin).setZero();
   if (!(result.cloth.masses.array() > 0).all()) {

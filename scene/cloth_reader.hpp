@@ -15,6 +15,7 @@ namespace drape {
 struct ClothAndUvs {
   Cloth cloth;
   std::vector<std::array<float, 2>> uvs;  ///< see Mesh::uvs
+  Vertices unplaced;                      ///< where its vertices were before [cloth.transform] [m]
 };
 
 /// Makes the cloth that a [cloth] table describes.

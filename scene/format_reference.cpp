@@ -32,6 +32,15 @@ struct Describe {
     return {choices(choice), fmt::format("\"{}\"", choice.names[choice.initial])};
   }
   ValueText operator()(const OwnForm& own) const { return {own.form, ""}; }
+  ValueText operator()(const KeyframeList& list) const {
+    std::string form;
+    for (const std::string& name : list.names) {
+      form += fmt::format("{}[{{ time, {} = [x, y, z] }}, …]", form.empty() ? "" : " or ", name);
+    }
+    return {form, ""};
+  }
+  ValueText operator()(const VertexSelection&) const { return {"pins", ""}; }
+  ValueText operator()(const std::shared_ptr<const SphereTrack>*) const { return {"file", ""}; }
   ValueText operator()(const Eigen::Vector2i* value) const {
     return {"[whole number, whole number]", fmt::format("[{}, {}]", (*value)[0], (*value)[1])};
   }
@@ -48,9 +57,12 @@ std::string row(const Key& key) {
   const ValueText text = std::visit(Describe{}, key.target);
   const std::string range = Range{key.minimum, key.maximum, key.minimum_excluded}.text();
   const std::string form = range.empty() ? text.form : text.form + ", " + range;
-  const std::string initial = text.initial.empty() ? "–" : "`" + text.initial + "`";
-  return fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, form, key.unit,
-                     key.required ? "**required**" : initial, key.help);
+  std::string initial = text.initial.empty() ? "–" : "`" + text.initial + "`";
+  if (key.required) initial = "**required**";
+  for (std::size_t i = 0; i < key.alternatives.size(); ++i) {
+    initial += fmt::format("{} `{}`", i == 0 ? " without" : " or", key.alternatives[i]);
+  }
+  return fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, form, key.unit, initial, key.help);
 }
 
 std::string section(const TableType& table) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -31,7 +32,7 @@ std::optional<Eigen::Vector3d> parse_corner(std::string_view axes) {
 
 class PinReader {
  public:
-  PinReader(const Mesh* mesh, Problems& problems) : mesh_(mesh), problems_(problems) {}
+  PinReader(const Vertices* vertices, Problems& problems) : vertices_(vertices), problems_(problems) {}
 
   void read(const TomlValue& item, const std::string& name) {
     if (item.as<std::int64_t>() != nullptr) {
@@ -48,17 +49,21 @@ class PinReader {
     }
   }
 
-  [[nodiscard]] std::vector<int> pins() && { return std::move(pins_); }
+  [[nodiscard]] std::vector<int> pins() && {
+    std::sort(pins_.begin(), pins_.end());
+    pins_.erase(std::unique(pins_.begin(), pins_.end()), pins_.end());
+    return std::move(pins_);
+  }
 
  private:
   void read_vertex(const TomlValue& item, const std::string& name) {
-    if (mesh_ == nullptr) return;
+    if (vertices_ == nullptr) return;
     const std::int64_t number = *item.as<std::int64_t>();
-    if (number >= 0 && number < mesh_->positions.rows()) {
+    if (number >= 0 && number < vertices_->rows()) {
       pins_.push_back(static_cast<int>(number));
     } else {
       problems_.add(item.place, fmt::format("{}: the mesh has the vertices 0 to {}, found {}", name,
-                                            mesh_->positions.rows() - 1, number));
+                                            vertices_->rows() - 1, number));
     }
   }
 
@@ -69,7 +74,7 @@ class PinReader {
     if (!direction) {
       problems_.add(place,
                     fmt::format("{}: expected a corner like 'corner:x-y-' or 'corner:x+y+z-', found '{}'", name, text));
-    } else if (mesh_ != nullptr) {
+    } else if (vertices_ != nullptr) {
       pins_.push_back(farthest_vertex(*direction));
     }
   }
@@ -103,11 +108,11 @@ class PinReader {
   }
 
   void add_box(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Place& place, const std::string& name) {
-    if (mesh_ == nullptr) return;
+    if (vertices_ == nullptr) return;
     const Eigen::RowVector3d low = a.cwiseMin(b).transpose(), high = a.cwiseMax(b).transpose();
     const std::size_t before = pins_.size();
-    for (Eigen::Index i = 0; i < mesh_->positions.rows(); ++i) {
-      const auto p = mesh_->positions.row(i).array();
+    for (Eigen::Index i = 0; i < vertices_->rows(); ++i) {
+      const auto p = vertices_->row(i).array();
       if ((p >= low.array()).all() && (p <= high.array()).all()) pins_.push_back(static_cast<int>(i));
     }
     if (pins_.size() == before) problems_.add(place, name + ": no vertex of the mesh is in this box");
@@ -116,8 +121,8 @@ class PinReader {
   [[nodiscard]] int farthest_vertex(const Eigen::Vector3d& direction) const {
     Eigen::Index farthest = 0;
     double most = -std::numeric_limits<double>::infinity();
-    for (Eigen::Index i = 0; i < mesh_->positions.rows(); ++i) {
-      const double distance = mesh_->positions.row(i).dot(direction);
+    for (Eigen::Index i = 0; i < vertices_->rows(); ++i) {
+      const double distance = vertices_->row(i).dot(direction);
       if (distance > most) {
         most = distance;
         farthest = i;
@@ -126,20 +131,20 @@ class PinReader {
     return static_cast<int>(farthest);
   }
 
-  const Mesh* mesh_;
+  const Vertices* vertices_;
   Problems& problems_;
   std::vector<int> pins_;
 };
 
 }  // namespace
 
-std::vector<int> read_pins(const TomlValue& value, const Mesh* mesh, Problems& problems) {
+std::vector<int> read_pins(const TomlValue& value, const Vertices* vertices, Problems& problems) {
   const TomlArray* items = value.as<TomlArray>();
   if (items == nullptr) {
     problems.add(value.place, "pins: expected an array, found " + value.kind());
     return {};
   }
-  PinReader reader(mesh, problems);
+  PinReader reader(vertices, problems);
   for (std::size_t i = 0; i < items->size(); ++i) reader.read((*items)[i], fmt::format("pins[{}]", i));
   return std::move(reader).pins();
 }

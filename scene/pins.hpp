@@ -10,7 +10,9 @@ namespace drape {
 
 /// Reads an array of vertices: numbers from 0; "corner:x-y+", the vertex farthest in that direction, the first of
 /// several; and { box = [[x, y, z], [x, y, z]] }, every vertex between two opposite corners, at least one.
-/// @param mesh as it is before it is placed in the world; null if it could not be read: then only the forms are checked
-std::vector<int> read_pins(const TomlValue& value, const Mesh* mesh, Problems& problems);
+/// @param vertices where they are before the mesh is placed in the world; null if they could not be read: then only the
+///                 forms are checked
+/// @returns them ascending, each once
+std::vector<int> read_pins(const TomlValue& value, const Vertices* vertices, Problems& problems);
 
 }  // namespace drape

@@ -103,14 +103,19 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   TableReader reader(folder, problems);
   reader.read_all(document, scene_tables(cloth_table, scene));
   bool cloth_good = false;
+  Vertices unplaced;
   if (const TomlValue* value = find_path(document, "cloth")) {
     if (auto cloth = read_cloth(cloth_table, *value, folder, problems)) {
       scene.simulation.cloth = std::move(cloth->cloth);
       scene.uvs = std::move(cloth->uvs);
+      unplaced = std::move(cloth->unplaced);
+      reader.set_vertices(&unplaced);
       cloth_good = reader.good("cloth") && reader.good("cloth.transform");
     }
   }
   const std::vector<ReadEffect> effects = read_effects(document, reader, problems);
+
+  for (const ReadEffect& effect : effects) scene.simulation.effects.push_back(effect.active);
 
   // A rule between keys means nothing where one of them could not be read: the default stands in its place.
   const Checks checks(scene, document, problems);
@@ -124,7 +129,6 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   if (reader.good("check")) checks.compared_frames();
   problems.throw_if_any();
   scene.digest = digest(document, {"check"});
-  for (const ReadEffect& effect : effects) scene.simulation.effects.push_back(effect.active);
   checks.stability();
   problems.throw_if_any();
   return scene;

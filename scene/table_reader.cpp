@@ -4,8 +4,11 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "core/nearest.hpp"
 #include "scene/color.hpp"
+#include "scene/pins.hpp"
+#include "scene/usd_motion.hpp"
 #include "scene/values.hpp"
 
 namespace drape {
@@ -16,11 +19,13 @@ constexpr const char* effects_table = "effects";
 /// Reads the value of a key into its target, whatever that is.
 class KeyReader {
  public:
-  KeyReader(const TomlValue& value, const Key& key, const std::filesystem::path& folder, Problems& problems)
+  KeyReader(const TomlValue& value, const Key& key, const std::filesystem::path& folder, const Vertices* vertices,
+            Problems& problems)
       : value_(value),
         key_(key),
         range_{key.minimum, key.maximum, key.minimum_excluded},
         folder_(folder),
+        vertices_(vertices),
         problems_(problems) {}
 
   void operator()(bool* target) const { assign(target, read_bool(value_, key_.name, problems_)); }
@@ -48,6 +53,20 @@ class KeyReader {
     assign(target, read_vector(value_, key_.name, range_, problems_));
   }
   void operator()(const OwnForm& form) const { *form.value = &value_; }
+  void operator()(const KeyframeList& list) const { read_keyframes(value_, key_.name, list, problems_); }
+  void operator()(const VertexSelection& selection) const {
+    *selection.vertices = read_pins(value_, vertices_, problems_);
+  }
+
+  void operator()(std::shared_ptr<const SphereTrack>* target) const {
+    const std::optional<std::string> file = read_string(value_, key_.name, problems_);
+    if (!file) return;
+    try {
+      *target = read_sphere_track(folder_ / *file);
+    } catch (const UsageError& error) {
+      problems_.add(value_.place, fmt::format("{}: '{}' cannot be read:\n{}", key_.name, *file, error.what()));
+    }
+  }
 
   void operator()(const Choice& choice) const {
     const std::optional<std::string> name = read_string(value_, key_.name, problems_);
@@ -85,6 +104,7 @@ class KeyReader {
   const Key& key_;
   Range range_;
   const std::filesystem::path& folder_;
+  const Vertices* vertices_;
   Problems& problems_;
 };
 
@@ -135,7 +155,8 @@ void TableReader::read(const TomlValue& value, const TableType& type, const std:
   if (const TomlTable* table = value.as<TomlTable>()) {
     read_entries(*table, type, subtables);
     for (const Key& key : type.keys.all()) {
-      if (key.required && table->find(key.name) == nullptr) {
+      const auto given = [&](const std::string& name) { return table->find(name) != nullptr; };
+      if (key.required && !given(key.name) && std::ranges::none_of(key.alternatives, given)) {
         problems_.add(value.place, fmt::format("missing key '{}' in [{}]", key.name, type.name));
       }
     }
@@ -153,7 +174,7 @@ void TableReader::read_entries(const TomlTable& table, const TableType& type,
   for (const TomlEntry& entry : table.entries) {
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == entry.name; });
     if (key != keys.end()) {
-      std::visit(KeyReader(entry.value, *key, folder_, problems_), key->target);
+      std::visit(KeyReader(entry.value, *key, folder_, vertices_, problems_), key->target);
     } else if (!contains(subtables, entry.name)) {
       report_unknown(entry, type, subtables);
     }

@@ -7,6 +7,7 @@
 #include "scene/document.hpp"
 #include "scene/problems.hpp"
 #include "scene/tables.hpp"
+#include "sim/mesh.hpp"
 
 namespace drape {
 
@@ -16,6 +17,10 @@ class TableReader {
   /// @param folder   the scene's, where the files that it names are
   /// @param problems must outlive this object
   TableReader(std::filesystem::path folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
+
+  /// Says where the cloth's vertices are before it is placed in the world, which selections of vertices refer to. Until
+  /// then, and with null, only the form of a selection is checked.
+  void set_vertices(const Vertices* vertices) { vertices_ = vertices; }
 
   /// Reads those of the tables that the document has. Required ones must be there, and below its root there may be
   /// nothing else but a table `effects`, which this does not read.
@@ -38,6 +43,7 @@ class TableReader {
   [[nodiscard]] const Home* home_of(const std::string& key) const;
 
   std::filesystem::path folder_;
+  const Vertices* vertices_ = nullptr;
   Problems& problems_;
   std::vector<Home> homes_;       // every key of every table, to say where one belongs
   std::vector<std::string> bad_;  // tables that had problems; "" is the root

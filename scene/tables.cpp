@@ -88,6 +88,8 @@ Keys look_keys(Look& look) {
   keys.add("background", &look.background, "", "Behind everything.");
   keys.add("background_top", &look.background_top, "", "At the top of the picture: the background is a gradient.");
   keys.add("sphere_color", &look.sphere_color, "", "Of the spheres.");
+  keys.add("ground_color", &look.ground_color, "", "Of the ground, which fades into the background.");
+  keys.add("ground_grid", &look.ground_grid, "m", "Distance of the lines on the ground; 0: it has none.").at_least(0);
   keys.add("samples", &look.samples, "", "Per pixel, against jagged edges: 1 (off), 2 or 4.").at_least(1).at_most(4);
   return keys;
 }

@@ -45,6 +45,15 @@ void bound_sphere(const SourceText& source, const UsdPrim& prim, TransformTrack&
   if (track.radius <= 0) source.fail(radius->first()->offset, "radius: expected a positive number");
 }
 
+class UsdSphereTrack final : public SphereTrack {
+ public:
+  explicit UsdSphereTrack(TransformTrack track) : track_(std::move(track)) {}
+  [[nodiscard]] SphereShape at(double time) const override { return track_.sphere_at(time); }
+
+ private:
+  TransformTrack track_;
+};
+
 }  // namespace
 
 Eigen::Affine3d TransformTrack::at(double time) const {
@@ -83,5 +92,9 @@ TransformTrack read_usd_motion(const SourceText& source) {
 }
 
 TransformTrack read_usd_motion(const std::filesystem::path& file) { return read_usd_motion(SourceText::read(file)); }
+
+std::shared_ptr<const SphereTrack> read_sphere_track(const std::filesystem::path& file) {
+  return std::make_shared<UsdSphereTrack>(read_usd_motion(file));
+}
 
 }  // namespace drape

@@ -2,10 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "scene/mesh_source.hpp"
-#include "sim/collider.hpp"
+#include "sim/sphere_track.hpp"
 
 namespace drape {
 
@@ -34,5 +35,8 @@ struct TransformTrack {
 /// @throws UsageError "file:line:column: message"
 TransformTrack read_usd_motion(const SourceText& source);
 TransformTrack read_usd_motion(const std::filesystem::path& file);
+
+/// The same motion for whoever follows it.
+std::shared_ptr<const SphereTrack> read_sphere_track(const std::filesystem::path& file);
 
 }  // namespace drape

@@ -1,12 +1,14 @@
 #include "scene/values.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/nearest.hpp"
 #include "scene/scene.hpp"
 
 namespace drape {
@@ -129,6 +131,73 @@ std::optional<std::vector<int>> read_ints(const TomlValue& value, const std::str
     if (const auto number = read_int((*array)[i], item_name(name, i), range, problems)) numbers.push_back(*number);
   }
   return numbers.size() == array->size() ? std::optional(numbers) : std::nullopt;
+}
+
+namespace {
+
+/// Reads one keyframe into `list`; false if it is not one. `used` is the name that the values have, once it is known.
+bool read_keyframe(const TomlValue& value, const std::string& name, const KeyframeList& list,
+                   std::optional<std::size_t>& used, Problems& problems) {
+  const TomlTable* table = value.as<TomlTable>();
+  if (table == nullptr) {
+    problems.add(value.place, fmt::format("{}: expected {{ time = …, {} = [x, y, z] }}, found {}", name,
+                                          list.names.front(), value.kind()));
+    return false;
+  }
+  const std::size_t before = problems.count();
+  std::vector<std::string> known = list.names;
+  known.insert(known.begin(), "time");
+  const TomlValue* vector = nullptr;
+  for (const TomlEntry& entry : table->entries) {
+    const auto place = static_cast<std::size_t>(std::ranges::find(known, entry.name) - known.begin());
+    if (place == known.size()) {
+      problems.add(entry.place, fmt::format("{}: unknown key '{}'{}", name, entry.name,
+                                            did_you_mean(entry.name, known, "the keys are")));
+    } else if (place > 0 && used.value_or(place - 1) != place - 1) {
+      problems.add(entry.place, fmt::format("{}: every keyframe of a list has the same key, and before this one it was "
+                                            "'{}'",
+                                            name, list.names[*used]));
+    } else if (place > 0) {
+      used = place - 1;
+      vector = &entry.value;
+    }
+  }
+  const TomlValue* time = table->find("time");
+  const std::string missing = time == nullptr     ? "time"
+                              : vector == nullptr ? fmt::format("{}", fmt::join(list.names, "' or '"))
+                                                  : "";
+  if (problems.count() == before && !missing.empty()) {
+    problems.add(value.place, fmt::format("{}: missing key '{}'", name, missing));
+  }
+  if (problems.count() != before) return false;
+  const auto at = read_number(*time, name + ".time", {.minimum = 0}, problems);
+  const auto where = read_vector(*vector, name + "." + list.names[*used], {}, problems);
+  if (!at || !where) return false;
+  if (!list.keyframes->empty() && *at <= list.keyframes->back().time) {
+    problems.add(time->place, fmt::format("{}.time: keyframes must follow each other in time, and the one before is at "
+                                          "{:g} s, found {:g}",
+                                          name, list.keyframes->back().time, *at));
+    return false;
+  }
+  list.keyframes->push_back({*at, *where});
+  return true;
+}
+
+}  // namespace
+
+void read_keyframes(const TomlValue& value, const std::string& name, const KeyframeList& list, Problems& problems) {
+  const TomlArray* array = value.as<TomlArray>();
+  if (array == nullptr || array->empty()) {
+    problems.add(value.place, fmt::format("{}: expected an array of {{ time = …, {} = [x, y, z] }}, found {}", name,
+                                          list.names.front(), array == nullptr ? value.kind() : "an empty one"));
+    return;
+  }
+  list.keyframes->clear();
+  std::optional<std::size_t> used;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    if (!read_keyframe((*array)[i], item_name(name, i), list, used, problems)) return;
+  }
+  if (list.name != nullptr) *list.name = *used;
 }
 
 std::optional<std::filesystem::path> read_file_name(const TomlValue& value, const std::string& name,

@@ -3,6 +3,9 @@
 
 uniform vec3 sphere_color;
 uniform vec4 sphere;  // center, radius [m]
+#if GROUNDS > 0
+uniform vec4 grounds[GROUNDS];  // unit normal, height [m]
+#endif
 
 in vec3 world_position;
 
@@ -12,6 +15,11 @@ out vec4 color;  // premultiplied
 vec3 surroundings(vec3 direction) { return mix(vec3(0.35), vec3(0.95), smoothstep(-0.5, 0.4, dot(direction, up))); }
 
 void main() {
+#if GROUNDS > 0
+  for (int i = 0; i < GROUNDS; ++i) {
+    if (dot(grounds[i].xyz, world_position) < grounds[i].w) discard;
+  }
+#endif
   vec3 n = normalize(world_position - sphere.xyz);
   vec3 to_eye = normalize(eye - world_position);
 

@@ -11,7 +11,14 @@ struct SphereShape {
   double radius = 1;                                 ///< [m]
 };
 
+/// A half-space: everything with normal·x ≤ height is inside it.
+struct GroundShape {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit vector out of it
+  double height = 0;                                  ///< of its surface above the origin, along the normal [m]
+  double thickness = 0;                               ///< of the layer above it in which it pushes [m]
+};
+
 /// The shape of something the cloth can touch, at one moment: what a drawing shows of it.
-using Collider = std::variant<SphereShape>;
+using Collider = std::variant<SphereShape, GroundShape>;
 
 }  // namespace drape

@@ -7,6 +7,7 @@
 
 #include "sim/effects/effect.hpp"
 #include "sim/stability.hpp"
+#include "sim/timed_effects.hpp"
 
 namespace drape {
 namespace {
@@ -25,11 +26,23 @@ State initial_state(const Cloth& cloth) {
   return state;
 }
 
+Vertices constant_force(const System& system, const State& state) {
+  Vertices sum = Vertices::Zero(state.x.rows(), 3);
+  for (const auto& force : system.forces) {
+    if (force->constant()) force->add(state, 0, sum);
+  }
+  return sum;
+}
+
 }  // namespace
 
-System make_system(const SimulationSettings& settings) {
+System make_system(const SimulationSettings& settings, std::vector<double>* effect_seconds) {
   System system(settings.cloth, settings.step);
-  for (const ActiveEffect& active : settings.effects) active.effect->install(system);
+  for (std::size_t i = 0; i < settings.effects.size(); ++i) {
+    const SystemSizes before(system);
+    settings.effects[i].effect->install(system);
+    if (effect_seconds != nullptr) time_additions(system, before, (*effect_seconds)[i]);
+  }
   return system;
 }
 
@@ -40,23 +53,34 @@ DivergedError::DivergedError(std::int64_t step, double time, int vertex)
                 "or an implicit method, keeps it stable",
                 step, time, vertex)) {}
 
-Simulation::Simulation(SimulationSettings settings)
+Simulation::Simulation(SimulationSettings settings, Timing timing)
     : settings_(std::move(settings)),
-      system_(make_system(settings_)),
+      effect_seconds_(timing == Timing::effects ? settings_.effects.size() : 0, 0.0),
+      system_(make_system(settings_, timing == Timing::effects ? &effect_seconds_ : nullptr)),
+      phases_(pin_phases(settings_.cloth.pins, system_->pin_releases)),
       state_(initial_state(settings_.cloth)),
-      constant_force_(Vertices::Zero(settings_.cloth.vertex_count(), 3)),
+      constant_force_(constant_force(*system_, state_)),
       force_(constant_force_),
-      integrator_(make_stable_integrator(settings_, system_)),
-      springs_(system_.springs, settings_.cloth.vertex_count()) {
-  for (const auto& force : system_.forces) {
-    if (force->constant()) force->add(state_, 0, constant_force_);
-  }
-}
+      integrator_(make_stable_integrator(settings_, *system_)),
+      springs_(system_->springs, settings_.cloth.vertex_count()) {}
 
 Simulation::~Simulation() = default;
 
+void Simulation::enter_phase() {
+  std::size_t now = phases_.size() - 1;
+  while (phases_[now].first_step > state_.step) --now;
+  if (now == phase_) return;
+  integrator_.reset();  // it refers to the system
+  phase_ = now;
+  settings_.cloth.pins = phases_[now].pins;
+  system_.emplace(make_system(settings_, effect_seconds_.empty() ? nullptr : &effect_seconds_));
+  integrator_ = make_integrator(settings_.integrator, *system_);
+}
+
 StepReport Simulation::step() {
-  const StepReport report = integrator_->advance(state_, force());
+  if (phases_.size() > 1) enter_phase();
+  StepReport report = integrator_->advance(state_, force());
+  for (const auto& filter : system_->filters) report.converged = report.converged && filter->converged();
   ++state_.step;
   // What is not finite makes the sum of its squares so, and any velocity that is not moves its vertex there.
   if (!std::isfinite(norm(state_.x))) throw_diverged();
@@ -64,11 +88,12 @@ StepReport Simulation::step() {
 }
 
 const Vertices& Simulation::force() {
-  if (std::all_of(system_.forces.begin(), system_.forces.end(), [](const auto& f) { return f->constant(); })) {
+  const auto& forces = system_->forces;
+  if (std::all_of(forces.begin(), forces.end(), [](const auto& f) { return f->constant(); })) {
     return constant_force_;
   }
   force_ = constant_force_;
-  for (const auto& force : system_.forces) {
+  for (const auto& force : forces) {
     if (!force->constant()) force->add(state_, time(), force_);
   }
   return force_;
@@ -78,14 +103,17 @@ void Simulation::restore(const State& state) { state_ = state; }
 
 Energies Simulation::energies() const {
   const Eigen::VectorXd& m = settings_.cloth.masses;
+  double elastic = springs_.energy(state_.x);
+  Vertices ignored = Vertices::Zero(state_.x.rows(), 3);
+  for (const auto& energy : system_->coupled_energies) elastic += energy->add_gradient(state_.x, ignored);
   return {.kinetic = 0.5 * m.dot(state_.v.rowwise().squaredNorm()),
-          .gravity = -m.dot(state_.x * system_.gravity),
-          .elastic = springs_.energy(state_.x)};
+          .gravity = -m.dot(state_.x * system_->gravity),
+          .elastic = elastic};
 }
 
 std::vector<Collider> Simulation::colliders(double time) const {
   std::vector<Collider> shapes;
-  for (const auto& motion : system_.colliders) shapes.push_back(motion->at(time));
+  for (const auto& motion : system_->colliders) shapes.push_back(motion->at(time));
   return shapes;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
@@ -15,7 +16,7 @@ namespace drape {
 struct Energies {
   double kinetic = 0;  ///< Σ m v²/2
   double gravity = 0;  ///< −Σ m g·x
-  double elastic = 0;  ///< of all springs
+  double elastic = 0;  ///< of all springs and of bending
 
   [[nodiscard]] double total() const { return kinetic + gravity + elastic; }
 };
@@ -27,7 +28,11 @@ class DivergedError : public Error {
 };
 
 /// What acts on the cloth with the settings' effects. Refers to the settings, which must outlive it.
-System make_system(const SimulationSettings& settings);
+/// @param effect_seconds if given, one number for each effect, to which the time that it takes is added from then on
+System make_system(const SimulationSettings& settings, std::vector<double>* effect_seconds = nullptr);
+
+/// Whether a simulation measures what its effects take.
+enum class Timing { none, effects };
 
 /// A cloth in motion: owns its state, what acts on it, and the integrator. No threads, no files. The same settings give
 /// the same bits.
@@ -36,7 +41,7 @@ class Simulation {
   /// @throws UsageError if the step is larger than semi-implicit Euler's safe one, see safe_step(), or a matrix of the
   ///         integrator would not fit into memory
   /// @throws std::domain_error if a matrix of the integrator cannot be factored to working precision
-  explicit Simulation(SimulationSettings settings);
+  explicit Simulation(SimulationSettings settings, Timing timing = Timing::none);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -45,15 +50,19 @@ class Simulation {
   /// @throws DivergedError if a position or velocity is no longer finite
   StepReport step();
 
-  /// Goes on from another state of the same cloth.
+  /// Goes on from another state of the same cloth, at any step.
   void restore(const State& state);
 
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] double time() const { return time_of(state_.step); }
+  /// Its pins are those of the last step.
   [[nodiscard]] const Cloth& cloth() const { return settings_.cloth; }
   [[nodiscard]] const SimulationSettings& settings() const { return settings_; }
   /// All springs, those of effects included.
-  [[nodiscard]] const std::vector<Spring>& springs() const { return system_.springs; }
+  [[nodiscard]] const std::vector<Spring>& springs() const { return system_->springs; }
+  /// What each effect of the settings has taken within the steps so far [s]; empty unless it is measured. The springs
+  /// that an effect adds are not in it: they are computed together with the cloth's.
+  [[nodiscard]] const std::vector<double>& effect_seconds() const { return effect_seconds_; }
 
   [[nodiscard]] Energies energies() const;
   /// ‖∇g‖ [N] where the last step ended, see Integrator::residual.
@@ -62,13 +71,18 @@ class Simulation {
   [[nodiscard]] std::vector<Collider> colliders(double time) const;
 
  private:
+  /// Makes the system and the integrator for the pins of the next step, unless they are those.
+  void enter_phase();
   /// The sum of all forces now.
   [[nodiscard]] const Vertices& force();
   [[noreturn]] void throw_diverged() const;
   [[nodiscard]] double time_of(std::int64_t step) const { return static_cast<double>(step) * settings_.step; }
 
   SimulationSettings settings_;
-  System system_;
+  std::vector<double> effect_seconds_;
+  std::optional<System> system_;  // always there, and made anew for every phase
+  std::vector<PinPhase> phases_;  // by step, the first from 0 on
+  std::size_t phase_ = 0;
   State state_;
   Vertices constant_force_, force_;
   std::unique_ptr<Integrator> integrator_;

@@ -13,6 +13,12 @@ StepObjective::StepObjective(const System& system)
       y_(system.cloth.vertex_count(), 3) {
   for (const int pin : system.cloth.pins) push_[pin] = 0;
   for (const Spring& s : system.springs) elastic_scale_ += s.stiffness * s.rest_length * s.rest_length;
+  for (const auto& energy : system.coupled_energies) {
+    for (const Spring& s : energy->bound()) {
+      const auto d = system.cloth.positions.row(s.i) - system.cloth.positions.row(s.j);
+      elastic_scale_ += std::abs(s.stiffness) * d.squaredNorm();
+    }
+  }
 }
 
 void StepObjective::begin(const State& state, const Vertices& force) {
@@ -24,11 +30,13 @@ void StepObjective::begin(const State& state, const Vertices& force) {
   for (int axis = 0; axis < 3; ++axis) {
     k.add_scaled(count, push_.data(), force.col(axis).data(), y_.col(axis).data());
   }
+  system_.place_pins(state, y_);
   scale_ = elastic_scale_ + inertia_.dot(y_.rowwise().squaredNorm());
 }
 
 double StepObjective::evaluate(const Vertices& x, Vertices& gradient) const {
   double value = springs_.evaluate(inertia_, y_, x, gradient);
+  for (const auto& energy : system_.coupled_energies) value += energy->add_gradient(x, gradient);
   for (const auto& energy : system_.energies) value += energy->add_gradient(x, time_, gradient);
   for (const int pin : system_.cloth.pins) gradient.row(pin).setZero();
   return value;

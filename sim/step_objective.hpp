@@ -8,7 +8,8 @@ namespace drape {
 /// What a step of implicit Euler minimises over the free vertices (Liu et al. 2013, eq. 5, divided by h²):
 ///   g(x) = 1/(2h²) ‖x − y‖²_M + E(x),   y = xₙ + h vₙ + h² M⁻¹ f,
 /// with E the energy of the springs and of everything else in the system that has one.
-/// Pinned vertices keep their place: y and every gradient say so, so that plain vector arithmetic never moves them.
+/// Pinned vertices are no unknowns: y has them where they are when the step ends, and every gradient is zero there, so
+/// that plain vector arithmetic never moves them.
 class StepObjective {
  public:
   explicit StepObjective(const System& system);
@@ -17,7 +18,7 @@ class StepObjective {
   /// @param force evaluated at the start of the step, n×3 [N]
   void begin(const State& state, const Vertices& force);
 
-  /// Where the cloth would go without its energies, n×3 [m]; pins stay at xₙ.
+  /// Where the cloth would go without its energies, and where the pins are when the step ends, n×3 [m].
   [[nodiscard]] const Vertices& y() const { return y_; }
 
   /// Computes gradient = ∇g(x), n×3 and zero on pins [N], and returns g(x) [J], in one pass.

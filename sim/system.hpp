@@ -6,6 +6,7 @@
 
 #include "sim/cloth.hpp"
 #include "sim/collider.hpp"
+#include "sim/pin_motion.hpp"
 
 namespace drape {
 
@@ -28,7 +29,8 @@ struct Force {
 /// Symmetric 3×3 blocks on the diagonal of a Hessian, one for each vertex: xx, xy, xz, yy, yz, zz. n×6 [N/m]
 using DiagonalBlocks = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
-/// An energy that implicit methods solve for, E(x) ≥ 0, of every vertex by itself (what couples vertices is a spring).
+/// An energy that implicit methods solve for, E(x) ≥ 0, of every vertex by itself. What couples vertices is a spring or
+/// a CoupledEnergy.
 struct Energy {
   virtual ~Energy() = default;
   /// gradient += ∇E(x), n×3 [N]; returns E(x) [J].
@@ -39,6 +41,30 @@ struct Energy {
   virtual void add_bound(Eigen::VectorXd& bound) const = 0;
 };
 
+/// The positive semi-definite Hessian of a CoupledEnergy at one shape of the cloth, as both of Newton's linear solvers
+/// take it: H = Σ (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ K over the pairs of CoupledEnergy::bound(), with a symmetric 3×3 block K each.
+struct CoupledHessian {
+  virtual ~CoupledHessian() = default;
+  /// Takes the shape x, n×3 [m].
+  virtual void linearise(const Vertices& x) = 0;
+  /// product += H·vector, both n×3.
+  virtual void add_product(const Vertices& vector, Vertices& product) const = 0;
+  /// blocks[p] += K of pair p [N/m].
+  virtual void add_blocks(std::vector<Eigen::Matrix3d>& blocks) const = 0;
+};
+
+/// An energy that couples vertices, E(x) ≥ 0, and is the same wherever the cloth is as a whole.
+struct CoupledEnergy {
+  virtual ~CoupledEnergy() = default;
+  /// gradient += ∇E(x), n×3 [N]; returns E(x) [J]. One pass.
+  virtual double add_gradient(const Vertices& x, Vertices& gradient) const = 0;
+  /// An upper bound of the Hessian in every shape, Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ I₃: as if by springs of no length, whose
+  /// stiffness may be negative. Each pair i < j that the energy couples is there once, whatever its stiffness.
+  [[nodiscard]] virtual const std::vector<Spring>& bound() const = 0;
+  /// An object that keeps the Hessian, for the methods that need it. Refers to this energy.
+  [[nodiscard]] virtual std::unique_ptr<CoupledHessian> make_hessian() const = 0;
+};
+
 /// A change of the velocity at the end of a step.
 struct Correction {
   virtual ~Correction() = default;
@@ -46,14 +72,17 @@ struct Correction {
   virtual void apply(State& state, double h) const = 0;
 };
 
-/// A change of the motion of a step before the vertices move: contact, friction, limits of strain (after Bridson, Fedkiw
-/// and Anderson 2002, section 4: whatever the integrator, a step ends at x + h·v with v corrected for what it would do).
+/// A change of the motion of a step before the vertices move: contact, friction, limits of strain (after Bridson,
+/// Fedkiw and Anderson 2002, section 4: whatever the integrator, a step ends at x + h·v with v corrected for what it
+/// would do).
 struct MotionFilter {
   virtual ~MotionFilter() = default;
   /// Changes v, the velocities n×3 [m/s] with which the cloth is about to go from x to x + h·v, between `time` and
   /// time + h [s]. Leaves the rows of pinned vertices as they are. What it keeps between calls is memory only: the
   /// result depends on the arguments alone.
   virtual void apply(const Vertices& x, double time, double h, Vertices& v) = 0;
+  /// Whether the last call did all that the filter is for, rather than stop at its cap.
+  [[nodiscard]] virtual bool converged() const { return true; }
 };
 
 /// Something the cloth can touch, whose place is a function of time.
@@ -72,11 +101,24 @@ struct System {
   std::vector<Spring> springs;  ///< the cloth's and those that effects add
   std::vector<std::unique_ptr<Force>> forces;
   std::vector<std::unique_ptr<Energy>> energies;
+  std::vector<std::unique_ptr<CoupledEnergy>> coupled_energies;
   std::vector<std::unique_ptr<Correction>> corrections;
   std::vector<std::unique_ptr<MotionFilter>> filters;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;
+  std::vector<PinMotion> pin_motions;    ///< of pins that do not stay where they are
+  std::vector<PinRelease> pin_releases;  ///< a simulation makes its system anew, without these pins, when it gets there
 
   System(const Cloth& c, double h) : cloth(c), step(h), springs(c.springs) {}
+
+  /// What no Hessian of the springs and the coupled energies exceeds, Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ I₃: the springs, then
+  /// the bounds of the energies one after another.
+  [[nodiscard]] std::vector<Spring> stiffness_bound() const {
+    std::vector<Spring> bound = springs;
+    for (const auto& energy : coupled_energies) {
+      bound.insert(bound.end(), energy->bound().begin(), energy->bound().end());
+    }
+    return bound;
+  }
 
   /// Applies every correction to the velocity of a step.
   void correct(State& state) const {
@@ -85,7 +127,22 @@ struct System {
 
   /// Applies every filter to the velocities with which a step is about to leave state.x.
   void filter(State& state) const {
-    for (const auto& f : filters) f->apply(state.x, static_cast<double>(state.step) * step, step, state.v);
+    for (const auto& f : filters) f->apply(state.x, time_after(state, 0), step, state.v);
+  }
+
+  /// Gives the pins that move the velocities of the step that begins at state.step.
+  void drive_pins(State& state) const {
+    for (const PinMotion& motion : pin_motions) motion.drive(time_after(state, 0), time_after(state, 1), state.v);
+  }
+
+  /// Writes where the pins that move are when the step ends that begins at state.step into their rows of x.
+  void place_pins(const State& state, Vertices& x) const {
+    for (const PinMotion& motion : pin_motions) motion.place(time_after(state, 1), x);
+  }
+
+ private:
+  [[nodiscard]] double time_after(const State& state, int steps) const {
+    return static_cast<double>(state.step + steps) * step;
   }
 };
 

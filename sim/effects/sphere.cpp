@@ -1,148 +1,114 @@
 #include "sim/effects/sphere.hpp"
 
 #include <cmath>
-#include <limits>
+#include <optional>
 
-#include <fmt/format.h>
+#include "sim/effects/contact.hpp"
+#include "sim/sphere_track.hpp"
 
 namespace drape {
 namespace {
 
-/// How the penalty enters a step.
-enum class Response {
-  explicit_force,  ///< evaluated at the start of the step, as in the homework
-  implicit_energy  ///< part of what an implicit step minimises
+/// The ball of `reach` around `center`. At the centre itself no direction leads outwards.
+struct Ball {
+  Eigen::Vector3d center;
+  double reach;
+
+  bool find(const Eigen::Vector3d& point, Touch& touch) const {
+    touch.away = point - center;
+    const Eigen::Vector3d& d = touch.away;
+    const double squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    if (squared >= reach * reach || squared == 0) return false;
+    touch.distance = std::sqrt(squared);
+    touch.depth = reach - touch.distance;
+    return true;
+  }
 };
 
-struct SphereValues {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  double radius = 1;
-  double scale = 1.1;
-  double stiffness = 8000;
-  Response response = Response::explicit_force;
+/// The homework's penalty, a = k·max(s·r − ‖x−c‖, 0)·(x−c)/‖x−c‖, comes from the ball of s·r around c.
+struct SphereSurface {
+  std::shared_ptr<const SphereTrack> track;
+  double scale;
 
-  [[nodiscard]] double reach() const { return scale * radius; }
+  [[nodiscard]] Ball at(double time) const {
+    const SphereShape shape = track->at(time);
+    return {shape.center, scale * shape.radius};
+  }
+  [[nodiscard]] Eigen::Vector3d displacement(double from, double to) const {
+    return track->at(to).center - track->at(from).center;
+  }
 };
 
 struct Pose final : ColliderMotion {
-  SphereShape shape;
-  explicit Pose(const SphereValues& s) : shape{s.center, s.radius} {}
-  [[nodiscard]] Collider at(double) const override { return shape; }
-};
-
-/// The homework's penalty: a = k·max(s·r − ‖x−c‖, 0)·(x−c)/‖x−c‖. At the centre itself the direction is undefined and
-/// the force is zero.
-struct Penalty final : Force {
-  SphereValues sphere;
-  const Eigen::VectorXd& masses;
-
-  Penalty(const SphereValues& s, const Eigen::VectorXd& m) : sphere(s), masses(m) {}
-
-  void add(const State& state, double, Vertices& force) const override {
-    const double reach = sphere.reach();
-    for (Eigen::Index i = 0; i < state.x.rows(); ++i) {
-      const double dx = state.x(i, 0) - sphere.center[0];
-      const double dy = state.x(i, 1) - sphere.center[1];
-      const double dz = state.x(i, 2) - sphere.center[2];
-      const double squared = dx * dx + dy * dy + dz * dz;
-      if (squared >= reach * reach || squared == 0) continue;
-      const double distance = std::sqrt(squared);
-      const double pressure = masses[i] * sphere.stiffness * (reach - distance) / distance;
-      force(i, 0) += pressure * dx;
-      force(i, 1) += pressure * dy;
-      force(i, 2) += pressure * dz;
-    }
-  }
-};
-
-/// The penalty as an energy: E = Σ m k/2 · max(s·r − ‖x−c‖, 0)². Its Hessian is m k (x̂x̂ᵀ − (s·r/‖x−c‖ − 1)(I − x̂x̂ᵀ)),
-/// of which the first term is positive; at the centre itself all are zero.
-struct PenaltyEnergy final : Energy {
-  SphereValues sphere;
-  const Eigen::VectorXd& masses;
-
-  PenaltyEnergy(const SphereValues& s, const Eigen::VectorXd& m) : sphere(s), masses(m) {}
-
-  /// Calls visit(vertex, outward direction, depth) for every vertex within reach.
-  template <class Visit>
-  void for_touching(const Vertices& x, Visit&& visit) const {
-    const double reach = sphere.reach();
-    for (Eigen::Index i = 0; i < x.rows(); ++i) {
-      const Eigen::Vector3d d = x.row(i).transpose() - sphere.center;
-      const double squared = d.squaredNorm();
-      if (squared >= reach * reach || squared == 0) continue;
-      const double distance = std::sqrt(squared);
-      visit(i, Eigen::Vector3d(d / distance), reach - distance);
-    }
-  }
-
-  double add_gradient(const Vertices& x, double, Vertices& gradient) const override {
-    double total = 0;
-    for_touching(x, [&](Eigen::Index i, const Eigen::Vector3d& outward, double depth) {
-      const double pressure = masses[i] * sphere.stiffness * depth;
-      gradient.row(i) -= pressure * outward.transpose();
-      total += 0.5 * pressure * depth;
-    });
-    return total;
-  }
-
-  void add_hessian(const Vertices& x, double, DiagonalBlocks& blocks) const override {
-    for_touching(x, [&](Eigen::Index i, const Eigen::Vector3d& n, double) {
-      Eigen::Matrix<double, 1, 6> products;
-      products << n[0] * n[0], n[0] * n[1], n[0] * n[2], n[1] * n[1], n[1] * n[2], n[2] * n[2];
-      blocks.row(i) += masses[i] * sphere.stiffness * products;
-    });
-  }
-
-  void add_bound(Eigen::VectorXd& bound) const override { bound += sphere.stiffness * masses; }
+  std::shared_ptr<const SphereTrack> track;
+  explicit Pose(std::shared_ptr<const SphereTrack> t) : track(std::move(t)) {}
+  [[nodiscard]] Collider at(double time) const override { return track->at(time); }
 };
 
 class Sphere final : public Effect {
  public:
   void describe(Keys& keys) override {
-    keys.add("center", &values_.center, "m", "Where its centre is.").must_be_given();
-    keys.add("radius", &values_.radius, "m", "Its radius, as it is drawn.").must_be_given().above(0);
-    keys.add("scale", &values_.scale, "", "Where it pushes: within scale·radius of the centre.").at_least(1);
-    keys.add("stiffness", &values_.stiffness, "1/s²", "Acceleration per metre that a vertex is within that reach.")
-        .at_least(0);
-    keys.choice("response", values_.response, {"explicit", "implicit"},
-                "Whether the push is evaluated at the start of a step, or solved for together with the springs.");
+    keys.add("center", &center_, "m", "Where its centre is at the start.").must_be_given_unless({"keyframes", "track"});
+    keys.add("radius", &radius_, "m", "Its radius, as it is drawn.").must_be_given_unless({"track"}).above(0);
+    keys.add("scale", &scale_, "", "Where it pushes: within scale·radius of the centre.").at_least(1);
+    contact_.describe(keys);
+    keys.add("velocity", &velocity_, "m/s", "It moves straight on from `center`.");
+    keys.add("orbit_period", &orbit_period_, "s",
+             "It circles, starting from `center`, and takes as long for a turn; negative: the other way round.");
+    keys.add("orbit_center", &orbit_.center, "m", "A point of the axis that it circles around.");
+    keys.add("orbit_axis", &orbit_.axis, "",
+             "The direction of that axis, seen from whose tip it goes counterclockwise.");
+    keys.add("keyframes", KeyframeList{{"center"}, &keyframes_}, "s, m", "Where its centre is at which times.");
+    keys.choice("interpolation", interpolation_, {"linear", "smooth"},
+                "How it gets from one keyframe to the next: at a steady speed, or without jumps of its speed.");
+    keys.add("track", &track_, "",
+             "An ASCII USD file whose first moving Mesh or Sphere it follows, in place and size; at the file's start "
+             "time code the clock shows 0 s.");
   }
 
   void check(const SimulationSettings& settings, const ProblemSink& problem) const override {
-    if (values_.response == Response::implicit_energy) {
-      if (settings.integrator.method == Method::semi_implicit) {
-        problem(
-            "response",
-            "semi-implicit Euler evaluates every force at the start of a step and solves for nothing, so the push can "
-            "only be \"explicit\" with it; the other methods take \"implicit\" too");
-      }
-      return;
+    const int motions =
+        int{velocity_.has_value()} + int{orbit_period_.has_value()} + int{!keyframes_.empty()} + int{track_ != nullptr};
+    if (motions > 1) {
+      problem("", "give only one of 'velocity', 'orbit_period', 'keyframes' and 'track': each says where it is");
     }
-    // A vertex on the explicit penalty is a harmonic oscillator of frequency √k, which every step that evaluates the
-    // force at its start turns unstable beyond h·√k = 2, whatever the method does with the springs.
-    const double h = settings.step;
-    const double product = h * std::sqrt(values_.stiffness);
-    if (product > 2) {
-      problem(
-          "stiffness",
-          fmt::format("an explicit penalty is unstable where step·√stiffness > 2, and here it is {:.3g}: with step = "
-                      "{:g} s the stiffness can be at most {:.4g}, or with this stiffness the step at most {:.3g} s",
-                      product, h, 4 / (h * h), 2 / std::sqrt(values_.stiffness)));
+    const bool placed = !keyframes_.empty() || track_ != nullptr;
+    if (center_ && placed) {
+      problem("center", std::string("'") + (track_ ? "track" : "keyframes") + "' already says where its centre is");
     }
+    if (!radius_ && track_ && !(track_->at(0).radius > 0)) {
+      problem("track", "what moves in this file has no size: give the 'radius' as well");
+    }
+    if (orbit_period_ && *orbit_period_ == 0) problem("orbit_period", "expected a time other than 0");
+    if (orbit_.axis.isZero(0)) problem("orbit_axis", "expected a direction, found [0, 0, 0]");
+    contact_.check(settings, problem);
   }
 
   void install(System& system) const override {
-    system.colliders.push_back(std::make_unique<Pose>(values_));
-    if (values_.response == Response::implicit_energy) {
-      system.energies.push_back(std::make_unique<PenaltyEnergy>(values_, system.cloth.masses));
-    } else {
-      system.forces.push_back(std::make_unique<Penalty>(values_, system.cloth.masses));
-    }
+    const std::shared_ptr<const SphereTrack> track = make_track();
+    system.colliders.push_back(std::make_unique<Pose>(track));
+    install_contact(SphereSurface{track, scale_}, contact_, system);
   }
 
  private:
-  SphereValues values_;
+  [[nodiscard]] std::shared_ptr<const SphereTrack> make_track() const {
+    if (track_) return radius_ ? with_radius(track_, *radius_) : track_;
+    if (!keyframes_.empty()) return keyframed_track(radius_.value(), Keyframes(keyframes_, interpolation_));
+    const SphereShape start{center_.value(), radius_.value()};
+    if (!orbit_period_) return straight_track(start, velocity_.value_or(Eigen::Vector3d::Zero()));
+    return circling_track(start, {orbit_.center, orbit_.axis, *orbit_period_});
+  }
+
+  std::optional<Eigen::Vector3d> center_;
+  std::optional<double> radius_;
+  double scale_ = 1.1;
+  ContactValues contact_;
+  std::optional<Eigen::Vector3d> velocity_;
+  std::optional<double> orbit_period_;
+  Orbit orbit_;
+  std::vector<Keyframe> keyframes_;
+  Interpolation interpolation_ = Interpolation::linear;
+  std::shared_ptr<const SphereTrack> track_;
 };
 
 }  // namespace

@@ -31,8 +31,10 @@ StepReport ImplicitEuler::advance(State& state, const Vertices& force) {
   } else {
     system_.filter(state);
     state.x += system_.step * state.v;
+    system_.place_pins(state, state.x);
   }
   system_.correct(state);
+  system_.drive_pins(state);
   return report;
 }
 

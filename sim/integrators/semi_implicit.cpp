@@ -11,14 +11,24 @@ SemiImplicitEuler::SemiImplicitEuler(const System& system)
 
 StepReport SemiImplicitEuler::advance(State& state, const Vertices& force) {
   // Where nothing changes the velocity in between, both updates are one pass.
-  const bool at_once = system_.corrections.empty() && system_.filters.empty();
-  springs_.kick_and_drift(pull_, force, at_once ? system_.step : 0, state.v, state.x);
+  const bool at_once = system_.corrections.empty() && system_.filters.empty() && system_.pin_motions.empty();
+  springs_.kick_and_drift(pull_, with_energies(state, force), at_once ? system_.step : 0, state.v, state.x);
   if (!at_once) {
     system_.correct(state);
+    system_.drive_pins(state);
     system_.filter(state);
     kernels().add_multiple(static_cast<std::size_t>(state.x.size()), system_.step, state.v.data(), state.x.data());
+    system_.place_pins(state, state.x);
   }
   return {};
+}
+
+const Vertices& SemiImplicitEuler::with_energies(const State& state, const Vertices& force) {
+  if (system_.coupled_energies.empty()) return force;
+  force_.setZero(force.rows(), 3);
+  for (const auto& energy : system_.coupled_energies) energy->add_gradient(state.x, force_);
+  force_ = force - force_;
+  return force_;
 }
 
 }  // namespace drape

@@ -20,7 +20,8 @@ struct Matrix {
 };
 
 Matrix assemble(const System& system, const FreeVertices& free) {
-  Matrix matrix{.pattern = spring_pattern(system.springs, free), .values = {}};
+  const std::vector<Spring> springs = system.stiffness_bound();
+  Matrix matrix{.pattern = spring_pattern(springs, free), .values = {}};
   matrix.values.assign(static_cast<std::size_t>(matrix.pattern.entries()), 0.0);
   auto& [starts, rows] = matrix.pattern;
   const auto at = [&](int row, int column) -> double& {
@@ -31,7 +32,7 @@ Matrix assemble(const System& system, const FreeVertices& free) {
   Eigen::VectorXd diagonal = system.cloth.masses / (system.step * system.step);
   for (const auto& energy : system.energies) energy->add_bound(diagonal);
   for (int f = 0; f < free.count(); ++f) at(f, f) = diagonal[free.vertex(f)];
-  for (const Spring& spring : system.springs) {
+  for (const Spring& spring : springs) {
     const int i = free.number(spring.i), j = free.number(spring.j);
     if (i >= 0) at(i, i) += spring.stiffness;
     if (j >= 0) at(j, j) += spring.stiffness;

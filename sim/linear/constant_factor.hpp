@@ -13,7 +13,7 @@ namespace drape {
 enum class Precision { automatic, single_precision, double_precision };
 
 /// A⁻¹ for the constant matrix of Liu et al. 2013 (their M + h²L, divided by h²):
-///   A = M/h² + Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ + the bounds of the system's other energies,
+///   A = M/h² + Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ + the bounds of the system's energies,
 /// over the free vertices; the same n×n matrix for x, y and z. No Hessian of g exceeds it, so x − A⁻¹∇g(x) is the
 /// local/global step, and it never raises g.
 ///

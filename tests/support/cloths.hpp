@@ -1,14 +1,12 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "sim/cloth.hpp"
-#include "sim/effects/effect.hpp"
 #include "sim/settings.hpp"
+#include "tests/support/effects.hpp"
 
 namespace drape::testing {
 
@@ -54,26 +52,13 @@ inline Cloth disturbed(Cloth cloth) {
   return cloth;
 }
 
-inline std::shared_ptr<Effect> make_effect(const std::string& name) {
-  for (const EffectType& type : effect_types()) {
-    if (type.name == name) return type.make();
-  }
-  throw std::invalid_argument("no effect named " + name);
-}
-
-inline ActiveEffect gravity() { return {"gravity", make_effect("gravity")}; }
+inline ActiveEffect gravity() { return test::effect("gravity"); }
 
 /// The homework's sphere under the cloth.
 inline ActiveEffect sphere(bool implicit) {
-  auto effect = make_effect("sphere");
-  Keys keys;
-  effect->describe(keys);
-  for (const Key& key : keys.all()) {
-    if (key.name == "center") *std::get<Eigen::Vector3d*>(key.target) = {0, 0, -0.5};
-    if (key.name == "radius") *std::get<double*>(key.target) = 0.4;
-    if (key.name == "response") std::get<Choice>(key.target).set(implicit ? 1 : 0);
-  }
-  return {"sphere", effect};
+  return test::effect("sphere", {{"center", Eigen::Vector3d(0, 0, -0.5)},
+                                 {"radius", 0.4},
+                                 {"response", std::string(implicit ? "implicit" : "explicit")}});
 }
 
 }  // namespace drape::testing

@@ -21,20 +21,39 @@ bool assign(const Key::Target& target, const KeyValue& value) {
     choice->set(static_cast<std::size_t>(place - choice->names.begin()));
     return true;
   }
+  if (const auto* list = std::get_if<KeyframeList>(&target)) {
+    const auto* given = std::get_if<KeyframesValue>(&value);
+    const auto name = given == nullptr ? list->names.end() : std::ranges::find(list->names, given->name);
+    if (name == list->names.end()) return false;
+    *list->keyframes = given->keyframes;
+    if (list->name != nullptr) *list->name = static_cast<std::size_t>(name - list->names.begin());
+    return true;
+  }
+  if (const auto* selection = std::get_if<VertexSelection>(&target)) {
+    const auto* given = std::get_if<std::vector<int>>(&value);
+    if (given != nullptr) *selection->vertices = *given;
+    return given != nullptr;
+  }
   return std::visit(
       [&](const auto& given) {
         using Value = std::decay_t<decltype(given)>;
-        if (const auto* plain = std::get_if<Value*>(&target)) {
-          **plain = given;
-          return true;
-        }
-        if constexpr (!std::is_same_v<Value, bool> && !std::is_same_v<Value, std::string>) {
-          if (const auto* optional = std::get_if<std::optional<Value>*>(&target)) {
-            **optional = given;
+        if constexpr (std::is_same_v<Value, KeyframesValue> || std::is_same_v<Value, std::vector<int>>) {
+          return false;
+        } else {
+          if (const auto* plain = std::get_if<Value*>(&target)) {
+            **plain = given;
             return true;
           }
+          if constexpr (std::is_arithmetic_v<Value> || std::is_same_v<Value, Eigen::Vector3d>) {
+            if constexpr (!std::is_same_v<Value, bool>) {
+              if (const auto* optional = std::get_if<std::optional<Value>*>(&target)) {
+                **optional = given;
+                return true;
+              }
+            }
+          }
+          return false;
         }
-        return false;
       },
       value);
 }
@@ -54,8 +73,12 @@ ActiveEffect effect(std::string_view name, const KeyValues& values) {
     if (!assign(key->target, value)) refuse(name, key_name, "takes another type of value");
   }
   for (const Key& key : keys.all()) {
-    const bool given = std::ranges::any_of(values, [&](const auto& value) { return value.first == key.name; });
-    if (key.required && !given) refuse(name, key.name, "must be given");
+    const auto given = [&](const std::string& wanted) {
+      return std::ranges::any_of(values, [&](const auto& value) { return value.first == wanted; });
+    };
+    if (key.required && !given(key.name) && std::ranges::none_of(key.alternatives, given)) {
+      refuse(name, key.name, "must be given");
+    }
   }
   return {std::string(name), std::move(made)};
 }

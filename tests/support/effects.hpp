@@ -11,8 +11,15 @@
 
 namespace drape::test {
 
+/// Keyframes as a scene writes them, {"position", {{0, {0, 0, 0}}, …}}.
+struct KeyframesValue {
+  std::string name;
+  std::vector<Keyframe> keyframes;
+};
+
 /// The value of a key of an effect's table.
-using KeyValue = std::variant<bool, int, double, Eigen::Vector3d, std::string>;
+using KeyValue = std::variant<bool, int, double, Eigen::Vector3d, std::string, KeyframesValue, std::vector<int>,
+                              std::shared_ptr<const SphereTrack>>;
 using KeyValues = std::vector<std::pair<std::string_view, KeyValue>>;
 
 /// An effect as a scene's table [effects.NAME] with these keys makes it.

@@ -27,6 +27,8 @@ class Derivatives : public ::testing::TestWithParam<Case> {
   // The sphere lies so that some vertices are within its reach and some are not.
   Derivatives() : cloth_(testing::disturbed(GetParam().cloth)), system_(cloth_, 0.02) {
     testing::sphere(true).effect->install(system_);
+    test::effect("ground", {{"height", -0.02}, {"normal", Eigen::Vector3d(1, -2, 5)}, {"response", "implicit"}})
+        .effect->install(system_);
     Vertices& x = cloth_.positions;
     x.col(2).array() -= 0.1;
     objective_ = std::make_unique<StepObjective>(system_);

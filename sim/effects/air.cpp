@@ -1,0 +1,118 @@
+#include "sim/effects/air.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "sim/effects/gusts.hpp"
+
+namespace drape {
+namespace {
+
+struct AirValues {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  double density = 1.2;
+  double drag = 1.2;
+  double lift = 0.6;
+  GustValues gusts;
+};
+
+/// Drag and lift on every triangle (Keckeisen, Kimmerle, Thomaszewski and Wacker, "Modelling Effects of Wind Fields in
+/// Cloth Animations", 2004, section 4; after Ling, Damodaran and Gay 1996). A triangle of area A and unit normal n,
+/// whose vertices move on average by u slower than the air at their places, feels a third at each vertex of
+///   F = ρA/2 (C_D |c| ‖u‖ u + C_L c (‖u‖² n − (n·u) u)),   c = n·u/‖u‖.
+/// The drag follows the air, the lift is perpendicular to it, and none of it knows which side of the triangle is n's.
+///
+/// No step can be too long for it: the impulse J = h·F is shortened until J·(u − J/µ) ≥ 0, that is, until it does not
+/// go beyond the point where it has stopped a mass µ that moves by u, with 1/µ = Σ dᵢ/9mᵢ over the triangle's free
+/// vertices, dᵢ the number of triangles at vertex i. Summed over all triangles, with Cauchy's inequality for the dᵢ
+/// impulses at a vertex, the kinetic energy relative to a steady wind then changes by at most −Σ J·u/2 ≤ 0.
+class Air final : public Force {
+ public:
+  Air(const AirValues& values, const Cloth& cloth, double h)
+      : values_(values), gusts_(values.gusts, values.velocity), triangles_(cloth.triangles), step_(h) {
+    Eigen::VectorXd share = cloth.masses.cwiseInverse() / 9;
+    for (const int pin : cloth.pins) share[pin] = 0;
+    Eigen::VectorXd valence = Eigen::VectorXd::Zero(share.size());
+    for (const Triangle& t : triangles_) {
+      for (const int vertex : t) valence[vertex] += 1;
+    }
+    for (const Triangle& t : triangles_) {
+      double inverse = 0;
+      for (const int vertex : t) inverse += valence[vertex] * share[vertex];
+      inverse_masses_.push_back(inverse);
+    }
+    slip_.resize(cloth.vertex_count(), 3);
+  }
+
+  void add(const State& state, double time, Vertices& force) const override {
+    for (Eigen::Index i = 0; i < slip_.rows(); ++i) {
+      Eigen::Vector3d wind = values_.velocity;
+      if (values_.gusts.speed > 0) wind += gusts_.at(state.x.row(i).transpose(), time);
+      slip_.row(i) = wind.transpose() - state.v.row(i);
+    }
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const auto [a, b, c] = triangles_[t];
+      const Eigen::RowVector3d u = (slip_.row(a) + slip_.row(b) + slip_.row(c)) / 3;
+      const Eigen::RowVector3d p = state.x.row(b) - state.x.row(a), q = state.x.row(c) - state.x.row(a);
+      const Eigen::RowVector3d third = force_on(u, p.cross(q), inverse_masses_[t]) / 3;
+      force.row(a) += third;
+      force.row(b) += third;
+      force.row(c) += third;
+    }
+  }
+
+ private:
+  /// @param u            how fast the air passes the triangle [m/s]
+  /// @param cross        its normal, as long as twice its area [m²]
+  /// @param inverse_mass 1/µ [1/kg]
+  [[nodiscard]] Eigen::RowVector3d force_on(const Eigen::RowVector3d& u, const Eigen::RowVector3d& cross,
+                                            double inverse_mass) const {
+    const double twice_area = cross.norm(), speed = u.norm();
+    if (!(twice_area > 0) || !(speed > 0)) return Eigen::RowVector3d::Zero();
+    const Eigen::RowVector3d n = cross / twice_area;
+    const double normal_speed = n.dot(u), c = normal_speed / speed;
+    const Eigen::RowVector3d force =
+        (0.25 * values_.density * twice_area) *
+        (values_.drag * std::abs(c) * speed * u + values_.lift * c * (speed * speed * n - normal_speed * u));
+    const double power = force.dot(u), stopped = step_ * inverse_mass * force.squaredNorm();
+    return stopped > power ? force * (power / stopped) : force;
+  }
+
+  AirValues values_;
+  Gusts gusts_;
+  std::vector<Triangle> triangles_;
+  std::vector<double> inverse_masses_;  // 1/µ of each triangle
+  double step_;
+  mutable Vertices slip_;  // how fast the air passes each vertex; memory only
+};
+
+class AirEffect final : public Effect {
+ public:
+  void describe(Keys& keys) override {
+    keys.add("velocity", &values_.velocity, "m/s", "Of the wind; air that is still slows the cloth down.");
+    keys.add("density", &values_.density, "kg/m³", "Of the air.").at_least(0);
+    keys.add("drag", &values_.drag, "", "Coefficient C_D of the force along the wind that passes a triangle.")
+        .at_least(0);
+    keys.add("lift", &values_.lift, "", "Coefficient C_L of the force across it.").at_least(0);
+    values_.gusts.describe(keys);
+  }
+
+  void check(const SimulationSettings&, const ProblemSink& problem) const override {
+    if (values_.lift > 0 && values_.drag == 0) {
+      problem("lift", "there is no lift without drag: expected 0, or a drag above 0");
+    }
+  }
+
+  void install(System& system) const override {
+    system.forces.push_back(std::make_unique<Air>(values_, system.cloth, system.step));
+  }
+
+ private:
+  AirValues values_;
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_air() { return std::make_unique<AirEffect>(); }
+
+}  // namespace drape

@@ -1,0 +1,42 @@
+#include "sim/effects/contact.hpp"
+
+#include <fmt/format.h>
+
+namespace drape {
+
+void ContactValues::describe(Keys& keys) {
+  keys.add("stiffness", &stiffness, "1/s²", "Acceleration per metre that a vertex is within that reach.").at_least(0);
+  keys.choice("response", response, {"explicit", "implicit"},
+              "Whether the push is evaluated at the start of a step, or solved for together with the springs.");
+  keys.add("friction", &friction, "",
+           "Coulomb's coefficient µ: what rests on a slope of tan θ ≤ µ stays there; 0 is slippery.")
+      .at_least(0);
+  keys.add("restitution", &restitution, "",
+           "How much of its speed a vertex keeps that the push throws back: 1 all of it, 0 none.")
+      .at_least(0)
+      .at_most(1);
+}
+
+void ContactValues::check(const SimulationSettings& settings, const Effect::ProblemSink& problem) const {
+  if (response == Response::implicit_energy) {
+    if (settings.integrator.method == Method::semi_implicit) {
+      problem(
+          "response",
+          "semi-implicit Euler evaluates every force at the start of a step and solves for nothing, so the push can "
+          "only be \"explicit\" with it; the other methods take \"implicit\" too");
+    }
+    return;
+  }
+  // A vertex on the explicit penalty is a harmonic oscillator of frequency √k, which every step that evaluates the
+  // force at its start turns unstable beyond h·√k = 2, whatever the method does with the springs.
+  const double h = settings.step;
+  const double product = h * std::sqrt(stiffness);
+  if (product > 2) {
+    problem("stiffness",
+            fmt::format("an explicit penalty is unstable where step·√stiffness > 2, and here it is {:.3g}: with step = "
+                        "{:g} s the stiffness can be at most {:.4g}, or with this stiffness the step at most {:.3g} s",
+                        product, h, 4 / (h * h), 2 / std::sqrt(stiffness)));
+  }
+}
+
+}  // namespace drape

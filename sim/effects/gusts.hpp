@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/keys.hpp"
+
+namespace drape {
+
+/// What the gusts of a wind are like.
+struct GustValues {
+  double speed = 0;     ///< the most that each component of the wind changes by [m/s]
+  double size = 1;      ///< from one gust to the next, in every direction [m]
+  double duration = 1;  ///< of a gust that one moves along with [s]
+  int seed = 1;
+
+  void describe(Keys& keys);
+};
+
+/// Gusts as a pure function of seed, place and time: value noise in four dimensions (random numbers at the points of a
+/// lattice, smoothly interpolated), carried along by the wind (Taylor's frozen turbulence, 1938).
+class Gusts {
+ public:
+  Gusts(const GustValues& values, const Eigen::Vector3d& wind) : values_(values), wind_(wind) {}
+
+  /// What is added to the wind [m/s]; each component is between −speed and speed, continuous with its first
+  /// derivatives, and 0 on average.
+  [[nodiscard]] Eigen::Vector3d at(const Eigen::Vector3d& place, double time) const;
+
+ private:
+  GustValues values_;
+  Eigen::Vector3d wind_;
+};
+
+}  // namespace drape

@@ -1,0 +1,95 @@
+#include "sim/timed_effects.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace drape {
+namespace {
+
+/// Adds the time that it lives to a number of seconds.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point begin_ = Clock::now();
+};
+
+template <class Base>
+struct Timed : Base {
+  std::unique_ptr<Base> inner;
+  double& seconds;
+  Timed(std::unique_ptr<Base> i, double& s) : inner(std::move(i)), seconds(s) {}
+};
+
+struct TimedForce final : Timed<Force> {
+  using Timed::Timed;
+  [[nodiscard]] bool constant() const override { return inner->constant(); }
+  void add(const State& state, double time, Vertices& force) const override {
+    const Stopwatch watch(seconds);
+    inner->add(state, time, force);
+  }
+};
+
+struct TimedEnergy final : Timed<Energy> {
+  using Timed::Timed;
+  double add_gradient(const Vertices& x, double time, Vertices& gradient) const override {
+    const Stopwatch watch(seconds);
+    return inner->add_gradient(x, time, gradient);
+  }
+  void add_hessian(const Vertices& x, double time, DiagonalBlocks& blocks) const override {
+    const Stopwatch watch(seconds);
+    inner->add_hessian(x, time, blocks);
+  }
+  void add_bound(Eigen::VectorXd& bound) const override { inner->add_bound(bound); }
+};
+
+/// Times the gradient; Newton's solvers keep the energy's own Hessian.
+struct TimedCoupledEnergy final : Timed<CoupledEnergy> {
+  using Timed::Timed;
+  double add_gradient(const Vertices& x, Vertices& gradient) const override {
+    const Stopwatch watch(seconds);
+    return inner->add_gradient(x, gradient);
+  }
+  [[nodiscard]] const std::vector<Spring>& bound() const override { return inner->bound(); }
+  [[nodiscard]] std::unique_ptr<CoupledHessian> make_hessian() const override { return inner->make_hessian(); }
+};
+
+struct TimedCorrection final : Timed<Correction> {
+  using Timed::Timed;
+  void apply(State& state, double h) const override {
+    const Stopwatch watch(seconds);
+    inner->apply(state, h);
+  }
+};
+
+struct TimedFilter final : Timed<MotionFilter> {
+  using Timed::Timed;
+  void apply(const Vertices& x, double time, double h, Vertices& v) override {
+    const Stopwatch watch(seconds);
+    inner->apply(x, time, h, v);
+  }
+  [[nodiscard]] bool converged() const override { return inner->converged(); }
+};
+
+template <class TimedKind, class Base>
+void wrap(std::vector<std::unique_ptr<Base>>& list, std::size_t from, double& seconds) {
+  for (std::size_t i = from; i < list.size(); ++i) list[i] = std::make_unique<TimedKind>(std::move(list[i]), seconds);
+}
+
+}  // namespace
+
+void time_additions(System& system, const SystemSizes& before, double& seconds) {
+  wrap<TimedForce>(system.forces, before.forces, seconds);
+  wrap<TimedEnergy>(system.energies, before.energies, seconds);
+  wrap<TimedCoupledEnergy>(system.coupled_energies, before.coupled_energies, seconds);
+  wrap<TimedCorrection>(system.corrections, before.corrections, seconds);
+  wrap<TimedFilter>(system.filters, before.filters, seconds);
+}
+
+}  // namespace drape

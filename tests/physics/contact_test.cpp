@@ -1,0 +1,222 @@
+// Ground and spheres: what holds a cloth, what it slides on, and what carries it along.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "sim/simulation.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+using Eigen::RowVector3d;
+using Eigen::Vector3d;
+
+constexpr double g = 9.8;           // the default gravity [m/s²]
+constexpr double stiffness = 4000;  // [1/s²]
+constexpr double thickness = 0.02;  // [m]
+
+/// A method, and how the push enters its steps.
+struct Case {
+  NamedMethod method;
+  std::string response;
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.method.name << " " << c.response; }
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const NamedMethod& method : all_methods) {
+    all.push_back({method, "explicit"});
+    if (method.method != Method::semi_implicit) all.push_back({method, "implicit"});
+  }
+  return all;
+}
+
+class Contact : public testing::TestWithParam<Case> {
+ protected:
+  /// Solved to convergence, so that only the physics is left.
+  SimulationSettings settings(Cloth cloth, double step) const {
+    SimulationSettings result = setup(std::move(cloth), GetParam().method, step);
+    result.integrator.tolerance = 1e-13;
+    result.integrator.max_iterations = 2000;
+    result.effects = {effect("gravity")};
+    return result;
+  }
+
+  /// A ground that goes down by tan θ along x, through the origin.
+  ActiveEffect slope(double tangent, double friction, double restitution = 0) const {
+    return effect("ground", {{"height", 0.0},
+                             {"normal", Vector3d(tangent, 0, 1)},
+                             {"thickness", thickness},
+                             {"stiffness", stiffness},
+                             {"response", GetParam().response},
+                             {"friction", friction},
+                             {"restitution", restitution}});
+  }
+};
+std::string case_name(const testing::TestParamInfo<Case>& info) {
+  return std::string(info.param.method.name) + "_" + info.param.response;
+}
+INSTANTIATE_TEST_SUITE_P(With, Contact, testing::ValuesIn(cases()), case_name);
+
+/// The unit normal of that slope, and its direction down.
+Vector3d up_from(double tangent) { return Vector3d(tangent, 0, 1).normalized(); }
+Vector3d down_along(double tangent) { return Vector3d(1, 0, -tangent).normalized(); }
+
+/// Vertices that no spring joins.
+Cloth loose(const Vertices& positions) {
+  Cloth cloth;
+  cloth.positions = positions;
+  cloth.velocities = Vertices::Zero(positions.rows(), 3);
+  cloth.masses = Eigen::VectorXd::LinSpaced(positions.rows(), 0.5, 2);
+  return cloth;
+}
+
+/// A vertex so deep in the slope's layer that the push balances its weight.
+Cloth resting_on(double tangent) {
+  const double depth = g * up_from(tangent)[2] / stiffness;
+  return loose(((thickness - depth) * up_from(tangent)).transpose());
+}
+
+TEST_P(Contact, WhatRestsOnASlopeWithinTheFrictionConeStays) {
+  SimulationSettings s = settings(resting_on(0.5), 0.01);
+  s.effects.push_back(slope(0.5, 0.5 * (1 + 1e-9)));
+  Simulation simulation(s);
+  for (int step = 0; step < 300; ++step) simulation.step();
+  EXPECT_LT((simulation.state().x - s.cloth.positions).norm(), 1e-12);
+}
+
+TEST_P(Contact, BeyondTheFrictionConeItSlides) {
+  const double tangent = 0.5, friction = 0.3;
+  SimulationSettings s = settings(resting_on(tangent), 0.01);
+  s.effects.push_back(slope(tangent, friction));
+  Simulation simulation(s);
+  for (int step = 0; step < 100; ++step) simulation.step();
+  const double sine = tangent / std::hypot(1, tangent), cosine = 1 / std::hypot(1, tangent);
+  const double speed = g * (sine - friction * cosine);  // after one second
+  EXPECT_NEAR((simulation.state().v.row(0) * down_along(tangent)).value(), speed, 1e-9);
+  EXPECT_NEAR(simulation.state().v.row(0).norm(), speed, 1e-9);
+}
+
+TEST_P(Contact, ASlidingVertexIsStoppedAndNotTurnedBack) {
+  SimulationSettings s = settings(resting_on(0), 0.01);
+  s.cloth.velocities.row(0) << 1, -1, 0;
+  s.effects.push_back(slope(0, 0.4));
+  Simulation simulation(s);
+  const double stop = std::sqrt(2.0) / (0.4 * g);  // [s]
+  for (int step = 0; step < 20; ++step) simulation.step();
+  EXPECT_NEAR(simulation.state().v.row(0).norm(), std::sqrt(2.0) - 0.4 * g * 0.2, 1e-9);
+  for (int step = 20; step <= stop / 0.01 + 2; ++step) simulation.step();
+  EXPECT_LT(simulation.state().v.row(0).norm(), 1e-12);
+}
+
+TEST_P(Contact, AClothStaysOnASlopeAsAWhole) {
+  const double tangent = 0.3;
+  Cloth cloth = cloth_of(make_grid(6, 6), 0.7, 60, {});
+  // Along the slope, on the layer.
+  const Vertices flat = cloth.positions;
+  const double depth = g * up_from(tangent)[2] / stiffness;
+  for (int i = 0; i < cloth.vertex_count(); ++i) {
+    cloth.positions.row(i) =
+        (flat(i, 0) * down_along(tangent) + flat(i, 1) * Vector3d::UnitY() + (thickness - depth) * up_from(tangent))
+            .transpose();
+  }
+  SimulationSettings s = settings(cloth, 0.005);
+  s.effects.push_back(slope(tangent, 0.31));
+  Simulation simulation(s);
+  for (int step = 0; step < 100; ++step) simulation.step();
+  EXPECT_LT((simulation.state().x - cloth.positions).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST_P(Contact, PinsAreNotMovedByFriction) {
+  Cloth cloth = resting_on(0.5);
+  cloth.pins = {0};
+  SimulationSettings s = settings(cloth, 0.01);
+  s.effects.push_back(slope(0.5, 0.8));
+  Simulation simulation(s);
+  for (int step = 0; step < 10; ++step) simulation.step();
+  EXPECT_TRUE(same_bits(simulation.state().x, cloth.positions));
+}
+
+/// The highest that a vertex gets after it has fallen from 0.5 m above the layer.
+double rebound(const SimulationSettings& s) {
+  Simulation simulation(s);
+  double highest = -1;
+  bool down = false;
+  for (int step = 0; step < 2000; ++step) {
+    simulation.step();
+    const double height = simulation.state().x(0, 2) - thickness;
+    down = down || height < 0;
+    if (down) highest = std::max(highest, height);
+  }
+  return highest;
+}
+
+TEST_P(Contact, RestitutionSaysWhetherAFallingVertexBounces) {
+  SimulationSettings s = settings(loose(RowVector3d(0, 0, thickness + 0.5)), 0.0005);
+  s.effects.push_back(slope(0, 0, 0));
+  EXPECT_LT(rebound(s), 1e-3);
+  // Implicit Euler itself takes some of the speed while the push is solved for.
+  s.effects.back() = slope(0, 0, 1);
+  EXPECT_NEAR(rebound(s), 0.5, GetParam().response == "explicit" ? 0.01 : 0.06);
+}
+
+/// A huge ball under a vertex that rests on it, moving along x.
+ActiveEffect moving_floor(const std::string& response, double friction) {
+  return effect("sphere", {{"center", Vector3d(0, 0, -1e4)},
+                           {"radius", 1e4},
+                           {"scale", 1.0},
+                           {"stiffness", stiffness},
+                           {"response", response},
+                           {"velocity", Vector3d(1.5, 0, 0)},
+                           {"friction", friction}});
+}
+
+TEST_P(Contact, AMovingSphereCarriesAlongWhatLiesOnIt) {
+  SimulationSettings s = settings(loose(RowVector3d(0, 0, -g / stiffness)), 0.01);
+  s.effects.push_back(moving_floor(GetParam().response, 0.5));
+  Simulation simulation(s);
+  for (int step = 0; step < 10; ++step) simulation.step();
+  EXPECT_NEAR(simulation.state().v(0, 0), 0.5 * g * 0.1, 1e-4);  // µ g t
+  for (int step = 10; step < 60; ++step) simulation.step();
+  EXPECT_NEAR(simulation.state().v(0, 0), 1.5, 1e-4);
+
+  s.effects.back() = moving_floor(GetParam().response, 0);
+  Simulation slippery(s);
+  for (int step = 0; step < 60; ++step) slippery.step();
+  EXPECT_NEAR(slippery.state().v(0, 0), 0, 1e-3);
+}
+
+// An explicit push is that of the start of a step, an implicit one that of its end.
+TEST_P(Contact, AMovingSpherePushesFromWhereItIsAtItsTime) {
+  SimulationSettings s = settings(loose(RowVector3d(0, 0, 0)), 0.01);
+  const KeyframesValue jump{"center", {{0, {5, 0, 0}}, {0.01, {-0.45, 0, 0}}, {0.02, {5, 0, 0}}}};
+  s.effects = {effect("sphere", {{"keyframes", jump},
+                                 {"radius", 0.5},
+                                 {"scale", 1.0},
+                                 {"stiffness", stiffness},
+                                 {"response", GetParam().response}})};
+  Simulation simulation(s);
+  simulation.step();
+  const bool at_end = GetParam().response == "implicit";
+  EXPECT_EQ(simulation.state().v(0, 0) > 0.1, at_end);
+  simulation.step();
+  EXPECT_GT(simulation.state().v(0, 0), 0.1);
+}
+
+TEST_P(Contact, AnEffectlessContactLeavesTheMotionAlone) {
+  SimulationSettings s = settings(cloth_of(make_grid(4, 4), 1, 50, {0}), 0.01);
+  Simulation without(s);
+  s.effects.push_back(effect("ground", {{"height", -50.0}, {"response", GetParam().response}}));
+  Simulation with(s);
+  for (int step = 0; step < 20; ++step) {
+    without.step();
+    with.step();
+  }
+  EXPECT_LT((with.state().x - without.state().x).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+}  // namespace
+}  // namespace drape::test
