@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <new>
 
+#include "core/build_info.hpp"
 #include "core/nearest.hpp"
 
 namespace drape {
@@ -58,9 +59,29 @@ ExitCode report(const Error& error) {
 
 }  // namespace
 
+void add_backend_option(CLI::App& subcommand, GlBackend& backend) {
+  subcommand
+      .add_option_function<std::string>(
+          "--backend",
+          [&backend](const std::string& given) {
+            std::vector<std::string> names;
+            for (const GlBackend known : {GlBackend::automatic, GlBackend::osmesa, GlBackend::egl}) {
+              names.emplace_back(backend_name(known));
+              if (given == names.back()) {
+                backend = known;
+                return;
+              }
+            }
+            throw CLI::ValidationError(
+                "--backend", "unknown backend '" + given + "'" + did_you_mean(given, names, "the backends are"));
+          },
+          "What OpenGL comes from: auto (the default), osmesa or egl")
+      ->type_name("NAME");
+}
+
 ExitCode run_command_line(int argc, const char* const* argv) {
   CLI::App app("Simulates mass-spring cloth and renders it offscreen into GIF, PNG and MP4.", "drape");
-  app.set_version_flag("--version", "drape " DRAPE_VERSION);
+  app.set_version_flag("--version", "drape " + build_info().version);
   app.require_subcommand(1);
   app.fallthrough();
   CommonOptions common;
@@ -69,6 +90,9 @@ ExitCode run_command_line(int argc, const char* const* argv) {
 
   Command command;
   add_run_commands(app, common, command);
+  add_check_command(app, common, command);
+  add_bless_command(app, common, command);
+  add_doctor_command(app, command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "core/error.hpp"
+#include "render/backend.hpp"
 
 namespace drape {
 
@@ -18,6 +19,16 @@ using Command = std::function<ExitCode()>;
 
 /// Adds the subcommands that run scenes, render and simulate. The one that is chosen sets `command`.
 void add_run_commands(CLI::App& app, const CommonOptions& common, Command& command);
+
+/// Add check and bless likewise.
+void add_check_command(CLI::App& app, const CommonOptions& common, Command& command);
+void add_bless_command(CLI::App& app, const CommonOptions& common, Command& command);
+
+/// Adds doctor, which says what drape finds on this machine.
+void add_doctor_command(CLI::App& app, Command& command);
+
+/// Adds --backend, which every subcommand that draws has.
+void add_backend_option(CLI::App& subcommand, GlBackend& backend);
 
 /// Reads the command line, runs the chosen subcommand and returns the exit code; errors go to standard error.
 ExitCode run_command_line(int argc, const char* const* argv);

@@ -6,6 +6,7 @@
 #include "cli/command_line.hpp"
 #include "cli/interruption.hpp"
 #include "cli/progress_display.hpp"
+#include "cli/scene_files.hpp"
 #include "cli/summary.hpp"
 #include "render/encode/path_template.hpp"
 #include "run/run_scene.hpp"
@@ -24,6 +25,7 @@ struct RunArguments {
   std::string frames;
   std::optional<std::int64_t> steps;
   RecordPaths records;
+  GlBackend backend = GlBackend::automatic;
   bool step_by_step = false;
 };
 
@@ -37,21 +39,6 @@ FrameRange parse_frames(const std::string& text) {
     throw UsageError(fmt::format("--frames takes A..B, two frame numbers with 0 ≤ A ≤ B, found '{}'", text));
   }
   return range;
-}
-
-/// Every scene, or the problems of all of them at once.
-std::vector<Scene> load_scenes(const RunArguments& arguments) {
-  std::vector<Scene> scenes;
-  std::string problems;
-  for (const std::string& file : arguments.scenes) {
-    try {
-      scenes.push_back(load_scene(file, arguments.overrides));
-    } catch (const UsageError& error) {
-      problems += (problems.empty() ? "" : "\n") + std::string(error.what());
-    }
-  }
-  if (!problems.empty()) throw UsageError(problems);
-  return scenes;
 }
 
 /// With several scenes, a file that is not named after its scene would be written over by the next.
@@ -83,6 +70,7 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
                      .trace = expanded(arguments.records.trace)};
   options.steps = arguments.steps;
   if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
+  options.backend = arguments.backend;
   options.step_by_step = arguments.step_by_step;
   options.time_effects = verbose || !arguments.records.stats.empty();
   return options;
@@ -118,7 +106,7 @@ ExitCode run(const Scene& scene, const RunOptions& options, const CommonOptions&
 ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
   check_names(arguments);
   ExitCode worst = ExitCode::ok;
-  for (const Scene& scene : load_scenes(arguments)) {
+  for (const Scene& scene : load_scenes(arguments.scenes, arguments.overrides)) {
     const ExitCode code = run(scene, run_options(arguments, scene, common.verbose), common);
     if (code == ExitCode::interrupted) return code;
     if (worst == ExitCode::ok) worst = code;
@@ -153,6 +141,7 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
                    "A film (.gif .mp4 .webm .avi), frames ({frame:04}.png) or a still (.png); repeatable; "
                    "default out/{scene}.gif")
       ->allow_extra_args(false);
+  add_backend_option(*render, arguments->backend);
   add_shared_options(*render, *arguments);
   render->callback([arguments, &common, &command] {
     if (arguments->outputs.empty()) arguments->outputs = {"out/{scene}.gif"};

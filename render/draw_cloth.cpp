@@ -6,12 +6,12 @@
 #include <cstddef>
 #include <map>
 #include <stdexcept>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
 #include "render/color.hpp"
+#include "render/gl/inspect.hpp"
 #include "render/normals.hpp"
 #include "render/texture_image.hpp"
 
@@ -22,17 +22,6 @@ constexpr GLuint position_attribute = 0, normal_attribute = 1, uv_attribute = 2,
                  line_scale_attribute = 4;
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
-
-/// The largest anisotropy of this GL up to the wanted one, 1 where it has none.
-GLint available_anisotropy(const GlFunctions& gl, GLint wanted) {
-  GLint extensions = 0, largest = 1;
-  gl.GetIntegerv(GL_NUM_EXTENSIONS, &extensions);
-  for (GLuint i = 0; i < static_cast<GLuint>(extensions); ++i) {
-    const std::string_view name = reinterpret_cast<const char*>(gl.GetStringi(GL_EXTENSIONS, i));
-    if (name.ends_with("_texture_filter_anisotropic")) gl.GetIntegerv(GL_MAX_TEXTURE_MAX_ANISOTROPY, &largest);
-  }
-  return std::min(largest, wanted);
-}
 
 Edge sorted(int p, int q) { return {std::min(p, q), std::max(p, q)}; }
 
@@ -96,7 +85,7 @@ void DrawCloth::load_texture() {
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   if (look_.anisotropy > 1) {
     gl_.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY,
-                      static_cast<float>(available_anisotropy(gl_, look_.anisotropy)));
+                      static_cast<float>(std::min(max_anisotropy(gl_), look_.anisotropy)));
   }
 }
 

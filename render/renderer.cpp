@@ -16,8 +16,8 @@
 namespace drape {
 namespace {
 
-std::unique_ptr<GlContext> make_current_context() {
-  std::unique_ptr<GlContext> context = make_osmesa_context();
+std::unique_ptr<GlContext> make_current_context(GlBackend backend) {
+  std::unique_ptr<GlContext> context = make_gl_context(backend);
   context->make_current();
   return context;
 }
@@ -27,12 +27,13 @@ std::unique_ptr<GlContext> make_current_context() {
 class Renderer::Implementation {
  public:
   Implementation(std::filesystem::path data_folder, Eigen::Vector2i size, const View& view, const Look& look,
-                 int vertex_count, const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs)
+                 int vertex_count, const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs,
+                 GlBackend backend)
       : data_folder_(std::move(data_folder)),
         aspect_(static_cast<double>(size.x()) / size.y()),
         view_(view),
         look_(look),
-        context_(make_current_context()),
+        context_(make_current_context(backend)),
         gl_(*context_),
         canvas_(gl_, size, look),
         cloth_(gl_, data_folder_, look, vertex_count, triangles, uvs) {}
@@ -86,8 +87,9 @@ class Renderer::Implementation {
 
 Renderer::Renderer(const std::filesystem::path& data_folder, Eigen::Vector2i size, const View& view, const Look& look,
                    int vertex_count, const std::vector<Triangle>& triangles,
-                   const std::vector<std::array<float, 2>>& uvs)
-    : implementation_(std::make_unique<Implementation>(data_folder, size, view, look, vertex_count, triangles, uvs)) {}
+                   const std::vector<std::array<float, 2>>& uvs, GlBackend backend)
+    : implementation_(
+          std::make_unique<Implementation>(data_folder, size, view, look, vertex_count, triangles, uvs, backend)) {}
 
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;

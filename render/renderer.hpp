@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/backend.hpp"
 #include "render/image.hpp"
 #include "render/settings.hpp"
 #include "render/view.hpp"
@@ -23,10 +24,12 @@ class Renderer {
   /// @param vertex_count of the cloth in every frame
   /// @param triangles    of the cloth
   /// @param uvs          per triangle corner as in Mesh::uvs; may be empty if look.texture is
+  /// @param backend      which library makes the OpenGL context
   /// @throws UsageError  if look.texture cannot be read or there are no uvs for it
-  /// @throws OutputError if there is no OpenGL 3.3 or a shader does not compile
+  /// @throws OutputError if the backend or OpenGL 3.3 is missing or a shader does not compile
   Renderer(const std::filesystem::path& data_folder, Eigen::Vector2i size, const View& view, const Look& look,
-           int vertex_count, const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs);
+           int vertex_count, const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs,
+           GlBackend backend = GlBackend::automatic);
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;

@@ -149,23 +149,24 @@ class Pipeline {
   }
 
   /// Hands the camera's view to the drawing thread. One that has to show the whole motion is found by running the
-  /// motion once before.
+  /// motion once before: all of it, so that a frame looks the same whichever range of frames is drawn.
   void find_view() {
     if (!needs_motion(scene_.camera)) {
       view_.push(fixed_view(scene_.camera));
       return;
     }
     Framing framing(scene_.camera, static_cast<double>(scene_.video.size[0]) / scene_.video.size[1]);
-    FrameSampler sampler(extent_, [&](const Frame& frame) {
+    const FilmExtent whole(scene_.video, scene_.simulation.step, options_.steps.value_or(scene_.step_count()), {});
+    FrameSampler sampler(whole, [&](const Frame& frame) {
       framing.add(frame.positions);
       for (const Collider& collider : frame.colliders) framing.add(collider);
     });
     StepCounter counter(progress_);
-    progress_.begin("framing", "steps", extent_.steps);
+    progress_.begin("framing", "steps", whole.steps);
     const std::array<StepObserver*, 2> observers{&sampler, &counter};
     Simulation scout(scene_.simulation);
     try {
-      run_steps(scout, extent_.steps, observers, stop_.get_token());
+      run_steps(scout, whole.steps, observers, stop_.get_token());
     } catch (const DivergedError&) {
       // The run itself will say so; up to here there is something to see.
     }
@@ -176,7 +177,7 @@ class Pipeline {
     const std::optional<View> view = view_.pop();
     if (!view) return images_.close();
     Renderer renderer(data_folder(), scene_.video.size, *view, scene_.look, simulation_.cloth().vertex_count(),
-                      simulation_.cloth().triangles, scene_.uvs);
+                      simulation_.cloth().triangles, scene_.uvs, options_.backend);
     result_.renderer = renderer.description();
     while (const std::optional<Frame> frame = frames_.pop()) {
       const auto begin = Clock::now();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "render/backend.hpp"
 #include "render/encode/encoder.hpp"
 #include "run/frame_sampler.hpp"
 #include "run/progress.hpp"
@@ -21,6 +22,7 @@ struct RunOptions {
   RecordPaths records;
   std::optional<std::int64_t> steps;  ///< instead of the scene's duration
   std::optional<FrameRange> frames;   ///< draw only these, and simulate no further than they need
+  GlBackend backend = GlBackend::automatic;
   bool step_by_step = false;          ///< print every step and wait for a line of input
   bool time_effects = false;          ///< measure which part of the steps' time each effect takes
 };

@@ -45,6 +45,8 @@ struct Describe {
     return {"[whole number, whole number]", fmt::format("[{}, {}]", (*value)[0], (*value)[1])};
   }
   ValueText operator()(const Eigen::Vector3d* value) const { return {"[x, y, z]", vector_text(*value)}; }
+  ValueText operator()(const std::vector<int>*) const { return {"[whole number, …]", ""}; }
+  ValueText operator()(const std::optional<Eigen::Vector2i>*) const { return {"[whole number, whole number]", ""}; }
   ValueText operator()(const std::optional<int>*) const { return {"whole number", ""}; }
   ValueText operator()(const std::optional<double>*) const { return {"number", ""}; }
   ValueText operator()(const std::optional<Rgb>*) const { return {"colour", ""}; }

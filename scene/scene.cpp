@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "scene/cloth_reader.hpp"
+#include "scene/digest.hpp"
 #include "scene/effects_reader.hpp"
 #include "scene/overrides.hpp"
 #include "scene/table_reader.hpp"
@@ -56,6 +59,13 @@ class Checks {
 
   void samples() const {
     if (scene_.look.samples == 3) add("look", "samples", "samples must be 1, 2 or 4, found 3");
+  }
+
+  void compared_frames() const {
+    const std::vector<int>& frames = scene_.check.frames;
+    if (std::adjacent_find(frames.begin(), frames.end(), std::greater_equal<>()) != frames.end()) {
+      add("check", "frames", "frames: expected numbers in ascending order, each once");
+    }
   }
 
   void texture() const {
@@ -116,7 +126,9 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   if (reader.good("time") && reader.good("integrator") && cloth_good) {
     check_effects(effects, scene.simulation, problems);
   }
+  if (reader.good("check")) checks.compared_frames();
   problems.throw_if_any();
+  scene.digest = digest(document, {"check"});
   checks.stability();
   problems.throw_if_any();
   return scene;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "check/settings.hpp"
 #include "render/settings.hpp"
 #include "sim/settings.hpp"
 
@@ -19,6 +20,10 @@ struct Scene {
   Camera camera;
   Look look;
   Video video;
+  CheckSettings check;
+  /// A hash of what the file and the overrides say, but for [check]: comments, the order of keys and the way in which a
+  /// number is written do not change it. 16 hexadecimal digits.
+  std::string digest;
 
   /// The number of steps that cover the duration: duration/step, rounded to the nearest whole number.
   [[nodiscard]] std::int64_t step_count() const;

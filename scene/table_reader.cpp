@@ -40,6 +40,10 @@ class KeyReader {
     assign(target, read_int_pair(value_, key_.name, range_, problems_));
   }
   void operator()(Eigen::Vector3d* target) const { assign(target, read_vector(value_, key_.name, range_, problems_)); }
+  void operator()(std::vector<int>* target) const { assign(target, read_ints(value_, key_.name, range_, problems_)); }
+  void operator()(std::optional<Eigen::Vector2i>* target) const {
+    assign(target, read_int_pair(value_, key_.name, range_, problems_));
+  }
   void operator()(std::optional<int>* target) const { assign(target, read_int(value_, key_.name, range_, problems_)); }
   void operator()(std::optional<double>* target) const {
     assign(target, read_number(value_, key_.name, range_, problems_));

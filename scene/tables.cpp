@@ -102,6 +102,31 @@ Keys video_keys(Video& video) {
   return keys;
 }
 
+Keys check_keys(CheckSettings& check) {
+  Keys keys;
+  keys.add("frames", &check.frames, "",
+           "The film's frames that are compared, ascending. Without it eight, spread over the motion.")
+      .at_least(0);
+  keys.add("size", &check.size, "pixels", "Of the golden pictures. Without it the film's.").at_least(16).at_most(8192);
+  keys.add("window", &check.window, "", "How many steps of the motion are compared from each of these frames on.")
+      .at_least(1)
+      .at_most(20);
+  keys.add("motion_tolerance", &check.motion_tolerance, "m",
+           "How far a vertex may be from its golden place in these steps. With 0 the bits must be the same.")
+      .at_least(0);
+  keys.add("channel_limit", &check.limits.channel, "1/255",
+           "A picture that differs is still the same, but for rounding, if no pixel differs by more in any channel…")
+      .at_least(0)
+      .at_most(255);
+  keys.add("pixel_limit", &check.limits.pixels, "", "…and no larger fraction of the pixels differs at all…")
+      .at_least(0)
+      .at_most(1);
+  keys.add("flip_limit", &check.limits.flip, "", "…and no pixel's FLIP error (Andersson et al. 2020) is larger.")
+      .at_least(0)
+      .at_most(1);
+  return keys;
+}
+
 }  // namespace
 
 std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene) {
@@ -116,6 +141,8 @@ std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene) {
   add("camera", "Where the picture is taken from.", camera_keys(scene.camera));
   add("look", "What things look like.", look_keys(scene.look));
   add("video", "The film.", video_keys(scene.video));
+  add("check", "What `drape check` compares, see [regression.md](regression.md). Nothing else reads it.",
+      check_keys(scene.check));
   return tables;
 }
 

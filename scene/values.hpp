@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/keys.hpp"
 #include "scene/document.hpp"
@@ -45,6 +46,10 @@ std::optional<Eigen::Vector2i> read_int_pair(const TomlValue& value, const std::
 
 /// Reads keyframes, an array of { time, NAME = [x, y, z] }, at least one, whose times increase from 0 on.
 void read_keyframes(const TomlValue& value, const std::string& name, const KeyframeList& list, Problems& problems);
+
+/// Reads an array of whole numbers, each in the range.
+std::optional<std::vector<int>> read_ints(const TomlValue& value, const std::string& name, const Range& range,
+                                          Problems& problems);
 
 /// Reads the name of a file: relative to `folder`, the scene's, or else in the data folder's textures/. An empty string
 /// stays empty: no file.

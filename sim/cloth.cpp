@@ -12,6 +12,7 @@ Cloth make_cloth(const Mesh& start, const Mesh& rest, double mass, double stiffn
   Cloth cloth;
   cloth.positions = start.positions;
   cloth.velocities = Vertices::Zero(start.positions.rows(), 3);
+  cloth.rest = rest.positions;
   cloth.triangles = start.triangles;
   cloth.masses.setConstant(start.positions.rows(), mass / static_cast<double>(start.positions.rows()));
 

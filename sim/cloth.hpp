@@ -18,6 +18,7 @@ struct Spring {
 struct Cloth {
   Vertices positions;   ///< n×3 [m]
   Vertices velocities;  ///< n×3 [m/s]
+  Vertices rest;        ///< n×3, the shape without strain [m]
   std::vector<Triangle> triangles;
   std::vector<Spring> springs;
   Eigen::VectorXd masses;  ///< n, all positive [kg]

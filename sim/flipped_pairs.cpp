@@ -2,17 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <tuple>
+
+#include "sim/bending/hinges.hpp"
 
 namespace drape {
 namespace {
 
 constexpr double cosine_of_150_degrees = -0.86602540378443865;
-
-struct Side {
-  Edge edge;
-  int triangle;
-};
 
 Eigen::Vector3d unit_normal(const Triangle& t, const Vertices& x) {
   const Eigen::Vector3d a = x.row(t[0]), b = x.row(t[1]), c = x.row(t[2]);
@@ -22,15 +18,7 @@ Eigen::Vector3d unit_normal(const Triangle& t, const Vertices& x) {
 }  // namespace
 
 FlippedPairs::FlippedPairs(const std::vector<Triangle>& triangles) : triangles_(triangles) {
-  std::vector<Side> sides;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto [low, high] = std::minmax({triangles[t][c], triangles[t][(c + 1) % 3]});
-      sides.push_back({{low, high}, static_cast<int>(t)});
-    }
-  }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& a, const Side& b) { return std::tie(a.edge, a.triangle) < std::tie(b.edge, b.triangle); });
+  const std::vector<EdgeSide> sides = edge_sides(triangles);
   for (std::size_t s = 1; s < sides.size(); ++s) {
     if (sides[s].edge == sides[s - 1].edge) neighbours_.push_back({sides[s - 1].triangle, sides[s].triangle});
   }

@@ -62,7 +62,7 @@ Simulation::Simulation(SimulationSettings settings, Timing timing)
       constant_force_(constant_force(*system_, state_)),
       force_(constant_force_),
       integrator_(make_stable_integrator(settings_, *system_)),
-      springs_(system_->springs) {}
+      springs_(system_->springs, settings_.cloth.vertex_count()) {}
 
 Simulation::~Simulation() = default;
 
@@ -79,7 +79,8 @@ void Simulation::enter_phase() {
 
 StepReport Simulation::step() {
   if (phases_.size() > 1) enter_phase();
-  const StepReport report = integrator_->advance(state_, force());
+  StepReport report = integrator_->advance(state_, force());
+  for (const auto& filter : system_->filters) report.converged = report.converged && filter->converged();
   ++state_.step;
   // What is not finite makes the sum of its squares so, and any velocity that is not moves its vertex there.
   if (!std::isfinite(norm(state_.x))) throw_diverged();
@@ -102,9 +103,12 @@ void Simulation::restore(const State& state) { state_ = state; }
 
 Energies Simulation::energies() const {
   const Eigen::VectorXd& m = settings_.cloth.masses;
+  double elastic = springs_.energy(state_.x);
+  Vertices ignored = Vertices::Zero(state_.x.rows(), 3);
+  for (const auto& energy : system_->coupled_energies) elastic += energy->add_gradient(state_.x, ignored);
   return {.kinetic = 0.5 * m.dot(state_.v.rowwise().squaredNorm()),
           .gravity = -m.dot(state_.x * system_->gravity),
-          .elastic = springs_.energy(state_.x)};
+          .elastic = elastic};
 }
 
 std::vector<Collider> Simulation::colliders(double time) const {

@@ -16,7 +16,7 @@ namespace drape {
 struct Energies {
   double kinetic = 0;  ///< Σ m v²/2
   double gravity = 0;  ///< −Σ m g·x
-  double elastic = 0;  ///< of all springs
+  double elastic = 0;  ///< of all springs and of bending
 
   [[nodiscard]] double total() const { return kinetic + gravity + elastic; }
 };

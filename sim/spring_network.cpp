@@ -1,99 +1,147 @@
 #include "sim/spring_network.hpp"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <tuple>
+#include <utility>
 
 namespace drape {
 namespace {
 
-// A run pays from about two vector registers on; below, gathering by index is as fast.
-constexpr std::size_t shortest_run = 16;
-// A gap of this many springs is cheaper to compute through than to begin a new run.
-constexpr int longest_gap = 3;
+// An entry of a band takes about a quarter of the time of a spring that is gathered by index.
+constexpr int worth_a_band = 4;
+// What each version of the kernels handles at once; stretches are multiples of it, so that all versions divide alike.
+constexpr int widest_vector = 8;
 
 int offset(const Spring& s) { return s.j - s.i; }
 
+std::size_t padded(int count) {
+  return static_cast<std::size_t>((count + widest_vector - 1) / widest_vector * widest_vector);
+}
+
 }  // namespace
 
-SpringNetwork::SpringNetwork(const std::vector<Spring>& springs) : springs_(springs) {
-  std::vector<Spring> sorted = springs;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Spring& a, const Spring& b) {
-    return std::tuple(offset(a), a.i) < std::tuple(offset(b), b.i);
-  });
+SpringNetwork::SpringNetwork(const std::vector<Spring>& springs, int vertex_count)
+    : springs_(springs), vertex_count_(vertex_count) {
+  find_bands();
+  add_entries();
+  cut_stretches();
+}
 
-  std::vector<Spring> unstructured, current;
-  const auto close = [&] {
-    if (current.size() >= shortest_run) {
-      add_run(current);
-    } else {
-      unstructured.insert(unstructured.end(), current.begin(), current.end());
+void SpringNetwork::find_bands() {
+  std::map<int, int> springs_of_offset;
+  for (const Spring& spring : springs_) ++springs_of_offset[offset(spring)];
+  std::vector<std::pair<int, int>> common;  // springs, offset
+  for (const auto& [distance, count] : springs_of_offset) {
+    if (count * worth_a_band >= vertex_count_) common.emplace_back(-count, distance);
+  }
+  std::sort(common.begin(), common.end());
+  common.resize(std::min<std::size_t>(common.size(), max_bands));
+
+  std::size_t scratch = 0;
+  std::sort(common.begin(), common.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  for (const auto& [ignored, distance] : common) {
+    // The forces slide through the scratch: those that are still needed move to its front when its end is reached.
+    const std::size_t lead = padded(distance);
+    const std::size_t capacity = 2 * lead + 4 * kernel_size;
+    bands_.push_back({.offset = distance,
+                      .begin = bands_.size() * padded(vertex_count_),
+                      .scratch = scratch,
+                      .lead = lead,
+                      .capacity = capacity});
+    scratch += 3 * capacity;
+  }
+  force_.assign(scratch, 0.0);
+}
+
+void SpringNetwork::add_entries() {
+  stiffness_.assign(bands_.size() * padded(vertex_count_), 0.0);
+  rest_length_ = stiffness_;
+  std::vector<Spring> rest;
+  for (const Spring& spring : springs_) {
+    const auto band =
+        std::find_if(bands_.begin(), bands_.end(), [&](const Band& b) { return b.offset == offset(spring); });
+    const std::size_t entry = band == bands_.end() ? 0 : band->begin + static_cast<std::size_t>(spring.i);
+    if (band == bands_.end() || stiffness_[entry] != 0) {
+      rest.push_back(spring);
+      continue;
     }
-    current.clear();
-  };
-  for (const Spring& spring : sorted) {
-    const int gap = current.empty() ? 0 : spring.i - current.back().i - 1;
-    // A duplicate (gap −1) would write its vertices twice within one run.
-    if (!current.empty() && (offset(spring) != offset(current.back()) || gap < 0 || gap > longest_gap)) close();
-    current.push_back(spring);
+    stiffness_[entry] = spring.stiffness;
+    rest_length_[entry] = spring.rest_length;
   }
-  close();
-  add_lists(std::move(unstructured));
-
-  // In the order of their vertices, the blocks of different runs that touch the same vertices are computed close
-  // together.
-  std::stable_sort(blocks_.begin(), blocks_.end(),
-                   [](const Block& a, const Block& b) { return a.first_i < b.first_i; });
-}
-
-void SpringNetwork::append(const Spring& spring) {
-  i_.push_back(spring.i);
-  j_.push_back(spring.j);
-  stiffness_.push_back(spring.stiffness);
-  rest_length_.push_back(spring.rest_length);
-}
-
-void SpringNetwork::add_run(const std::vector<Spring>& run) {
-  const int first = static_cast<int>(stiffness_.size());
-  for (const Spring& spring : run) {
-    while (static_cast<int>(stiffness_.size()) - first < spring.i - run.front().i) {
-      const int i = run.front().i + static_cast<int>(stiffness_.size()) - first;
-      append({.i = i, .j = i + offset(spring), .rest_length = 0, .stiffness = 0});
-    }
-    append(spring);
-  }
-  const int count = static_cast<int>(stiffness_.size()) - first;
-  for (int done = 0; done < count; done += kernel_springs) {
-    blocks_.push_back({.is_run = true,
-                       .first_i = run.front().i + done,
-                       .first_j = run.front().j + done,
-                       .begin = first + done,
-                       .count = std::min(kernel_springs, count - done)});
-  }
-}
-
-void SpringNetwork::add_lists(std::vector<Spring> rest) {
   std::stable_sort(rest.begin(), rest.end(),
                    [](const Spring& a, const Spring& b) { return std::tuple(a.i, a.j) < std::tuple(b.i, b.j); });
-  const int first = static_cast<int>(stiffness_.size());
-  for (const Spring& spring : rest) append(spring);
-  const int count = static_cast<int>(rest.size());
-  for (int done = 0; done < count; done += kernel_springs) {
-    const auto& head = rest[static_cast<std::size_t>(done)];
-    blocks_.push_back({.is_run = false,
-                       .first_i = head.i,
-                       .first_j = head.j,
-                       .begin = first + done,
-                       .count = std::min(kernel_springs, count - done)});
+  for (std::size_t done = 0; done < rest.size(); done += kernel_size) {
+    lists_.push_back({.begin = stiffness_.size() + done,
+                      .index = done,
+                      .count = static_cast<int>(std::min<std::size_t>(kernel_size, rest.size() - done))});
+  }
+  for (const Spring& spring : rest) {
+    i_.push_back(spring.i);
+    j_.push_back(spring.j);
+    stiffness_.push_back(spring.stiffness);
+    rest_length_.push_back(spring.rest_length);
+  }
+  if (!rest.empty()) other_force_.resize(vertex_count_, 3);
+}
+
+void SpringNetwork::cut_stretches() {
+  for (int first = 0; first < vertex_count_; first += kernel_size) {
+    stretches_.push_back({first, std::min(kernel_size, vertex_count_ - first)});
   }
 }
 
-SpringRun SpringNetwork::run(const Block& b) const {
-  return {b.first_i, b.first_j, b.count, stiffness_.data() + b.begin, rest_length_.data() + b.begin};
+SpringList SpringNetwork::list(const List& l) const {
+  return {i_.data() + l.index, j_.data() + l.index, l.count, stiffness_.data() + l.begin,
+          rest_length_.data() + l.begin};
 }
 
-SpringList SpringNetwork::list(const Block& b) const {
-  return {i_.data() + b.begin, j_.data() + b.begin, b.count, stiffness_.data() + b.begin,
-          rest_length_.data() + b.begin};
+SpringBand SpringNetwork::band(const Band& b, int first, std::size_t place) const {
+  const std::size_t entry = b.begin + static_cast<std::size_t>(first);
+  double* force = force_.data() + b.scratch + place;
+  return {.offset = b.offset,
+          .stiffness = stiffness_.data() + entry,
+          .rest_length = rest_length_.data() + entry,
+          .force = {force, force + b.capacity, force + 2 * b.capacity}};
+}
+
+template <class Use>
+void SpringNetwork::for_stretches(Use&& use) const {
+  std::array<std::size_t, max_bands> places{};
+  const auto column = [&](const Band& b, int axis) {
+    return force_.begin() + static_cast<std::ptrdiff_t>(b.scratch + static_cast<std::size_t>(axis) * b.capacity);
+  };
+  for (std::size_t b = 0; b < bands_.size(); ++b) {
+    const auto lead = static_cast<std::ptrdiff_t>(places[b] = bands_[b].lead);
+    for (int axis = 0; axis < 3; ++axis) std::fill_n(column(bands_[b], axis), lead, 0.0);
+  }
+  std::array<SpringBand, max_bands> given{};
+  for (const Range& range : stretches_) {
+    const auto count = static_cast<std::size_t>(range.count);
+    for (std::size_t b = 0; b < bands_.size(); ++b) {
+      const Band& own = bands_[b];
+      if (places[b] + count > own.capacity) {
+        for (int axis = 0; axis < 3; ++axis) {
+          const auto end = column(own, axis) + static_cast<std::ptrdiff_t>(places[b]);
+          std::copy(end - static_cast<std::ptrdiff_t>(own.lead), end, column(own, axis));
+        }
+        places[b] = own.lead;
+      }
+      given[b] = band(own, range.first, places[b]);
+      places[b] += count;
+    }
+    use(range.first, SpringStretch{.count = range.count,
+                                   .vertices_after = vertex_count_ - range.first - range.count,
+                                   .bands = given.data(),
+                                   .band_count = static_cast<int>(bands_.size())});
+  }
+}
+
+double SpringNetwork::add_lists(const Vertices& x, Vertices& gradient) const {
+  double total = 0;
+  for (const List& l : lists_) total += kernels().add_list_value_gradient(list(l), columns(x), columns(gradient));
+  return total;
 }
 
 double SpringNetwork::energy(const Vertices& x) const {
@@ -101,50 +149,72 @@ double SpringNetwork::energy(const Vertices& x) const {
   return add_value_gradient(x, ignored);
 }
 
-void SpringNetwork::add_gradient(const Vertices& x, Vertices& gradient) const {
-  const Kernels& k = kernels();
-  for (const Block& b : blocks_) {
-    if (b.is_run) {
-      k.add_run_gradient(run(b), columns(x), columns(gradient));
-    } else {
-      k.add_list_gradient(list(b), columns(x), columns(gradient));
-    }
-  }
+double SpringNetwork::add_value_gradient(const Vertices& x, Vertices& gradient) const {
+  double total = 0;
+  for_stretches([&](int first, const SpringStretch& stretch) {
+    total += kernels().add_band_value_gradient(stretch, columns(x, first), columns(gradient, first));
+  });
+  return total + add_lists(x, gradient);
 }
 
-double SpringNetwork::add_value_gradient(const Vertices& x, Vertices& gradient) const {
-  const Kernels& k = kernels();
+double SpringNetwork::evaluate(const Eigen::VectorXd& inertia, const Vertices& y, const Vertices& x,
+                               Vertices& gradient) const {
   double total = 0;
-  for (const Block& b : blocks_) {
-    total += b.is_run ? k.add_run_value_gradient(run(b), columns(x), columns(gradient))
-                      : k.add_list_value_gradient(list(b), columns(x), columns(gradient));
+  for_stretches([&](int first, const SpringStretch& stretch) {
+    total += kernels().evaluate_bands(
+        stretch, columns(x, first),
+        {.factor = inertia.data() + first, .y = columns(y, first), .gradient = columns(gradient, first)});
+  });
+  return total + add_lists(x, gradient);
+}
+
+void SpringNetwork::kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, double h, Vertices& v,
+                                   Vertices& x) const {
+  const Vertices* other = &force;
+  if (!lists_.empty()) {
+    other_force_.setZero();
+    for (const List& l : lists_) {
+      kernels().add_list_gradient(list(l), columns(std::as_const(x)), columns(other_force_));
+    }
+    other_force_ = force - other_force_;
+    other = &other_force_;
   }
-  return total;
+  for_stretches([&](int first, const SpringStretch& stretch) {
+    kernels().kick_bands(stretch, {.factor = factor.data() + first,
+                                   .force = columns(*other, first),
+                                   .h = h,
+                                   .velocity = columns(v, first),
+                                   .position = columns(x, first)});
+  });
 }
 
 void SpringNetwork::compute_blocks(const Vertices& x, Blocks& blocks) const {
-  const Kernels& k = kernels();
-  blocks.across.resize(stored());
-  blocks.along.resize(stored(), 3);
-  for (const Block& b : blocks_) {
-    const SpringBlocks kept{blocks.across.data() + b.begin, columns(blocks.along, b.begin)};
-    if (b.is_run) {
-      k.run_blocks(run(b), columns(x), kept);
-    } else {
-      k.list_blocks(list(b), columns(x), kept);
-    }
+  blocks.across.resize(static_cast<Eigen::Index>(stiffness_.size()));
+  blocks.along.resize(blocks.across.size(), 3);
+  const auto kept = [&](std::size_t begin) {
+    const auto at = static_cast<Eigen::Index>(begin);
+    return SpringBlocks{blocks.across.data() + at, columns(blocks.along, at)};
+  };
+  for (const Band& b : bands_) {
+    kernels().band_blocks(band(b, 0, 0), std::max(0, vertex_count_ - b.offset), columns(x), kept(b.begin));
   }
+  for (const List& l : lists_) kernels().list_blocks(list(l), columns(x), kept(l.begin));
 }
 
 void SpringNetwork::add_product(const Blocks& blocks, const Vertices& vector, Vertices& product) const {
-  const Kernels& k = kernels();
-  for (const Block& b : blocks_) {
-    const ConstSpringBlocks kept{blocks.across.data() + b.begin, columns(blocks.along, b.begin)};
-    if (b.is_run) {
-      k.add_run_product(run(b), kept, columns(vector), columns(product));
-    } else {
-      k.add_list_product(list(b), kept, columns(vector), columns(product));
+  const auto kept = [&](std::size_t begin) {
+    const auto at = static_cast<Eigen::Index>(begin);
+    return ConstSpringBlocks{blocks.across.data() + at, columns(blocks.along, at)};
+  };
+  for_stretches([&](int first, const SpringStretch& stretch) {
+    std::array<ConstSpringBlocks, max_bands> of_bands{};
+    for (std::size_t b = 0; b < bands_.size(); ++b) {
+      of_bands[b] = kept(bands_[b].begin + static_cast<std::size_t>(first));
     }
+    kernels().add_band_product(stretch, of_bands.data(), columns(vector, first), columns(product, first));
+  });
+  for (const List& l : lists_) {
+    kernels().add_list_product(list(l), kept(l.begin), columns(vector), columns(product));
   }
 }
 

@@ -8,20 +8,31 @@
 namespace drape {
 
 /// Springs, E(x) = Σ k/2 (‖x_i − x_j‖ − L)², laid out for speed: a cloth's springs mostly join vertices that are a
-/// fixed number apart (1, N+1 and N on an N×N grid), so they form long runs (i+t, j+t) whose vertices are read in
-/// order. Short gaps in a run, as at the end of a grid's row, are filled with springs of zero stiffness.
+/// fixed number apart (1, N and N+1 on an N×N grid). Each such offset is a band, with one entry for every vertex as in
+/// a matrix stored by diagonals, and all bands are computed in one pass over the vertices, in order and without
+/// indices. Where a band has no spring its entry has zero stiffness. Springs of rare offsets, and duplicates, are
+/// gathered by index.
+///
+/// Keeps scratch memory: one network serves one thread.
 class SpringNetwork {
  public:
-  /// @param springs      any springs with i < j, duplicates included
-  explicit SpringNetwork(const std::vector<Spring>& springs);
+  /// @param springs  any springs with i < j < vertex_count, duplicates included
+  SpringNetwork(const std::vector<Spring>& springs, int vertex_count);
 
   /// E(x) [J].
   [[nodiscard]] double energy(const Vertices& x) const;
 
-  /// gradient += ∇E(x), n×3 [N]. A spring of zero length pulls nowhere.
-  void add_gradient(const Vertices& x, Vertices& gradient) const;
-  /// The same in one pass with E(x) [J], which it returns.
+  /// gradient += ∇E(x), n×3 [N]; returns E(x) [J]. A spring of zero length pulls nowhere.
   double add_value_gradient(const Vertices& x, Vertices& gradient) const;
+
+  /// gradient = ∇(E + Σ inertia/2 ‖x − y‖²)(x), n×3 [N]; returns the value of both [J].
+  /// @param inertia one for each vertex [N/m]
+  double evaluate(const Eigen::VectorXd& inertia, const Vertices& y, const Vertices& x, Vertices& gradient) const;
+
+  /// The springs' part of an explicit step: v += factor·(∇E(x) − force), then x += h·v.
+  /// @param factor −h/m of each vertex, 0 on pins [s/kg]
+  /// @param h      0 to change the velocities only [s]
+  void kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, double h, Vertices& v, Vertices& x) const;
 
   /// The springs' Hessian with its negative eigenvalues left out, one symmetric 3×3 block for each spring, d = xᵢ − xⱼ:
   ///   K = k max(0, 1 − L/‖d‖) I + k min(1, L/‖d‖) x̂x̂ᵀ = across·I + along·alongᵀ,
@@ -39,24 +50,44 @@ class SpringNetwork {
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
 
  private:
-  /// At most kernel_springs springs: a run from (first_i, first_j) if is_run, else a list.
-  struct Block {
-    bool is_run;
-    int first_i, first_j;
-    int begin, count;  // in stiffness_ and rest_length_, and for a list in i_ and j_
+  struct Band {
+    int offset;
+    std::size_t begin;    // of its entries in stiffness_ and rest_length_, one for each vertex
+    std::size_t scratch;  // of its forces in force_: three columns of `capacity`
+    std::size_t lead, capacity;
+  };
+  struct List {
+    std::size_t begin;  // in stiffness_ and rest_length_
+    std::size_t index;  // in i_ and j_
+    int count;
+  };
+  struct Range {
+    int first, count;
   };
 
-  void add_run(const std::vector<Spring>& run);
-  void add_lists(std::vector<Spring> rest);
-  void append(const Spring& spring);
-  [[nodiscard]] Eigen::Index stored() const { return static_cast<Eigen::Index>(stiffness_.size()); }
-  [[nodiscard]] SpringRun run(const Block& block) const;
-  [[nodiscard]] SpringList list(const Block& block) const;
+  // Vectors that begin where cache lines begin are read twice as fast.
+  using AlignedVector = std::vector<double, Eigen::aligned_allocator<double>>;
+
+  void find_bands();
+  void add_entries();
+  void cut_stretches();
+  [[nodiscard]] SpringList list(const List& list) const;
+  [[nodiscard]] SpringBand band(const Band& band, int first, std::size_t place) const;
+  /// Calls use(first vertex, stretch) for all stretches in order.
+  template <class Use>
+  void for_stretches(Use&& use) const;
+  /// Adds what is in no band; returns its energy [J].
+  double add_lists(const Vertices& x, Vertices& gradient) const;
 
   std::vector<Spring> springs_;
-  std::vector<Block> blocks_;
+  int vertex_count_;
+  std::vector<Band> bands_;  // by offset
+  std::vector<List> lists_;
+  std::vector<Range> stretches_;
   std::vector<int> i_, j_;
-  std::vector<double> stiffness_, rest_length_;
+  AlignedVector stiffness_, rest_length_;
+  mutable AlignedVector force_;  // of the springs of each band, for as long as the pass needs them
+  mutable Vertices other_force_;       // of an explicit step, with that of springs in no band
 };
 
 }  // namespace drape

@@ -7,12 +7,18 @@ namespace drape {
 
 StepObjective::StepObjective(const System& system)
     : system_(system),
-      springs_(system.springs),
+      springs_(system.springs, system.cloth.vertex_count()),
       inertia_(system.cloth.masses / (system.step * system.step)),
       push_(inertia_.cwiseInverse()),
       y_(system.cloth.vertex_count(), 3) {
   for (const int pin : system.cloth.pins) push_[pin] = 0;
   for (const Spring& s : system.springs) elastic_scale_ += s.stiffness * s.rest_length * s.rest_length;
+  for (const auto& energy : system.coupled_energies) {
+    for (const Spring& s : energy->bound()) {
+      const auto d = system.cloth.positions.row(s.i) - system.cloth.positions.row(s.j);
+      elastic_scale_ += std::abs(s.stiffness) * d.squaredNorm();
+    }
+  }
 }
 
 void StepObjective::begin(const State& state, const Vertices& force) {
@@ -29,13 +35,8 @@ void StepObjective::begin(const State& state, const Vertices& force) {
 }
 
 double StepObjective::evaluate(const Vertices& x, Vertices& gradient) const {
-  const auto count = static_cast<std::size_t>(x.rows());
-  double value = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    value += 0.5 * kernels().scaled_difference(count, inertia_.data(), x.col(axis).data(), y_.col(axis).data(),
-                                               gradient.col(axis).data());
-  }
-  value += springs_.add_value_gradient(x, gradient);
+  double value = springs_.evaluate(inertia_, y_, x, gradient);
+  for (const auto& energy : system_.coupled_energies) value += energy->add_gradient(x, gradient);
   for (const auto& energy : system_.energies) value += energy->add_gradient(x, time_, gradient);
   for (const int pin : system_.cloth.pins) gradient.row(pin).setZero();
   return value;

@@ -29,7 +29,8 @@ struct Force {
 /// Symmetric 3×3 blocks on the diagonal of a Hessian, one for each vertex: xx, xy, xz, yy, yz, zz. n×6 [N/m]
 using DiagonalBlocks = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
-/// An energy that implicit methods solve for, E(x) ≥ 0, of every vertex by itself (what couples vertices is a spring).
+/// An energy that implicit methods solve for, E(x) ≥ 0, of every vertex by itself. What couples vertices is a spring or
+/// a CoupledEnergy.
 struct Energy {
   virtual ~Energy() = default;
   /// gradient += ∇E(x), n×3 [N]; returns E(x) [J].
@@ -38,6 +39,30 @@ struct Energy {
   virtual void add_hessian(const Vertices& x, double time, DiagonalBlocks& blocks) const = 0;
   /// Adds an upper bound of the Hessian's eigenvalues at every vertex, whatever its place and the time. n [N/m]
   virtual void add_bound(Eigen::VectorXd& bound) const = 0;
+};
+
+/// The positive semi-definite Hessian of a CoupledEnergy at one shape of the cloth, as both of Newton's linear solvers
+/// take it: H = Σ (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ K over the pairs of CoupledEnergy::bound(), with a symmetric 3×3 block K each.
+struct CoupledHessian {
+  virtual ~CoupledHessian() = default;
+  /// Takes the shape x, n×3 [m].
+  virtual void linearise(const Vertices& x) = 0;
+  /// product += H·vector, both n×3.
+  virtual void add_product(const Vertices& vector, Vertices& product) const = 0;
+  /// blocks[p] += K of pair p [N/m].
+  virtual void add_blocks(std::vector<Eigen::Matrix3d>& blocks) const = 0;
+};
+
+/// An energy that couples vertices, E(x) ≥ 0, and is the same wherever the cloth is as a whole.
+struct CoupledEnergy {
+  virtual ~CoupledEnergy() = default;
+  /// gradient += ∇E(x), n×3 [N]; returns E(x) [J]. One pass.
+  virtual double add_gradient(const Vertices& x, Vertices& gradient) const = 0;
+  /// An upper bound of the Hessian in every shape, Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ I₃: as if by springs of no length, whose
+  /// stiffness may be negative. Each pair i < j that the energy couples is there once, whatever its stiffness.
+  [[nodiscard]] virtual const std::vector<Spring>& bound() const = 0;
+  /// An object that keeps the Hessian, for the methods that need it. Refers to this energy.
+  [[nodiscard]] virtual std::unique_ptr<CoupledHessian> make_hessian() const = 0;
 };
 
 /// A change of the velocity at the end of a step.
@@ -56,6 +81,8 @@ struct MotionFilter {
   /// time + h [s]. Leaves the rows of pinned vertices as they are. What it keeps between calls is memory only: the
   /// result depends on the arguments alone.
   virtual void apply(const Vertices& x, double time, double h, Vertices& v) = 0;
+  /// Whether the last call did all that the filter is for, rather than stop at its cap.
+  [[nodiscard]] virtual bool converged() const { return true; }
 };
 
 /// Something the cloth can touch, whose place is a function of time.
@@ -74,6 +101,7 @@ struct System {
   std::vector<Spring> springs;  ///< the cloth's and those that effects add
   std::vector<std::unique_ptr<Force>> forces;
   std::vector<std::unique_ptr<Energy>> energies;
+  std::vector<std::unique_ptr<CoupledEnergy>> coupled_energies;
   std::vector<std::unique_ptr<Correction>> corrections;
   std::vector<std::unique_ptr<MotionFilter>> filters;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;
@@ -81,6 +109,16 @@ struct System {
   std::vector<PinRelease> pin_releases;  ///< a simulation makes its system anew, without these pins, when it gets there
 
   System(const Cloth& c, double h) : cloth(c), step(h), springs(c.springs) {}
+
+  /// What no Hessian of the springs and the coupled energies exceeds, Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ I₃: the springs, then
+  /// the bounds of the energies one after another.
+  [[nodiscard]] std::vector<Spring> stiffness_bound() const {
+    std::vector<Spring> bound = springs;
+    for (const auto& energy : coupled_energies) {
+      bound.insert(bound.end(), energy->bound().begin(), energy->bound().end());
+    }
+    return bound;
+  }
 
   /// Applies every correction to the velocity of a step.
   void correct(State& state) const {

@@ -49,6 +49,34 @@ struct TimedEnergy final : Timed<Energy> {
   void add_bound(Eigen::VectorXd& bound) const override { inner->add_bound(bound); }
 };
 
+struct TimedHessian final : Timed<CoupledHessian> {
+  using Timed::Timed;
+  void linearise(const Vertices& x) override {
+    const Stopwatch watch(seconds);
+    inner->linearise(x);
+  }
+  void add_product(const Vertices& vector, Vertices& product) const override {
+    const Stopwatch watch(seconds);
+    inner->add_product(vector, product);
+  }
+  void add_blocks(std::vector<Eigen::Matrix3d>& blocks) const override {
+    const Stopwatch watch(seconds);
+    inner->add_blocks(blocks);
+  }
+};
+
+struct TimedCoupledEnergy final : Timed<CoupledEnergy> {
+  using Timed::Timed;
+  double add_gradient(const Vertices& x, Vertices& gradient) const override {
+    const Stopwatch watch(seconds);
+    return inner->add_gradient(x, gradient);
+  }
+  [[nodiscard]] const std::vector<Spring>& bound() const override { return inner->bound(); }
+  [[nodiscard]] std::unique_ptr<CoupledHessian> make_hessian() const override {
+    return std::make_unique<TimedHessian>(inner->make_hessian(), seconds);
+  }
+};
+
 struct TimedCorrection final : Timed<Correction> {
   using Timed::Timed;
   void apply(State& state, double h) const override {
@@ -63,6 +91,7 @@ struct TimedFilter final : Timed<MotionFilter> {
     const Stopwatch watch(seconds);
     inner->apply(x, time, h, v);
   }
+  [[nodiscard]] bool converged() const override { return inner->converged(); }
 };
 
 template <class TimedKind, class Base>
@@ -75,6 +104,7 @@ void wrap(std::vector<std::unique_ptr<Base>>& list, std::size_t from, double& se
 void time_additions(System& system, const SystemSizes& before, double& seconds) {
   wrap<TimedForce>(system.forces, before.forces, seconds);
   wrap<TimedEnergy>(system.energies, before.energies, seconds);
+  wrap<TimedCoupledEnergy>(system.coupled_energies, before.coupled_energies, seconds);
   wrap<TimedCorrection>(system.corrections, before.corrections, seconds);
   wrap<TimedFilter>(system.filters, before.filters, seconds);
 }

@@ -29,4 +29,10 @@ void limit_llvmpipe_vector_width() {
   }
 }
 
+void prepare_llvmpipe() {
+  limit_llvmpipe_vector_width();
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0);
+  setenv("EGL_LOG_LEVEL", "fatal", 0);
+}
+
 }  // namespace drape

@@ -7,4 +7,10 @@ namespace drape {
 /// @throws UsageError if it is set to more than 256, or to no number
 void limit_llvmpipe_vector_width();
 
+/// What llvmpipe needs to draw, and to draw the same bytes everywhere: limit_llvmpipe_vector_width(), and, unless the
+/// environment says otherwise, that Mesa draws in software where there is a GPU as well, and that EGL says nothing of
+/// its own on the terminal. To be called before a GL library is loaded.
+/// @throws UsageError as limit_llvmpipe_vector_width()
+void prepare_llvmpipe();
+
 }  // namespace drape

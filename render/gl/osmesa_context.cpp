@@ -1,20 +1,17 @@
 #include <GL/osmesa.h>
-#include <dlfcn.h>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <array>
 #include <cstdint>
 
 #include "core/error.hpp"
 #include "render/gl/context.hpp"
+#include "render/gl/library.hpp"
 #include "render/gl/llvmpipe.hpp"
 
 namespace drape {
 namespace {
 
-/// The functions of libOSMesa. The library stays loaded until the process ends: LLVM inside it does not survive
-/// unloading.
+/// The functions of libOSMesa.
 struct OsMesa {
   decltype(&OSMesaCreateContextAttribs) create = nullptr;
   decltype(&OSMesaDestroyContext) destroy = nullptr;
@@ -22,31 +19,11 @@ struct OsMesa {
   decltype(&OSMesaGetProcAddress) get_proc_address = nullptr;
 
   explicit OsMesa(const std::vector<std::string>& library_names) {
-    void* library = nullptr;
-    for (const std::string& name : library_names) {
-      // RTLD_LOCAL: another GL library, as EGL's, may live in the same process.
-      library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
-      if (library != nullptr) break;
-    }
-    if (library == nullptr) {
-      throw OutputError(fmt::format(
-          "cannot draw: the OSMesa library is not installed (looked for {}); on Debian: apt install libosmesa6",
-          fmt::join(library_names, ", ")));
-    }
-    fetch(library, "OSMesaCreateContextAttribs", create);
-    fetch(library, "OSMesaDestroyContext", destroy);
-    fetch(library, "OSMesaMakeCurrent", make_current);
-    fetch(library, "OSMesaGetProcAddress", get_proc_address);
-  }
-
- private:
-  template <class Function>
-  static void fetch(void* library, const char* name, Function& function) {
-    function = reinterpret_cast<Function>(dlsym(library, name));
-    if (function == nullptr) {
-      throw OutputError(
-          fmt::format("cannot draw: the OSMesa library is too old, it has no {}; Mesa 12 or later is needed", name));
-    }
+    const SharedLibrary library("OSMesa", library_names, debian_packages(GlBackend::osmesa));
+    library.fetch("OSMesaCreateContextAttribs", create);
+    library.fetch("OSMesaDestroyContext", destroy);
+    library.fetch("OSMesaMakeCurrent", make_current);
+    library.fetch("OSMesaGetProcAddress", get_proc_address);
   }
 };
 
@@ -87,7 +64,7 @@ class OsMesaContext final : public GlContext {
 std::vector<std::string> osmesa_library_names() { return {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}; }
 
 std::unique_ptr<GlContext> make_osmesa_context(const std::vector<std::string>& library_names) {
-  limit_llvmpipe_vector_width();
+  prepare_llvmpipe();
   return std::make_unique<OsMesaContext>(library_names);
 }
 

@@ -10,7 +10,7 @@ namespace drape {
 /// How a step was computed.
 struct StepReport {
   int iterations = 0;     ///< linear solves; 0 for a method that has none
-  bool converged = true;  ///< whether the stopping rule was met within max_iterations
+  bool converged = true;  ///< whether the stopping rule was met within max_iterations, and every motion filter's too
 };
 
 /// Advances a cloth by one step of the system's h.

@@ -16,7 +16,6 @@ class Liu13 final : public ImplicitEuler {
   double iterate(Point& point) override;
 
   ConstantFactor factor_;
-  Vertices change_;
 };
 
 }  // namespace drape

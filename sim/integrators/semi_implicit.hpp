@@ -12,10 +12,13 @@ class SemiImplicitEuler final : public Integrator {
   StepReport advance(State& state, const Vertices& force) override;
 
  private:
+  /// `force` with that of the energies that couple vertices [N].
+  const Vertices& with_energies(const State& state, const Vertices& force);
+
   const System& system_;
   SpringNetwork springs_;
   Eigen::VectorXd pull_;  // −h/m of each vertex, 0 on pins [s/kg]
-  Vertices gradient_;     // of the springs; zero between steps [N]
+  Vertices force_;        // with coupled energies; empty without [N]
 };
 
 }  // namespace drape

@@ -10,9 +10,46 @@
 namespace drape {
 namespace {
 
-// A row's four numbers in one vector, whatever the instruction set.
+// A row's four numbers in one vector, whatever the instruction set, and two rows in one.
 using FourSingles = float __attribute__((vector_size(16)));
 using FourDoubles = double __attribute__((vector_size(32)));
+using EightSingles = float __attribute__((vector_size(32)));
+using EightDoubles = double __attribute__((vector_size(64)));
+
+template <class Row>
+struct PairOf;
+template <>
+struct PairOf<FourSingles> {
+  using Type = EightSingles;
+};
+template <>
+struct PairOf<FourDoubles> {
+  using Type = EightDoubles;
+};
+
+/// Two rows side by side, and apart.
+template <class Row>
+inline typename PairOf<Row>::Type join(Row low, Row high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+template <class Row>
+inline Row low_of(typename PairOf<Row>::Type pair) {
+  return __builtin_shufflevector(pair, pair, 0, 1, 2, 3);
+}
+template <class Row>
+inline Row high_of(typename PairOf<Row>::Type pair) {
+  return __builtin_shufflevector(pair, pair, 4, 5, 6, 7);
+}
+
+/// Four times the first of two numbers and four times the second. In single precision: one read, one permutation.
+inline EightSingles spread(const float* two) {
+  const auto bits = load<double>(two);
+  const auto both = reinterpret_cast<EightSingles>(FourDoubles{bits, bits, bits, bits});
+  return __builtin_shufflevector(both, both, 0, 0, 0, 0, 5, 5, 5, 5);
+}
+inline EightDoubles spread(const double* two) {
+  return EightDoubles{two[0], two[0], two[0], two[0], two[1], two[1], two[1], two[1]};
+}
 
 /// Numbers stored for a panel: panel_size, which is not used here because it would be a header's inline function.
 std::ptrdiff_t stored(const Panel& panel) {
@@ -20,9 +57,11 @@ std::ptrdiff_t stored(const Panel& panel) {
 }
 
 /// x := L⁻¹x for the columns of one panel: multiplies by its inverted triangle and takes what follows from the rows
-/// below.
+/// below. Columns are taken in pairs.
 template <class Row, int width, class T>
 inline void forward(const Panel& panel, const int* rows, const T* values, T* x) {
+  using Pair = typename PairOf<Row>::Type;
+  constexpr int pairs = width / 2;
   T* own = x + 4 * panel.first;
   Row given[width], solved[width];
   for (int r = 0; r < width; ++r) given[r] = load<Row>(own + 4 * r);
@@ -31,39 +70,49 @@ inline void forward(const Panel& panel, const int* rows, const T* values, T* x) 
     for (int c = 1; c <= r; ++c) solved[r] += *values++ * given[c];
     store<Row>(own + 4 * r, solved[r]);
   }
+  Pair paired[pairs > 0 ? pairs : 1];
+  for (int c = 0; c < pairs; ++c) paired[c] = join(solved[2 * c], solved[2 * c + 1]);
   for (int p = 0; p < panel.row_count; ++p, values += width) {
-    // Two sums, so that an addition waits for fewer others.
-    Row even = values[0] * solved[0], odd = {};
-    for (int c = 1; c < width; c += 2) odd += values[c] * solved[c];
-    for (int c = 2; c < width; c += 2) even += values[c] * solved[c];
+    Pair sum{};
+    for (int c = 0; c < pairs; ++c) sum += spread(values + 2 * c) * paired[c];
+    Row even = low_of<Row>(sum);
+    if constexpr (width % 2 == 1) even += values[width - 1] * solved[width - 1];
     T* target = x + 4 * rows[p];
-    store<Row>(target, load<Row>(target) - (even + odd));
+    store<Row>(target, load<Row>(target) - (even + high_of<Row>(sum)));
   }
 }
 
 /// x := L⁻ᵀx for the columns of one panel.
 template <class Row, int width, class T>
 inline void backward(const Panel& panel, const int* rows, const T* values, T* x) {
-  // Narrow panels sum in several chains for the same reason.
+  using Pair = typename PairOf<Row>::Type;
+  // Narrow panels sum in several chains, so that an addition waits for fewer others.
   constexpr int chains = width >= 4 ? 1 : width == 1 ? 4 : 2;
+  constexpr int pairs = width / 2;
   const T* below = values + width * (width + 1) / 2;
-  Row sums[chains][width] = {};
+  Pair sums[chains][pairs > 0 ? pairs : 1] = {};
+  Row last[chains] = {};
+  const auto add = [&](int chain, const T* row) {
+    const Row value = load<Row>(row);
+    const Pair twice = join(value, value);
+    for (int c = 0; c < pairs; ++c) sums[chain][c] += spread(below + 2 * c) * twice;
+    if constexpr (width % 2 == 1) last[chain] += below[width - 1] * value;
+    below += width;
+  };
   int p = 0;
   for (; p + chains <= panel.row_count; p += chains) {
-    for (int chain = 0; chain < chains; ++chain, below += width) {
-      const Row value = load<Row>(x + 4 * rows[p + chain]);
-      for (int c = 0; c < width; ++c) sums[chain][c] += below[c] * value;
-    }
+    for (int chain = 0; chain < chains; ++chain) add(chain, x + 4 * rows[p + chain]);
   }
-  for (int chain = 0; p < panel.row_count; ++p, ++chain, below += width) {
-    const Row value = load<Row>(x + 4 * rows[p]);
-    for (int c = 0; c < width; ++c) sums[chain][c] += below[c] * value;
-  }
+  for (int chain = 0; p < panel.row_count; ++p, ++chain) add(chain, x + 4 * rows[p]);
+
   T* own = x + 4 * panel.first;
   Row rest[width];
+  for (int chain = 1; chain < chains; ++chain) {
+    for (int c = 0; c < pairs; ++c) sums[0][c] += sums[chain][c];
+    last[0] += last[chain];
+  }
   for (int c = 0; c < width; ++c) {
-    Row sum = sums[0][c];
-    for (int chain = 1; chain < chains; ++chain) sum += sums[chain][c];
+    const Row sum = c == 2 * pairs ? last[0] : c % 2 == 0 ? low_of<Row>(sums[0][c / 2]) : high_of<Row>(sums[0][c / 2]);
     rest[c] = load<Row>(own + 4 * c) - sum;
   }
   for (int c = 0; c < width; ++c) {

@@ -18,17 +18,8 @@ void add_multiple(std::size_t count, double factor, const double* __restrict fro
   for (std::size_t t = 0; t < count; ++t) to[t] += factor * from[t];
 }
 
-void kick_and_drift(std::size_t count, const double* __restrict factor, const double* __restrict force, double h,
-                    double* __restrict gradient, double* __restrict velocity, double* __restrict position) {
-  for (std::size_t t = 0; t < count; ++t) {
-    const double v = velocity[t] + factor[t] * (gradient[t] - force[t]);
-    gradient[t] = 0;
-    velocity[t] = v;
-    position[t] += h * v;
-  }
-}
-
-/// The partial sums of eight interleaved lanes, kept in registers.
+/// Partial sums of interleaved lanes, kept in registers.
+template <int sum_lanes>
 struct Accumulator {
   static constexpr int parts = sum_lanes / lanes;
   Vector sums[parts] = {};
@@ -45,33 +36,15 @@ struct Accumulator {
   }
 };
 
-double scaled_difference(std::size_t count, const double* __restrict factor, const double* __restrict a,
-                         const double* __restrict b, double* __restrict difference) {
-  Accumulator sum;
-  std::size_t t = 0;
-  for (; t + sum_lanes <= count; t += sum_lanes) {
-    for (std::size_t part = 0; part < Accumulator::parts; ++part) {
-      const std::size_t at = t + part * lanes;
-      const Vector d = load<Vector>(a + at) - load<Vector>(b + at);
-      const Vector scaled = load<Vector>(factor + at) * d;
-      store<Vector>(difference + at, scaled);
-      sum.sums[part] += d * scaled;
-    }
-  }
-  return sum.total_with(t, count, [&](std::size_t rest) {
-    const double d = a[rest] - b[rest];
-    difference[rest] = factor[rest] * d;
-    return d * difference[rest];
-  });
-}
-
 /// The dot products of `many` vectors with one, in one pass over that one.
 template <int many>
 inline void dots_of(std::size_t count, const double* const* vectors, const double* with, double* results) {
-  Accumulator sum[many];
+  // One sum by itself takes more lanes, so that an addition waits for fewer others.
+  constexpr int width = many == 1 ? 2 * sum_lanes : sum_lanes;
+  Accumulator<width> sum[many];
   std::size_t t = 0;
-  for (; t + sum_lanes <= count; t += sum_lanes) {
-    for (std::size_t part = 0; part < Accumulator::parts; ++part) {
+  for (; t + width <= count; t += width) {
+    for (std::size_t part = 0; part < Accumulator<width>::parts; ++part) {
       const std::size_t at = t + part * lanes;
       const Vector value = load<Vector>(with + at);
       for (int k = 0; k < many; ++k) sum[k].sums[part] += load<Vector>(vectors[k] + at) * value;

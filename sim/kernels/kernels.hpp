@@ -15,15 +15,44 @@ struct Columns {
   T* z;
 };
 
-/// How many springs a kernel is given at most: its scratch arrays live on the stack and stay in the first-level cache.
-inline constexpr int kernel_springs = 256;
+/// How many springs or vertices a kernel is given at most: its scratch stays in the first-level cache.
+inline constexpr int kernel_size = 256;
 
-/// Springs (i+t, j+t), t < count, each with its stiffness and rest length. Consecutive springs touch
-/// consecutive vertices, so everything is read and written in order.
-struct SpringRun {
-  int i, j, count;
+/// How many bands a stretch can have.
+inline constexpr int max_bands = 8;
+
+/// Springs (v, v + offset) of consecutive vertices v, one each: zero stiffness where the cloth has none. The pointers
+/// are to the spring of a stretch's first vertex.
+struct SpringBand {
+  int offset;
   const double* stiffness;    ///< [N/m]
   const double* rest_length;  ///< [m]
+  Columns<double> force;      ///< scratch; the forces of the `offset` springs before the stretch lie before it [N]
+};
+
+/// Consecutive vertices and the bands of springs that begin at them.
+struct SpringStretch {
+  int count;           ///< vertices, at most kernel_size
+  int vertices_after;  ///< how many vertices the cloth has after them
+  const SpringBand* bands;
+  int band_count;  ///< by offset, the largest last
+};
+
+/// What an explicit step does with the springs' gradient: velocity += factor·(∇E − force), then
+/// position += h·velocity. For the vertices of a stretch.
+struct SpringKick {
+  const double* factor;         ///< −h/m, 0 on pins [s/kg]
+  Columns<const double> force;  ///< of everything that is not in a band [N]
+  double h;                     ///< [s]
+  Columns<double> velocity;     ///< [m/s]
+  Columns<double> position;     ///< [m]
+};
+
+/// What an implicit step's objective adds to the springs' energy: Σ factor/2 (x − y)². For the vertices of a stretch.
+struct SpringInertia {
+  const double* factor;      ///< m/h² [N/m]
+  Columns<const double> y;   ///< [m]
+  Columns<double> gradient;  ///< receives the gradient of both [N]
 };
 
 /// Springs (i[t], j[t]), t < count, in any order.
@@ -78,32 +107,40 @@ struct Kernels {
   int (*supported)();     ///< whether this processor can run them
 
   /// gradient += ∇E of the springs, E = Σ k/2 (‖x_i − x_j‖ − L)² [N]. The `value` versions return E [J].
-  void (*add_run_gradient)(const SpringRun&, Columns<const double> positions, Columns<double> gradient);
   void (*add_list_gradient)(const SpringList&, Columns<const double> positions, Columns<double> gradient);
-  double (*add_run_value_gradient)(const SpringRun&, Columns<const double> positions, Columns<double> gradient);
   double (*add_list_value_gradient)(const SpringList&, Columns<const double> positions, Columns<double> gradient);
+  double (*add_band_value_gradient)(const SpringStretch&, Columns<const double> positions, Columns<double> gradient);
+  /// Computes the gradient of inertia and bands; returns the value of both [J].
+  double (*evaluate_bands)(const SpringStretch&, Columns<const double> positions, const SpringInertia&);
+  /// Moves the vertices of a stretch by an explicit step. Stretches must be given in their order.
+  void (*kick_bands)(const SpringStretch&, const SpringKick&);
 
   /// The springs' positive semi-definite Hessian blocks at some positions, see SpringNetwork.
-  void (*run_blocks)(const SpringRun&, Columns<const double> positions, SpringBlocks);
+  void (*band_blocks)(const SpringBand&, int springs, Columns<const double> positions, SpringBlocks);
   void (*list_blocks)(const SpringList&, Columns<const double> positions, SpringBlocks);
-  /// product += the springs' Hessian times `vector`.
-  void (*add_run_product)(const SpringRun&, ConstSpringBlocks, Columns<const double> vector, Columns<double> product);
+  /// product += the springs' Hessian times `vector`; `blocks` has one entry for each band.
+  void (*add_band_product)(const SpringStretch&, const ConstSpringBlocks* blocks, Columns<const double> vector,
+                           Columns<double> product);
   void (*add_list_product)(const SpringList&, ConstSpringBlocks, Columns<const double> vector, Columns<double> product);
 
   /// to += factor[t]·from[t] for t < count.
   void (*add_scaled)(std::size_t count, const double* factor, const double* from, double* to);
   /// to += factor·from for count numbers.
   void (*add_multiple)(std::size_t count, double factor, const double* from, double* to);
-  /// difference = factor[t]·(a[t] − b[t]) for t < count; returns Σ (a[t] − b[t])·difference[t].
-  double (*scaled_difference)(std::size_t count, const double* factor, const double* a, const double* b,
-                              double* difference);
-  /// velocity += factor[t]·(gradient[t] − force[t]), then position += h·velocity, for t < count; clears the gradient.
-  void (*kick_and_drift)(std::size_t count, const double* factor, const double* force, double h, double* gradient,
-                         double* velocity, double* position);
   /// results[k] = Σ vectors[k][t]·with[t] for k < many, t < count.
   void (*dots)(std::size_t count, int many, const double* const* vectors, const double* with, double* results);
   /// to += Σ factors[k]·vectors[k] for k < many, count numbers each.
   void (*add_multiples)(std::size_t count, int many, const double* const* vectors, const double* factors, double* to);
+
+  /// packed[4·row[v] + axis] = from[axis][v] for v < count; the fourth number of a row is zero.
+  void (*pack_single)(int count, Columns<const double> from, const int* row, float* packed);
+  void (*pack_double)(int count, Columns<const double> from, const int* row, double* packed);
+  /// to[axis][v] = packed[4·row[v] + axis] for v < count.
+  void (*unpack_single)(int count, const float* packed, const int* row, Columns<double> to);
+  void (*unpack_double)(int count, const double* packed, const int* row, Columns<double> to);
+  /// from[axis][v] −= packed[4·row[v] + axis] for v < count; returns the sum of the squares of what it subtracts.
+  double (*subtract_packed_single)(int count, const float* packed, const int* row, Columns<double> from);
+  double (*subtract_packed_double)(int count, const double* packed, const int* row, Columns<double> from);
 
   /// x = L⁻ᵀ L⁻¹ x for four right-hand sides, side by side in each row of x (4n numbers).
   void (*solve_single)(const PackedTriangle<float>&, float* x);

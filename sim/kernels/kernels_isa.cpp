@@ -3,6 +3,8 @@
 // of a header: the linker would keep one copy for the whole program, perhaps the one that an older processor cannot
 // run.
 
+#include "sim/kernels/isa_bands.hpp"
+#include "sim/kernels/isa_packing.hpp"
 #include "sim/kernels/isa_springs.hpp"
 #include "sim/kernels/isa_triangle.hpp"
 #include "sim/kernels/isa_vectors.hpp"
@@ -35,20 +37,25 @@ int supported() {
 constexpr Kernels DRAPE_TABLE = {
     .name = DRAPE_STRING(DRAPE_KERNELS),
     .supported = supported,
-    .add_run_gradient = add_gradient<SpringRun>,
-    .add_list_gradient = add_gradient<SpringList>,
-    .add_run_value_gradient = add_value_gradient<SpringRun>,
-    .add_list_value_gradient = add_value_gradient<SpringList>,
-    .run_blocks = run_blocks,
+    .add_list_gradient = add_list_gradient,
+    .add_list_value_gradient = add_list_value_gradient,
+    .add_band_value_gradient = add_band_value_gradient,
+    .evaluate_bands = evaluate_bands,
+    .kick_bands = kick_bands,
+    .band_blocks = band_blocks,
     .list_blocks = list_blocks,
-    .add_run_product = add_product<SpringRun>,
-    .add_list_product = add_product<SpringList>,
+    .add_band_product = add_band_product,
+    .add_list_product = add_list_product,
     .add_scaled = add_scaled,
     .add_multiple = add_multiple,
-    .scaled_difference = scaled_difference,
-    .kick_and_drift = kick_and_drift,
     .dots = dots,
     .add_multiples = add_multiples,
+    .pack_single = pack<FourSingles, float>,
+    .pack_double = pack<FourDoubles, double>,
+    .unpack_single = unpack<FourSingles, float>,
+    .unpack_double = unpack<FourDoubles, double>,
+    .subtract_packed_single = subtract_packed<FourSingles, float>,
+    .subtract_packed_double = subtract_packed<FourDoubles, double>,
     .solve_single = solve_packed<FourSingles, float>,
     .solve_double = solve_packed<FourDoubles, double>,
 };

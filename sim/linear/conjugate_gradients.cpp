@@ -22,6 +22,7 @@ ConjugateGradients::ConjugateGradients(const System& system, const StepObjective
       search_(residual_),
       product_(residual_) {
   if (!system.energies.empty()) diagonal_.resize(residual_.rows(), 6);
+  for (const auto& energy : system.coupled_energies) coupled_.push_back(energy->make_hessian());
 }
 
 void ConjugateGradients::solve(const Vertices& x, const Vertices& gradient, Vertices& direction) {
@@ -51,6 +52,7 @@ void ConjugateGradients::solve(const Vertices& x, const Vertices& gradient, Vert
 
 void ConjugateGradients::linearise(const Vertices& x) {
   objective_.springs().compute_blocks(x, blocks_);
+  for (const auto& hessian : coupled_) hessian->linearise(x);
   diagonal_.setZero();
   for (const auto& energy : system_.energies) energy->add_hessian(x, objective_.time(), diagonal_);
 }
@@ -58,6 +60,7 @@ void ConjugateGradients::linearise(const Vertices& x) {
 void ConjugateGradients::apply(const Vertices& vector, Vertices& product) const {
   product = vector.array().colwise() * objective_.inertia().array();
   objective_.springs().add_product(blocks_, vector, product);
+  for (const auto& hessian : coupled_) hessian->add_product(vector, product);
   if (diagonal_.rows() > 0) {
     const auto v = vector.array();
     const auto b = diagonal_.array();

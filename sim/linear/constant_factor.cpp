@@ -1,6 +1,7 @@
 #include "sim/linear/constant_factor.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "sim/kernels/vertices.hpp"
@@ -19,7 +20,8 @@ struct Matrix {
 };
 
 Matrix assemble(const System& system, const FreeVertices& free) {
-  Matrix matrix{.pattern = spring_pattern(system.springs, free), .values = {}};
+  const std::vector<Spring> springs = system.stiffness_bound();
+  Matrix matrix{.pattern = spring_pattern(springs, free), .values = {}};
   matrix.values.assign(static_cast<std::size_t>(matrix.pattern.entries()), 0.0);
   auto& [starts, rows] = matrix.pattern;
   const auto at = [&](int row, int column) -> double& {
@@ -30,7 +32,7 @@ Matrix assemble(const System& system, const FreeVertices& free) {
   Eigen::VectorXd diagonal = system.cloth.masses / (system.step * system.step);
   for (const auto& energy : system.energies) energy->add_bound(diagonal);
   for (int f = 0; f < free.count(); ++f) at(f, f) = diagonal[free.vertex(f)];
-  for (const Spring& spring : system.springs) {
+  for (const Spring& spring : springs) {
     const int i = free.number(spring.i), j = free.number(spring.j);
     if (i >= 0) at(i, i) += spring.stiffness;
     if (j >= 0) at(j, j) += spring.stiffness;
@@ -39,15 +41,31 @@ Matrix assemble(const System& system, const FreeVertices& free) {
   return matrix;
 }
 
-void solve_packed(const PackedTriangle<float>& triangle, float* x) { kernels().solve_single(triangle, x); }
-void solve_packed(const PackedTriangle<double>& triangle, double* x) { kernels().solve_double(triangle, x); }
+/// The kernels for a number type.
+template <class T>
+struct Substitution;
+template <>
+struct Substitution<float> {
+  static constexpr auto pack = &Kernels::pack_single;
+  static constexpr auto solve = &Kernels::solve_single;
+  static constexpr auto unpack = &Kernels::unpack_single;
+  static constexpr auto subtract = &Kernels::subtract_packed_single;
+};
+template <>
+struct Substitution<double> {
+  static constexpr auto pack = &Kernels::pack_double;
+  static constexpr auto solve = &Kernels::solve_double;
+  static constexpr auto unpack = &Kernels::unpack_double;
+  static constexpr auto subtract = &Kernels::subtract_packed_double;
+};
 
 }  // namespace
 
-ConstantFactor::ConstantFactor(const System& system, Precision precision)
-    : vertex_count_(system.cloth.vertex_count()), pins_(system.cloth.pins) {
+ConstantFactor::ConstantFactor(const System& system, Precision precision) : vertex_count_(system.cloth.vertex_count()) {
   const FreeVertices free(system.cloth);
-  if (free.count() == 0) return;
+  row_count_ = free.count();
+  row_.assign(static_cast<std::size_t>(vertex_count_), row_count_);
+  if (row_count_ == 0) return;
   const Matrix matrix = assemble(system, free);
   SparseCholesky factor(matrix.pattern, FactorKind::simplicial, false,
                         tolerated_zeros * (sizeof(double) + sizeof(float)));
@@ -55,7 +73,9 @@ ConstantFactor::ConstantFactor(const System& system, Precision precision)
     throw std::domain_error("the cloth's constant matrix is not positive definite to working precision");
   }
 
-  for (int row = 0; row < free.count(); ++row) vertices_.push_back(free.vertex(factor.permutation()[row]));
+  for (int row = 0; row < row_count_; ++row) {
+    row_[static_cast<std::size_t>(free.vertex(factor.permutation()[row]))] = row;
+  }
   const auto columns = factor.columns();
   find_panels(columns);
   if (precision != Precision::single_precision) copy(columns, double_);
@@ -70,7 +90,7 @@ ConstantFactor::ConstantFactor(const System& system, Precision precision)
 }
 
 void ConstantFactor::find_panels(const SparseCholesky::Columns& columns) {
-  const int n = static_cast<int>(vertices_.size());
+  const int n = row_count_;
   for (int first = 0; first < n;) {
     // The next column shares the rows of this one if it is its parent in the elimination tree: the first row below.
     Panel panel{.first = first, .width = 1, .row_count = columns.counts[first] - 1};
@@ -94,9 +114,10 @@ void ConstantFactor::find_panels(const SparseCholesky::Columns& columns) {
 
 template <class T>
 void ConstantFactor::copy(const SparseCholesky::Columns& columns, Triangle<T>& triangle) const {
-  triangle.scratch.assign(4 * vertices_.size(), T{0});
+  const auto n = static_cast<std::size_t>(row_count_);
+  triangle.scratch.assign(4 * (n + 1), T{0});
   triangle.values.assign(entries_, T{0});
-  std::vector<int> place(vertices_.size());  // of a row among those below the panel
+  std::vector<int> place(n);  // of a row among those below the panel
   const int* rows = rows_.data();
   T* values = triangle.values.data();
   for (const Panel& panel : panels_) {
@@ -126,37 +147,40 @@ void ConstantFactor::copy(const SparseCholesky::Columns& columns, Triangle<T>& t
 }
 
 template <class T>
-void ConstantFactor::solve_with(Triangle<T>& triangle, const Vertices& b, Vertices& x) const {
-  const auto from = columns(b);
-  const auto to = columns(x);
+void ConstantFactor::solve_packed(Triangle<T>& triangle, const Vertices& b) const {
   T* packed = triangle.scratch.data();
-  for (const int vertex : vertices_) {
-    packed[0] = static_cast<T>(from.x[vertex]);
-    packed[1] = static_cast<T>(from.y[vertex]);
-    packed[2] = static_cast<T>(from.z[vertex]);
-    packed += 4;
-  }
-  const PackedTriangle<T> view{.panels = panels_.data(),
-                               .panel_count = static_cast<int>(panels_.size()),
-                               .rows = rows_.data(),
-                               .values = triangle.values.data()};
-  solve_packed(view, triangle.scratch.data());
-  packed = triangle.scratch.data();
-  for (const int vertex : vertices_) {
-    to.x[vertex] = static_cast<double>(packed[0]);
-    to.y[vertex] = static_cast<double>(packed[1]);
-    to.z[vertex] = static_cast<double>(packed[2]);
-    packed += 4;
-  }
+  (kernels().*Substitution<T>::pack)(vertex_count_, columns(b), row_.data(), packed);
+  (kernels().*Substitution<T>::solve)({.panels = panels_.data(),
+                                       .panel_count = static_cast<int>(panels_.size()),
+                                       .rows = rows_.data(),
+                                       .values = triangle.values.data()},
+                                      packed);
+  std::fill_n(packed + 4 * static_cast<std::size_t>(row_count_), 4, T{0});
+}
+
+template <class T>
+void ConstantFactor::solve_with(Triangle<T>& triangle, const Vertices& b, Vertices& x) const {
+  solve_packed(triangle, b);
+  (kernels().*Substitution<T>::unpack)(vertex_count_, triangle.scratch.data(), row_.data(), columns(x));
 }
 
 void ConstantFactor::solve(const Vertices& b, Vertices& x) {
-  for (const int pin : pins_) x.row(pin).setZero();
-  if (single_precision()) {
+  if (row_count_ == 0) {
+    x.setZero();
+  } else if (single_precision()) {
     solve_with(single_, b, x);
   } else {
     solve_with(double_, b, x);
   }
+}
+
+double ConstantFactor::subtract_solution(const Vertices& b, Vertices& x) {
+  const auto subtract = [&]<class T>(Triangle<T>& triangle) {
+    solve_packed(triangle, b);
+    return (kernels().*Substitution<T>::subtract)(vertex_count_, triangle.scratch.data(), row_.data(), columns(x));
+  };
+  if (row_count_ == 0) return 0;
+  return std::sqrt(single_precision() ? subtract(single_) : subtract(double_));
 }
 
 bool ConstantFactor::single_suffices() {

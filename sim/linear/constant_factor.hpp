@@ -13,7 +13,7 @@ namespace drape {
 enum class Precision { automatic, single_precision, double_precision };
 
 /// A⁻¹ for the constant matrix of Liu et al. 2013 (their M + h²L, divided by h²):
-///   A = M/h² + Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ + the bounds of the system's other energies,
+///   A = M/h² + Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ + the bounds of the system's energies,
 /// over the free vertices; the same n×n matrix for x, y and z. No Hessian of g exceeds it, so x − A⁻¹∇g(x) is the
 /// local/global step, and it never raises g.
 ///
@@ -26,6 +26,8 @@ class ConstantFactor {
 
   /// x = A⁻¹ b for n×3 numbers; rows of pins are ignored in b and zero in x. Allocates nothing. [N] → [m]
   void solve(const Vertices& b, Vertices& x);
+  /// x −= A⁻¹ b, the same numbers in one pass less; returns ‖A⁻¹ b‖.
+  double subtract_solution(const Vertices& b, Vertices& x);
 
   [[nodiscard]] bool single_precision() const { return !single_.values.empty(); }
   /// Numbers stored for L, the zeros within panels included.
@@ -35,20 +37,22 @@ class ConstantFactor {
   template <class T>
   struct Triangle {
     std::vector<T> values;   // see PackedTriangle
-    std::vector<T> scratch;  // 4n: x, y, z and nothing of each row
+    std::vector<T> scratch;  // 4(n+1): x, y, z and nothing of each row, the last that of pins
   };
 
   void find_panels(const SparseCholesky::Columns& columns);
   template <class T>
   void copy(const SparseCholesky::Columns& columns, Triangle<T>& triangle) const;
   template <class T>
+  void solve_packed(Triangle<T>& triangle, const Vertices& b) const;
+  template <class T>
   void solve_with(Triangle<T>& triangle, const Vertices& b, Vertices& x) const;
   [[nodiscard]] bool single_suffices();
 
   int vertex_count_;
-  std::vector<int> pins_;
   std::size_t entries_ = 0;
-  std::vector<int> vertices_;  // the vertex of each row of L
+  int row_count_ = 0;     // of L
+  std::vector<int> row_;  // of each vertex; row_count_ for pins
   std::vector<Panel> panels_;
   std::vector<int> rows_;  // below each panel, one panel after another
   Triangle<float> single_;

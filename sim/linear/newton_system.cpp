@@ -62,11 +62,11 @@ NewtonSystem::NewtonSystem(const System& system, const StepObjective& objective)
     : system_(system), objective_(objective) {
   const FreeVertices free(system.cloth);
   const int n = free.count();
-  places_.assign(system.springs.size(), Place{-1, -1, 0});
   if (n == 0) return;
 
   // A fill-reducing order of the vertices is one of their 3×3 blocks too, found nine times faster.
-  const LowerPattern graph = spring_pattern(system.springs, free);
+  const std::vector<Spring> springs = system.stiffness_bound();
+  const LowerPattern graph = spring_pattern(springs, free);
   const SparseCholesky analysis(graph, FactorKind::simplicial, false);
   auto rank = std::vector<int>(static_cast<Index>(n));
   for (int row = 0; row < n; ++row) {
@@ -77,21 +77,29 @@ NewtonSystem::NewtonSystem(const System& system, const StepObjective& objective)
   }
 
   const LowerPattern blocks = permuted(graph, rank);
-  for (Index s = 0; s < system.springs.size(); ++s) {
-    const int i = free.number(system.springs[s].i), j = free.number(system.springs[s].j);
+  for (const Spring& spring : springs) {
+    const int i = free.number(spring.i), j = free.number(spring.j);
     const auto [low, high] = std::minmax({i < 0 ? -1 : rank[Index(i)], j < 0 ? -1 : rank[Index(j)]});
-    places_[s] = {low, high, 0};
+    places_.push_back({low, high, 0});
     if (low < 0) continue;
     const auto begin = blocks.rows.begin() + blocks.starts[Index(low)];
     const auto end = blocks.rows.begin() + blocks.starts[Index(low) + 1];
-    places_[s].rank = static_cast<int>(std::lower_bound(begin, end, high) - begin) - 1;
+    places_.back().rank = static_cast<int>(std::lower_bound(begin, end, high) - begin) - 1;
   }
+  for (const auto& energy : system.coupled_energies) coupled_.push_back(energy->make_hessian());
 
   const LowerPattern pattern = expanded(blocks);
   column_starts_.assign(pattern.starts.begin(), pattern.starts.end() - 1);
   values_.resize(Index(pattern.entries()));
   right_hand_side_.resize(3 * Index(n));
   factor_.emplace_back(pattern, n <= largest_simplicial ? FactorKind::simplicial : FactorKind::supernodal, true);
+}
+
+void NewtonSystem::add(const Place& place, const Eigen::Matrix3d& block) {
+  if (place.high >= 0) add_diagonal(place.high, block);
+  if (place.low < 0) return;
+  add_diagonal(place.low, block);
+  add_below(place.low, place.rank, -block);
 }
 
 void NewtonSystem::add_diagonal(int row, const Eigen::Matrix3d& block) {
@@ -113,18 +121,23 @@ void NewtonSystem::factorize(const Vertices& x) {
   for (Index row = 0; row < inertia_.size(); ++row) {
     add_diagonal(static_cast<int>(row), inertia_[row] * Eigen::Matrix3d::Identity());
   }
-  for (Index s = 0; s < places_.size(); ++s) {
-    const Place& place = places_[s];
-    if (place.high < 0) continue;
-    const Eigen::Matrix3d block = spring_hessian(system_.springs[s], x);
-    add_diagonal(place.high, block);
-    if (place.low < 0) continue;
-    add_diagonal(place.low, block);
-    add_below(place.low, place.rank, -block);
+  for (Index s = 0; s < system_.springs.size(); ++s) {
+    if (places_[s].high >= 0) add(places_[s], spring_hessian(system_.springs[s], x));
   }
+  add_coupled_energies(x);
   add_energies(x);
   if (!factor_.front().factorize(values_.data())) {
     throw std::domain_error("Newton's matrix is not positive definite to working precision");
+  }
+}
+
+void NewtonSystem::add_coupled_energies(const Vertices& x) {
+  const Place* place = places_.data() + system_.springs.size();
+  for (Index e = 0; e < coupled_.size(); ++e) {
+    coupled_[e]->linearise(x);
+    blocks_.assign(system_.coupled_energies[e]->bound().size(), Eigen::Matrix3d::Zero());
+    coupled_[e]->add_blocks(blocks_);
+    for (const Eigen::Matrix3d& block : blocks_) add(*place++, block);
   }
 }
 

@@ -40,15 +40,15 @@ bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 struct Springs {
   static constexpr std::size_t vertices = 600;
   std::vector<double> positions = numbers(3 * vertices, 1);
-  std::vector<double> stiffness = numbers(kernel_springs, 2);
-  std::vector<double> rest_length = numbers(kernel_springs, 3);
+  std::vector<double> stiffness = numbers(kernel_size, 2);
+  std::vector<double> rest_length = numbers(kernel_size, 3);
   std::vector<int> i, j;
 
   Springs() {
     Random random(4);
     for (double& k : stiffness) k = 200 * std::abs(k);
     for (double& length : rest_length) length = std::abs(length);
-    for (int t = 0; t < kernel_springs; ++t) {
+    for (int t = 0; t < kernel_size; ++t) {
       i.push_back(random.below(40));  // few, so that many springs share a vertex
       j.push_back(40 + random.below(500));
     }
@@ -62,11 +62,35 @@ struct Springs {
   static Columns<double> columns(std::vector<double>& gradient) {
     return {gradient.data(), gradient.data() + vertices, gradient.data() + 2 * vertices};
   }
-  [[nodiscard]] SpringRun run(int first, int offset, int count) const {
-    return {first, first + offset, count, stiffness.data(), rest_length.data()};
-  }
   [[nodiscard]] SpringList list(int count) const {
     return {i.data(), j.data(), count, stiffness.data(), rest_length.data()};
+  }
+};
+
+/// Bands of springs on a stretch of vertices, with what the stretches before it left behind.
+struct Bands {
+  static constexpr std::size_t lead = 64, size = lead + kernel_size;
+  Springs springs;
+  std::vector<double> stiffness = numbers(max_bands * kernel_size, 13),
+                      rest_length = numbers(max_bands * kernel_size, 14);
+  std::vector<double> forces = numbers(3 * max_bands * size, 15);
+  std::vector<SpringBand> bands;
+
+  explicit Bands(std::initializer_list<int> offsets) {
+    for (const int offset : offsets) {
+      const std::size_t b = bands.size();
+      double* force = forces.data() + 3 * b * size + lead;
+      bands.push_back({.offset = offset,
+                       .stiffness = stiffness.data() + b * kernel_size,
+                       .rest_length = rest_length.data() + b * kernel_size,
+                       .force = {force, force + size, force + 2 * size}});
+    }
+  }
+  Bands(const Bands&) = delete;
+  Bands& operator=(const Bands&) = delete;
+  [[nodiscard]] SpringStretch stretch(int count, int after) const {
+    return {
+        .count = count, .vertices_after = after, .bands = bands.data(), .band_count = static_cast<int>(bands.size())};
   }
 };
 
@@ -124,20 +148,6 @@ class KernelsVersion : public testing::TestWithParam<const Kernels*> {
 INSTANTIATE_TEST_SUITE_P(For, KernelsVersion, testing::ValuesIn(all_kernels().begin(), all_kernels().end()),
                          [](const auto& info_) { return std::string(info_.param->name); });
 
-TEST_P(KernelsVersion, AddsTheSameRunGradient) {
-  const Springs springs;
-  for (const int count : counts) {
-    for (const int first : {0, 1, 3, 6}) {
-      for (const int offset : {1, 2, 3, 21, 40, 64}) {
-        std::vector<double> a = numbers(springs.positions.size(), 7), b = a;
-        reference.add_run_gradient(springs.run(first, offset, count), springs.columns(), Springs::columns(a));
-        tested.add_run_gradient(springs.run(first, offset, count), springs.columns(), Springs::columns(b));
-        ASSERT_TRUE(same(a, b)) << count << " springs from " << first << ", " << offset << " apart";
-      }
-    }
-  }
-}
-
 TEST_P(KernelsVersion, AddsTheSameListGradient) {
   const Springs springs;
   for (const int count : counts) {
@@ -151,14 +161,6 @@ TEST_P(KernelsVersion, AddsTheSameListGradient) {
 TEST_P(KernelsVersion, FindsTheSameEnergiesWithTheGradient) {
   const Springs springs;
   for (const int count : counts) {
-    for (const int first : {0, 1, 3, 6}) {
-      std::vector<double> a = numbers(springs.positions.size(), 7), b = a;
-      const SpringRun run = springs.run(first, 21, count);
-      ASSERT_TRUE(same(reference.add_run_value_gradient(run, springs.columns(), Springs::columns(a)),
-                       tested.add_run_value_gradient(run, springs.columns(), Springs::columns(b))))
-          << count << " springs from " << first;
-      ASSERT_TRUE(same(a, b)) << count << " springs from " << first;
-    }
     std::vector<double> a = numbers(springs.positions.size(), 7), b = a;
     ASSERT_TRUE(same(reference.add_list_value_gradient(springs.list(count), springs.columns(), Springs::columns(a)),
                      tested.add_list_value_gradient(springs.list(count), springs.columns(), Springs::columns(b))))
@@ -169,7 +171,7 @@ TEST_P(KernelsVersion, FindsTheSameEnergiesWithTheGradient) {
 
 TEST_P(KernelsVersion, FindsTheSameBlocksAndProducts) {
   const Springs springs;
-  constexpr std::size_t n = kernel_springs;
+  constexpr std::size_t n = kernel_size;
   const auto blocks_in = [](std::vector<double>& v) -> SpringBlocks {
     return {v.data(), {v.data() + n, v.data() + 2 * n, v.data() + 3 * n}};
   };
@@ -182,20 +184,69 @@ TEST_P(KernelsVersion, FindsTheSameBlocksAndProducts) {
   for (const int count : counts) {
     std::vector<double> a(4 * n, 0), b = a;
     std::vector<double> c = numbers(springs.positions.size(), 7), d = c;
-    const SpringRun run = springs.run(3, 21, count);
-    reference.run_blocks(run, springs.columns(), blocks_in(a));
-    tested.run_blocks(run, springs.columns(), blocks_in(b));
-    ASSERT_TRUE(same(a, b)) << count << " springs in a run";
-    reference.add_run_product(run, blocks_of(a), factors, Springs::columns(c));
-    tested.add_run_product(run, blocks_of(a), factors, Springs::columns(d));
-    ASSERT_TRUE(same(c, d)) << count << " springs in a run";
-
     reference.list_blocks(springs.list(count), springs.columns(), blocks_in(a));
     tested.list_blocks(springs.list(count), springs.columns(), blocks_in(b));
     ASSERT_TRUE(same(a, b)) << count << " springs in a list";
     reference.add_list_product(springs.list(count), blocks_of(a), factors, Springs::columns(c));
     tested.add_list_product(springs.list(count), blocks_of(a), factors, Springs::columns(d));
     ASSERT_TRUE(same(c, d)) << count << " springs in a list";
+  }
+}
+
+TEST_P(KernelsVersion, SweepsBandsAlike) {
+  using Offsets = std::initializer_list<int>;
+  for (const Offsets offsets : {Offsets{}, Offsets{1}, Offsets{2, 3, 21}, Offsets{1, 20, 21, 40, 64}}) {
+    for (const int count : counts) {
+      for (const int after : {0, 1, 20, 64}) {
+        Bands a(offsets), b(offsets);
+        const auto what = testing::Message() << count << " vertices, " << offsets.size() << " bands, " << after;
+        std::vector<double> to_a = numbers(a.springs.positions.size(), 7), to_b = to_a;
+        ASSERT_TRUE(same(
+            reference.add_band_value_gradient(a.stretch(count, after), a.springs.columns(), Springs::columns(to_a)),
+            tested.add_band_value_gradient(b.stretch(count, after), b.springs.columns(), Springs::columns(to_b))))
+            << what;
+        ASSERT_TRUE(same(to_a, to_b) && same(a.forces, b.forces)) << what;
+
+        const std::vector<double> factor = numbers(kernel_size, 8), y = numbers(a.springs.positions.size(), 9);
+        const Columns<const double> y_columns{y.data(), y.data() + Springs::vertices, y.data() + 2 * Springs::vertices};
+        ASSERT_TRUE(same(reference.evaluate_bands(a.stretch(count, after), a.springs.columns(),
+                                                  {factor.data(), y_columns, Springs::columns(to_a)}),
+                         tested.evaluate_bands(b.stretch(count, after), b.springs.columns(),
+                                               {factor.data(), y_columns, Springs::columns(to_b)})))
+            << what;
+        ASSERT_TRUE(same(to_a, to_b)) << what;
+
+        reference.kick_bands(a.stretch(count, after), {factor.data(), y_columns, 0.013, Springs::columns(to_a),
+                                                       Springs::columns(a.springs.positions)});
+        tested.kick_bands(b.stretch(count, after), {factor.data(), y_columns, 0.013, Springs::columns(to_b),
+                                                    Springs::columns(b.springs.positions)});
+        ASSERT_TRUE(same(to_a, to_b) && same(a.springs.positions, b.springs.positions)) << what;
+      }
+    }
+  }
+}
+
+TEST_P(KernelsVersion, MultipliesBandsAlike) {
+  constexpr std::size_t n = kernel_size;
+  for (const int count : counts) {
+    Bands a({1, 21}), b({1, 21});
+    std::vector<double> blocks_a(8 * n, 0), blocks_b = blocks_a;
+    std::vector<ConstSpringBlocks> of_a, of_b;
+    for (std::size_t band = 0; band < 2; ++band) {
+      double* first = blocks_a.data() + 4 * n * band;
+      double* second = blocks_b.data() + 4 * n * band;
+      reference.band_blocks(a.bands[band], count, a.springs.columns(),
+                            {first, {first + n, first + 2 * n, first + 3 * n}});
+      tested.band_blocks(b.bands[band], count, b.springs.columns(),
+                         {second, {second + n, second + 2 * n, second + 3 * n}});
+      of_a.push_back({first, {first + n, first + 2 * n, first + 3 * n}});
+      of_b.push_back({second, {second + n, second + 2 * n, second + 3 * n}});
+    }
+    ASSERT_TRUE(same(blocks_a, blocks_b)) << count;
+    std::vector<double> c = numbers(a.springs.positions.size(), 7), d = c;
+    reference.add_band_product(a.stretch(count, 21), of_a.data(), a.springs.columns(), Springs::columns(c));
+    tested.add_band_product(b.stretch(count, 21), of_b.data(), b.springs.columns(), Springs::columns(d));
+    ASSERT_TRUE(same(c, d)) << count;
   }
 }
 
@@ -216,39 +267,10 @@ TEST_P(KernelsVersion, MultipliesAndAddsAlike) {
   }
 }
 
-TEST_P(KernelsVersion, KicksAndDriftsAlike) {
-  const std::vector<double> factor = numbers(300, 8), force = numbers(300, 9);
-  for (const int count : counts) {
-    for (const std::size_t from : {0U, 1U, 3U}) {
-      std::vector<double> gradient = numbers(300, 10), velocity = numbers(300, 11), position = numbers(300, 12);
-      std::vector<double> cleared = gradient, kicked = velocity, drifted = position;
-      const auto n = static_cast<std::size_t>(count);
-      for (std::size_t t = from; t < from + n; ++t) {
-        kicked[t] += factor[t] * (cleared[t] - force[t]);
-        drifted[t] += 0.013 * kicked[t];
-        cleared[t] = 0;
-      }
-      tested.kick_and_drift(n, factor.data() + from, force.data() + from, 0.013, gradient.data() + from,
-                            velocity.data() + from, position.data() + from);
-      ASSERT_TRUE(same(gradient, cleared) && same(velocity, kicked) && same(position, drifted))
-          << count << " from " << from;
-    }
-  }
-}
-
 TEST_P(KernelsVersion, SumsAlike) {
   const std::vector<double> a = numbers(300, 8), b = numbers(300, 9), c = numbers(300, 10);
   for (const int count : counts) {
     const auto n = static_cast<std::size_t>(count);
-    std::vector<double> ours = c, theirs = c;
-    double expected = 0;
-    for (std::size_t t = 0; t < n; ++t) expected += a[t] * (b[t] - c[t]) * (b[t] - c[t]);
-    const double sum = tested.scaled_difference(n, a.data(), b.data(), c.data(), ours.data());
-    ASSERT_TRUE(same(sum, reference.scaled_difference(n, a.data(), b.data(), c.data(), theirs.data()))) << count;
-    EXPECT_NEAR(sum, expected, 1e-13);
-    for (std::size_t t = 0; t < n; ++t) theirs[t] = a[t] * (b[t] - c[t]);
-    ASSERT_TRUE(same(ours, theirs)) << count;
-
     for (int many = 0; many <= 9; ++many) {
       std::vector<std::vector<double>> vectors;
       std::vector<const double*> pointers;
@@ -272,6 +294,43 @@ TEST_P(KernelsVersion, SumsAlike) {
       }
       for (std::size_t t = 0; t < plain.size(); ++t) EXPECT_NEAR(multiples[t], plain[t], 1e-14);
     }
+  }
+}
+
+TEST_P(KernelsVersion, PacksAndUnpacks) {
+  for (const int count : counts) {
+    const auto n = static_cast<std::size_t>(count);
+    const std::vector<double> from = numbers(3 * n, 31), before = numbers(3 * n, 32);
+    const auto columns = [n](auto& v) { return Columns{v.data(), v.data() + n, v.data() + 2 * n}; };
+    std::vector<int> row(n);  // a permutation: 7 has no common divisor with a power of two
+    for (std::size_t v = 0; v < n; ++v) row[v] = static_cast<int>(7 * v % 256);
+    std::vector<double> doubles(4 * 256, -1), there = before, difference = before;
+    std::vector<float> singles(4 * 256, -1);
+    tested.pack_double(count, columns(from), row.data(), doubles.data());
+    tested.pack_single(count, columns(from), row.data(), singles.data());
+    double squares = 0;
+    for (std::size_t v = 0; v < n; ++v) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto at = 4 * static_cast<std::size_t>(row[v]) + axis;
+        ASSERT_EQ(doubles[at], from[axis * n + v]);
+        ASSERT_EQ(singles[at], static_cast<float>(from[axis * n + v]));
+        squares += from[axis * n + v] * from[axis * n + v];
+      }
+    }
+    tested.unpack_double(count, doubles.data(), row.data(), columns(there));
+    ASSERT_TRUE(same(there, from)) << count;
+    const double sum = tested.subtract_packed_double(count, doubles.data(), row.data(), columns(difference));
+    for (std::size_t t = 0; t < 3 * n; ++t) ASSERT_EQ(difference[t], before[t] - from[t]);
+    EXPECT_NEAR(sum, squares, 1e-13 * squares);
+    std::vector<double> elsewhere = before;
+    ASSERT_TRUE(same(sum, reference.subtract_packed_double(count, doubles.data(), row.data(), columns(elsewhere))));
+
+    std::vector<double> rounded = before, same_rounded = before;
+    tested.unpack_single(count, singles.data(), row.data(), columns(there));
+    for (std::size_t t = 0; t < 3 * n; ++t) ASSERT_EQ(there[t], static_cast<double>(static_cast<float>(from[t])));
+    ASSERT_TRUE(same(tested.subtract_packed_single(count, singles.data(), row.data(), columns(rounded)),
+                     reference.subtract_packed_single(count, singles.data(), row.data(), columns(same_rounded))));
+    ASSERT_TRUE(same(rounded, same_rounded)) << count;
   }
 }
 

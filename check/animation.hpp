@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "check/golden.hpp"
+#include "check/report.hpp"
+#include "render/backend.hpp"
+#include "scene/scene.hpp"
+
+namespace drape {
+
+/// A GIF that shows expected, actual and difference side by side and repeats: of a changed motion the steps of the
+/// first window that changed, drawn alike, else the compared frames around the first picture that changed.
+/// @param windows of the golden, those that were compared
+/// @param folder  where it is written, as NAME/difference.gif
+/// @returns the file's bytes; empty if there is nothing to show
+/// @throws OutputError
+std::string difference_animation(const Scene& scene, const Golden& golden, const std::vector<GoldenWindow>& windows,
+                                 const SceneResult& result, GlBackend backend, const std::filesystem::path& folder);
+
+}  // namespace drape

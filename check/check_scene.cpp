@@ -1,0 +1,326 @@
+#include "check/check_scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "check/animation.hpp"
+#include "check/compare_motion.hpp"
+#include "check/draw_windows.hpp"
+#include "check/machine.hpp"
+#include "check/record_motion.hpp"
+#include "core/error.hpp"
+
+namespace drape {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::size_t thread_count(const CheckOptions& options) {
+  return options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+}
+
+/// Whether two views are the same but for rounding, which may differ between processors.
+bool near(const View& a, const View& b) {
+  constexpr double rounding = 1e-9;
+  return a.position.isApprox(b.position, rounding) && (a.target - b.target).norm() <= rounding * a.position.norm() &&
+         a.up.isApprox(b.up, rounding) && std::abs(a.field_of_view - b.field_of_view) <= rounding * a.field_of_view;
+}
+
+/// The windows of the wanted frames, and the motion's start.
+std::vector<GoldenWindow> windows_of(const Golden& golden, const std::vector<int>& frames, const fs::path& folder) {
+  if (frames.empty()) return golden.windows;
+  std::vector<int> known;
+  for (const GoldenWindow& window : golden.windows) {
+    if (window.frame) known.push_back(*window.frame);
+  }
+  for (const int frame : frames) {
+    if (std::find(known.begin(), known.end(), frame) == known.end()) {
+      throw UsageError(
+          fmt::format("--frames: {} has no frame {}, only {}", folder.string(), frame, fmt::join(known, ", ")));
+    }
+  }
+  std::vector<GoldenWindow> windows;
+  for (const GoldenWindow& window : golden.windows) {
+    const bool wanted = window.frame && std::find(frames.begin(), frames.end(), *window.frame) != frames.end();
+    if (!wanted && window.start.step > 0) continue;
+    windows.push_back(window);
+    if (!wanted) windows.back().frame.reset();
+  }
+  return windows;
+}
+
+/// One check of one scene, from its golden to its verdict.
+class SceneCheck {
+ public:
+  SceneCheck(const Scene& scene, const std::string& name, const CheckSettings& settings, const CheckOptions& options,
+             const std::stop_token& stop, Progress& progress)
+      : scene_(scene), settings_(settings), options_(options), stop_(stop), progress_(progress) {
+    result_.name = name;
+    result_.file = scene.file;
+    result_.golden = golden_folder(scene.file);
+    result_.settings = settings;
+    const Eigen::Vector2i size = picture_size(scene, settings);
+    result_.size = {size.x(), size.y()};
+  }
+
+  SceneResult run() {
+    if (!fs::exists(result_.golden / "manifest.json")) {
+      miss();
+    } else if (options_.update == UpdateMode::all) {
+      update("recorded anew");
+    } else {
+      compare();
+      if (result_.verdict == SceneVerdict::changed && options_.update == UpdateMode::changed) update("recorded anew");
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void miss() {
+    result_.verdict = SceneVerdict::missing;
+    if (options_.update == UpdateMode::none) {
+      result_.findings.push_back("there is no golden to compare with");
+    } else if (options_.update == UpdateMode::missing) {
+      bless_scene(scene_, settings_, options_.backend, stop_, progress_);
+      result_.findings.push_back("there was no golden to compare with; it has been recorded now: look at it");
+    } else {
+      update("recorded");
+    }
+  }
+
+  void update(const char* what) {
+    const auto blessing = bless_scene(scene_, settings_, options_.backend, stop_, progress_);
+    if (!blessing) return;
+    result_.verdict = SceneVerdict::updated;
+    result_.findings.insert(result_.findings.begin(), fmt::format("the golden was {}", what));
+  }
+
+  void compare() {
+    golden_ = read_golden(result_.golden);
+    check_precision();
+    windows_ = windows_of(golden_, options_.frames, result_.golden);
+    result_.recorded_at = golden_.date;
+    result_.recorded_on = golden_.machine;
+    result_.scene_changed = golden_.scene_digest != scene_.digest;
+
+    const std::string another_motion = motion_mismatch();
+    const std::string other_pictures = picture_mismatch();
+    if (another_motion.empty()) {
+      compare_window_motion();
+    } else {
+      fail_motion(another_motion);
+    }
+    if (!stop_.stop_requested()) {
+      if (other_pictures.empty()) {
+        compare_golden_pictures();
+      } else {
+        fail_pictures(other_pictures);
+      }
+    }
+    if (options_.end_to_end && another_motion.empty() && other_pictures.empty() && !stop_.stop_requested()) {
+      compare_end_to_end();
+    }
+    conclude();
+  }
+
+  void check_precision() const {
+    if (settings_.motion_tolerance > 0 && settings_.motion_tolerance < 2 * golden_.quantum) {
+      throw UsageError(
+          fmt::format("{} keeps positions to {:g} m, which cannot tell a motion_tolerance of {:g} m; bless "
+                      "the scene with that tolerance, or let it be 0 for the same bits",
+                      result_.golden.string(), golden_.quantum, settings_.motion_tolerance));
+    }
+  }
+
+  /// Why the motion is another one before any step of it is compared.
+  [[nodiscard]] std::string motion_mismatch() const {
+    if (const int count = scene_.simulation.cloth.vertex_count(); count != golden_.vertex_count) {
+      return fmt::format("the cloth has {} vertices, the golden one {}", count, golden_.vertex_count);
+    }
+    if (scene_.simulation.step != golden_.step) {
+      return fmt::format("a step is {} s long, in the golden {} s", scene_.simulation.step, golden_.step);
+    }
+    if (scene_.step_count() != golden_.step_count) {
+      return fmt::format("the motion has {} steps, the golden one {}", scene_.step_count(), golden_.step_count);
+    }
+    return {};
+  }
+
+  [[nodiscard]] std::string picture_mismatch() const {
+    if (scene_.simulation.cloth.vertex_count() != golden_.vertex_count) {
+      return "the pictures cannot be compared: the cloth has other vertices";
+    }
+    if (const Eigen::Vector2i size = picture_size(scene_, settings_); size != golden_.size) {
+      return fmt::format("the pictures have {}x{} pixels, the golden ones {}x{}", size.x(), size.y(), golden_.size.x(),
+                         golden_.size.y());
+    }
+    if (const double seconds = scene_.video.speed / scene_.video.fps; seconds != golden_.seconds_per_frame) {
+      return fmt::format("a frame of the film comes every {:g} s of the scene, in the golden every {:g} s", seconds,
+                         golden_.seconds_per_frame);
+    }
+    std::vector<int> recorded;
+    for (const GoldenWindow& window : golden_.windows) {
+      if (window.frame) recorded.push_back(*window.frame);
+    }
+    if (options_.frames.empty() && !settings_.frames.empty() && settings_.frames != recorded) {
+      return fmt::format("the frames {} are to be compared, the golden has {}", fmt::join(settings_.frames, ", "),
+                         fmt::join(recorded, ", "));
+    }
+    return {};
+  }
+
+  void compare_window_motion() {
+    progress_.begin("checking", "windows", static_cast<std::int64_t>(windows_.size()));
+    result_.windows.windows = compare_windows(scene_.simulation, windows_, settings_.motion_tolerance,
+                                              thread_count(options_), stop_, [this] { ++progress_.done; });
+    for (const WindowResult& window : result_.windows.windows) {
+      result_.windows.motion = std::max(result_.windows.motion, window.verdict);
+    }
+    if (result_.windows.motion == MotionVerdict::changed) {
+      result_.findings.push_back(describe_motion(result_.windows.windows));
+    }
+  }
+
+  /// The golden view, unless what it depends on has changed; then the motion is run to place the camera anew.
+  [[nodiscard]] View current_view() {
+    const Simulation simulation(scene_.simulation);
+    if (same_camera(scene_.camera, golden_.camera) &&
+        near(view_of_windows(scene_.camera, golden_.size, golden_.windows, simulation), golden_.window_view)) {
+      return golden_.view;
+    }
+    if (!needs_motion(scene_.camera)) return fixed_view(scene_.camera);
+    const auto recorded = record_motion(scene_, settings_, {}, stop_, progress_);
+    return recorded ? recorded->view : golden_.view;
+  }
+
+  void compare_golden_pictures() {
+    const View view = current_view();
+    if (stop_.stop_requested()) return;
+    DrawWindows drawing(scene_, golden_.size, view, options_.backend);
+    result_.renderer = drawing.renderer();
+    result_.windows.frames = drawing.compare(windows_, windows_, result_.golden, settings_.limits, stop_, progress_);
+    worst_picture(result_.windows);
+  }
+
+  void worst_picture(Comparison& comparison) {
+    int changed = 0;
+    const FrameResult* worst = nullptr;
+    for (const FrameResult& frame : comparison.frames) {
+      comparison.picture = std::max(comparison.picture, frame.difference.verdict);
+      if (frame.difference.verdict != PictureVerdict::changed) continue;
+      ++changed;
+      if (worst == nullptr || frame.difference.max_flip > worst->difference.max_flip) worst = &frame;
+    }
+    if (worst == nullptr) return;
+    const PictureDifference& d = worst->difference;
+    result_.findings.push_back(fmt::format(
+        "{} of {} pictures changed{}: frame {} by up to {} of 255 in {:.3g} % of the pixels, FLIP error up to {:.3f}",
+        changed, comparison.frames.size(), &comparison == &result_.windows ? "" : " end to end", worst->frame,
+        d.largest_channel, 100 * d.fraction, d.max_flip));
+  }
+
+  void compare_end_to_end() {
+    const std::vector<WindowPlan> plan = plan_of(windows_);
+    const auto recorded = record_motion(scene_, settings_, plan, stop_, progress_);
+    if (!recorded) return;
+    Comparison& whole = result_.end_to_end.emplace();
+    whole.windows = compare_starts(windows_, recorded->windows, settings_.motion_tolerance);
+    for (const WindowResult& window : whole.windows) whole.motion = std::max(whole.motion, window.verdict);
+    if (whole.motion == MotionVerdict::changed) {
+      result_.findings.push_back("end to end, " + describe_motion(whole.windows));
+    }
+    DrawWindows drawing(scene_, golden_.size, recorded->view, options_.backend);
+    whole.frames = drawing.compare(windows_, recorded->windows, result_.golden, settings_.limits, stop_, progress_);
+    worst_picture(whole);
+    find_first_bad(whole);
+  }
+
+  [[nodiscard]] static std::vector<WindowPlan> plan_of(const std::vector<GoldenWindow>& windows) {
+    std::vector<WindowPlan> plan;
+    for (const GoldenWindow& window : windows) {
+      plan.push_back({window.frame, window.time, window.start.step, window.start.step});
+    }
+    return plan;
+  }
+
+  static void find_first_bad(Comparison& comparison) {
+    const auto offer = [&](int frame) {
+      comparison.first_bad_frame = std::min(comparison.first_bad_frame.value_or(frame), frame);
+    };
+    for (const WindowResult& window : comparison.windows) {
+      if (window.verdict == MotionVerdict::changed) offer(window.frame.value_or(0));
+    }
+    for (const FrameResult& frame : comparison.frames) {
+      if (frame.difference.verdict == PictureVerdict::changed) offer(frame.frame);
+    }
+  }
+
+  void fail_motion(std::string why) {
+    result_.windows.motion = MotionVerdict::changed;
+    result_.findings.push_back(std::move(why));
+  }
+  void fail_pictures(std::string why) {
+    result_.windows.picture = PictureVerdict::changed;
+    result_.findings.push_back(std::move(why));
+  }
+
+  void conclude() {
+    find_first_bad(result_.windows);
+    const auto bad = [](const Comparison& c) {
+      return c.motion == MotionVerdict::changed || c.picture == PictureVerdict::changed;
+    };
+    const bool changed = bad(result_.windows) || (result_.end_to_end && bad(*result_.end_to_end));
+    result_.verdict = changed ? SceneVerdict::changed : SceneVerdict::passed;
+    if (changed && result_.windows.motion != MotionVerdict::changed &&
+        result_.windows.picture == PictureVerdict::changed) {
+      result_.findings.push_back("the motion did not change");
+    }
+    if (changed && result_.scene_changed) {
+      result_.findings.push_back("the scene says something else than when the golden was recorded");
+    }
+    if (changed && !options_.artefacts.empty() && !stop_.stop_requested()) {
+      result_.animation =
+          difference_animation(scene_, golden_, windows_, result_, options_.backend, options_.artefacts);
+    }
+  }
+
+  const Scene& scene_;
+  const CheckSettings& settings_;
+  const CheckOptions& options_;
+  const std::stop_token& stop_;
+  Progress& progress_;
+  Golden golden_;
+  std::vector<GoldenWindow> windows_;  // those of the golden that are compared
+  SceneResult result_;
+};
+
+}  // namespace
+
+std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
+                                    const std::stop_token& stop, Progress& progress) {
+  std::optional<Golden> golden = record_motion(scene, settings, plan_windows(scene, settings), stop, progress);
+  if (!golden) return std::nullopt;
+  DrawWindows drawing(scene, golden->size, golden->view, backend);
+  const std::vector<Png> pictures = drawing.draw(golden->windows, stop, progress);
+  if (stop.stop_requested()) return std::nullopt;
+  golden->date = utc_now();
+  golden->machine = this_machine(drawing.renderer());
+  Blessing blessing{.folder = golden_folder(scene.file), .frames = static_cast<int>(pictures.size())};
+  blessing.size = write_golden(blessing.folder, *golden, pictures);
+  return blessing;
+}
+
+SceneResult check_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
+                        const CheckOptions& options, const std::stop_token& stop, Progress& progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  SceneResult result = SceneCheck(scene, name, settings, options, stop, progress).run();
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace drape

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "check/golden.hpp"
+#include "check/report.hpp"
+#include "render/backend.hpp"
+#include "run/progress.hpp"
+#include "scene/scene.hpp"
+
+namespace drape {
+
+/// When a check writes goldens.
+enum class UpdateMode {
+  all,      ///< always
+  changed,  ///< where there is none, and where the motion or a picture changed
+  missing,  ///< where there is none; the check fails all the same
+  none
+};
+
+/// What a check of a scene should do.
+struct CheckOptions {
+  std::vector<int> frames = {};  ///< compare only these of the golden frames; empty: all of them
+  GlBackend backend = GlBackend::automatic;
+  bool end_to_end = false;  ///< run the whole motion and draw it as well
+  UpdateMode update = UpdateMode::missing;
+  std::size_t threads = 0;          ///< that compute windows; 0: as many as the processor has
+  std::filesystem::path artefacts = {};  ///< folder for the animation of a failed scene; empty: it is not made
+};
+
+/// What bless did.
+struct Blessing {
+  std::filesystem::path folder;
+  int frames = 0;
+  std::uintmax_t size = 0;  ///< [bytes]
+};
+
+/// Records a scene's golden in the place of an older one.
+/// @param settings  Scene::check with what the command line says
+/// @returns nothing if it was stopped; then nothing has been written
+/// @throws DivergedError, UsageError, OutputError
+std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
+                                    const std::stop_token& stop, Progress& progress);
+
+/// Compares a scene with its golden.
+/// @param name of the scene in the report
+/// @throws UsageError if the golden is damaged or has no such frames; OutputError
+SceneResult check_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
+                        const CheckOptions& options, const std::stop_token& stop, Progress& progress);
+
+}  // namespace drape

@@ -1,0 +1,134 @@
+#include "check/html_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "check/html_scene.hpp"
+#include "core/atomic_file.hpp"
+#include "core/build_info.hpp"
+#include "html/components.hpp"
+#include "html/page.hpp"
+
+namespace drape {
+namespace {
+
+using html::Markup;
+
+bool failed(const SceneResult& scene) {
+  return scene.verdict == SceneVerdict::changed || scene.verdict == SceneVerdict::missing;
+}
+
+/// Failed scenes first, those that were recorded anew next, and otherwise in the order of the command line.
+std::vector<const SceneResult*> by_importance(const CheckReport& report) {
+  std::vector<const SceneResult*> scenes;
+  for (const SceneResult& scene : report.scenes) scenes.push_back(&scene);
+  const auto rank = [](const SceneResult& scene) {
+    switch (scene.verdict) {
+      case SceneVerdict::changed:
+        return 0;
+      case SceneVerdict::missing:
+        return 1;
+      case SceneVerdict::updated:
+        return 2;
+      case SceneVerdict::passed:
+        return 3;
+    }
+    return 3;
+  };
+  std::stable_sort(scenes.begin(), scenes.end(),
+                   [&](const SceneResult* a, const SceneResult* b) { return rank(*a) < rank(*b); });
+  return scenes;
+}
+
+/// The outcome in one sentence: "2 of 5 scenes changed and 1 has no golden".
+std::string headline(const CheckReport& report) {
+  const auto count = [&](SceneVerdict verdict) {
+    return std::count_if(report.scenes.begin(), report.scenes.end(),
+                         [&](const SceneResult& scene) { return scene.verdict == verdict; });
+  };
+  const std::size_t all = report.scenes.size();
+  const auto changed = count(SceneVerdict::changed), missing = count(SceneVerdict::missing);
+  const std::string scenes = all == 1 ? "scene" : "scenes";
+  if (changed > 0 && missing > 0) {
+    return fmt::format("{} of {} {} changed, {} had no golden", changed, all, scenes, missing);
+  }
+  if (changed > 0) return all == 1 ? "The scene changed" : fmt::format("{} of {} scenes changed", changed, all);
+  if (missing > 0)
+    return all == 1 ? "The scene had no golden" : fmt::format("{} of {} scenes had no golden", missing, all);
+  if (const auto updated = count(SceneVerdict::updated); updated > 0) {
+    return fmt::format("{} of {} {} recorded anew", updated, all, scenes);
+  }
+  if (all == 0) return "No scene was checked";
+  return all == 1 ? "The scene is as it was" : fmt::format("All {} scenes are as they were", all);
+}
+
+std::string anchor(std::size_t index) { return fmt::format("scene-{}", index); }
+
+Markup overview(const std::vector<const SceneResult*>& scenes) {
+  html::Table table{"What was checked",
+                    {{"Scene"},
+                     {"Verdict"},
+                     {"Motion"},
+                     {"Largest deviation", true},
+                     {"Pictures"},
+                     {"Largest FLIP error", true},
+                     {"Time [s]", true}},
+                    {}};
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const SceneResult& scene = *scenes[i];
+    const Comparison& c = scene.windows;
+    const bool moved = !c.windows.empty(), drawn = !c.frames.empty();
+    table.rows.push_back({html::link(fmt::format("#{}", anchor(i)), scene.name), verdict_badge(scene.verdict),
+                          moved ? verdict_badge(c.motion) : Markup("–"),
+                          moved ? readable_distance(largest_deviation(c)) : "–",
+                          drawn ? verdict_badge(c.picture) : Markup("–"),
+                          drawn ? fmt::format("{:.3f}", largest_flip(c)) : "–", fmt::format("{:.1f}", scene.seconds)});
+  }
+  return html::table(table);
+}
+
+Markup introduction(const CheckReport& report) {
+  return html::paragraph(html::element("time", {{"datetime", report.date}}, report.date) +
+                         fmt::format(", {:.1f} s", report.seconds)) +
+         (report.command.empty() ? Markup() : html::command("This check", report.command));
+}
+
+std::vector<std::pair<std::string, Markup>> foot(const CheckReport& report) {
+  const Machine& machine = report.machine;
+  return {{"drape", fmt::format("{}, revision {}", machine.drape, build_info().revision)},
+          {"Compiler", machine.compiler},
+          {"Processor", machine.processor},
+          {"Its instruction sets", machine.cpu_flags},
+          {"Instruction set in use", machine.kernels},
+          {"System", machine.system},
+          {"Drawn by", machine.renderer}};
+}
+
+}  // namespace
+
+std::string html_report(const CheckReport& report) {
+  const std::vector<const SceneResult*> scenes = by_importance(report);
+  html::Page page;
+  page.kind = "drape check";
+  page.title = headline(report) + " · drape check";
+  page.heading = headline(report);
+  page.introduction = introduction(report);
+  page.content = overview(scenes);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const SceneResult& scene = *scenes[i];
+    const std::string viewer = anchor(i) + "-pictures";
+    // Of a scene that is as it was, nobody needs to see more than that.
+    const Markup content = scene_content(scene, viewer);
+    page.content += html::section(2, anchor(i), Markup(scene.name) + verdict_badge(scene.verdict),
+                                  failed(scene) ? content : html::details("Pictures and figures", content));
+  }
+  page.foot = foot(report);
+  return html::render(page);
+}
+
+void write_html_report(const CheckReport& report, const std::filesystem::path& file) {
+  write_file_atomically(file, html_report(report));
+}
+
+}  // namespace drape

@@ -1,0 +1,225 @@
+#include "check/html_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "html/chart.hpp"
+#include "html/comparison.hpp"
+
+namespace drape {
+namespace {
+
+using html::Markup;
+using html::Tone;
+
+std::string plural(std::int64_t count, const std::string& one) {
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+/// What differs in a frame, in words.
+std::string describe(const FrameResult& frame) {
+  const PictureDifference& d = frame.difference;
+  const std::string moment = fmt::format("Frame {}, {:.2f} s: ", frame.frame, frame.time);
+  if (d.verdict == PictureVerdict::exact) return moment + "the same bytes.";
+  return moment +
+         fmt::format("{} ({:.3g}%) differ, by at most {} of 255; FLIP error at most {:.3f}, {:.4f} on average.",
+                     plural(d.pixels, "pixel"), 100 * d.fraction, d.largest_channel, d.max_flip, d.mean_flip);
+}
+
+Markup viewer(const SceneResult& scene, const Comparison& comparison, const std::string& id) {
+  std::vector<html::ComparedPictures> moments;
+  std::size_t shown = 0;
+  for (const FrameResult& frame : comparison.frames) {
+    html::ComparedPictures moment;
+    moment.name = fmt::format("{}", frame.frame);
+    moment.tone = tone_of(frame.difference.verdict);
+    moment.expected = frame.expected;
+    moment.actual = frame.actual;
+    moment.difference = frame.amplified;
+    moment.error_map = frame.flip_map;
+    moment.caption = describe(frame);
+    moment.size = scene.size;
+    if (frame.difference.verdict != PictureVerdict::exact) moment.worst = frame.difference.worst_pixel;
+    if (comparison.first_bad_frame == frame.frame) shown = moments.size();
+    moments.push_back(std::move(moment));
+  }
+  return moments.empty() ? Markup() : html::comparison(id, moments, shown);
+}
+
+Markup motion_chart(const SceneResult& scene, const Comparison& comparison) {
+  html::ChartSeries series;
+  for (const WindowResult& window : comparison.windows) {
+    for (std::size_t i = 0; i < window.deviations.size(); ++i) {
+      const std::int64_t step = window.first_step + static_cast<std::int64_t>(i);
+      series.points.push_back({static_cast<double>(step),
+                               window.deviations[i],
+                               fmt::format("step {}: {}", step, readable_distance(window.deviations[i])),
+                               {}});
+    }
+    series.points.push_back({NAN, NAN, {}, {}});  // every window starts anew from a golden state
+  }
+  html::Chart chart{"How far the vertex that is furthest off is from its golden place, at every step.",
+                    "step",
+                    "deviation [m]",
+                    html::Scale::linear,
+                    html::Scale::logarithmic,
+                    {series},
+                    {{scene.settings.motion_tolerance, "tolerance"}}};
+  return html::chart(chart);
+}
+
+Markup picture_chart(const SceneResult& scene, const Comparison& comparison) {
+  html::ChartSeries largest{"largest of a pixel", {}}, mean{"mean", {}};
+  for (const FrameResult& frame : comparison.frames) {
+    const PictureDifference& d = frame.difference;
+    const auto x = static_cast<double>(frame.frame);
+    largest.points.push_back({x, d.max_flip, fmt::format("frame {}: {:.3f}", frame.frame, d.max_flip), {}});
+    mean.points.push_back({x, d.mean_flip, fmt::format("frame {}: {:.4f}", frame.frame, d.mean_flip), {}});
+  }
+  html::Chart chart{"How different the pictures look: their FLIP error, from 0, the same, to 1.",
+                    "frame",
+                    "FLIP error",
+                    html::Scale::linear,
+                    html::Scale::linear,
+                    {largest, mean},
+                    {{scene.settings.limits.flip, "limit of a pixel"}}};
+  return html::chart(chart);
+}
+
+Markup windows_table(const Comparison& comparison) {
+  html::Table table{
+      "Windows of motion, each run from a golden state",
+      {{"Steps"}, {"Verdict"}, {"Largest deviation", true}, {"Vertex", true}, {"At step", true}, {"Remark"}},
+      {}};
+  for (const WindowResult& w : comparison.windows) {
+    table.rows.push_back({fmt::format("{}–{}", w.first_step, w.last_step), verdict_badge(w.verdict),
+                          readable_distance(w.largest ? w.largest->distance : 0),
+                          w.largest ? fmt::format("{}", w.largest->vertex) : "–",
+                          w.largest ? fmt::format("{}", w.largest->step) : "–", w.problem});
+  }
+  return html::table(table);
+}
+
+Markup frames_table(const Comparison& comparison) {
+  html::Table table{"Compared frames",
+                    {{"Frame", true},
+                     {"Time [s]", true},
+                     {"Verdict"},
+                     {"Pixels that differ", true},
+                     {"Share", true},
+                     {"Largest channel", true},
+                     {"Mean FLIP", true},
+                     {"Largest FLIP", true}},
+                    {}};
+  for (const FrameResult& frame : comparison.frames) {
+    const PictureDifference& d = frame.difference;
+    table.rows.push_back({fmt::format("{}", frame.frame), fmt::format("{:.2f}", frame.time), verdict_badge(d.verdict),
+                          fmt::format("{}", d.pixels), fmt::format("{:.3g}%", 100 * d.fraction),
+                          fmt::format("{}", d.largest_channel), fmt::format("{:.4f}", d.mean_flip),
+                          fmt::format("{:.3f}", d.max_flip)});
+  }
+  return html::table(table);
+}
+
+Markup provenance(const SceneResult& scene) {
+  const PictureLimits& limits = scene.settings.limits;
+  return html::facts(
+      {{"Scene", html::code(scene.file.string())},
+       {"Golden", html::code(scene.golden.string())},
+       {"Recorded", scene.recorded_at},
+       {"Recorded by", fmt::format("drape {}, {}", scene.recorded_on.drape, scene.recorded_on.compiler)},
+       {"Recorded on", fmt::format("{}; {}", scene.recorded_on.processor, scene.recorded_on.system)},
+       {"Drawn by", scene.recorded_on.renderer},
+       {"Instruction set", scene.recorded_on.kernels},
+       {"Limits", fmt::format("motion {}; noise up to {} of 255 in a channel, {:g}% of the pixels, FLIP error {:g}",
+                              readable_distance(scene.settings.motion_tolerance), limits.channel, 100 * limits.pixels,
+                              limits.flip)}});
+}
+
+/// Curves and tables.
+Markup figures(const SceneResult& scene, const Comparison& comparison) {
+  std::vector<Markup> charts;
+  if (!comparison.windows.empty()) charts.push_back(motion_chart(scene, comparison));
+  if (!comparison.frames.empty()) charts.push_back(picture_chart(scene, comparison));
+  const Markup content = html::row(charts);
+  Markup tables;
+  if (!comparison.windows.empty()) tables += windows_table(comparison);
+  if (!comparison.frames.empty()) tables += frames_table(comparison);
+  return content + (tables.empty() ? tables : html::details("All figures", tables));
+}
+
+}  // namespace
+
+Tone tone_of(SceneVerdict verdict) {
+  switch (verdict) {
+    case SceneVerdict::passed:
+      return Tone::good;
+    case SceneVerdict::changed:
+    case SceneVerdict::missing:
+      return Tone::bad;
+    case SceneVerdict::updated:
+      return Tone::caution;
+  }
+  return Tone::neutral;
+}
+
+Tone tone_of(MotionVerdict verdict) {
+  return verdict == MotionVerdict::same_bits          ? Tone::good
+         : verdict == MotionVerdict::within_tolerance ? Tone::caution
+                                                      : Tone::bad;
+}
+
+Tone tone_of(PictureVerdict verdict) {
+  return verdict == PictureVerdict::exact ? Tone::good : verdict == PictureVerdict::noise ? Tone::caution : Tone::bad;
+}
+
+std::string readable_distance(double metres) {
+  if (!(metres > 0)) return metres == 0 ? "0" : "not finite";
+  constexpr std::array<std::pair<double, const char*>, 4> units{{{1, "m"}, {1e-3, "mm"}, {1e-6, "µm"}, {1e-9, "nm"}}};
+  for (const auto& [size, name] : units) {
+    if (metres >= size) return fmt::format("{:.3g} {}", metres / size, name);
+  }
+  return fmt::format("{:.2g} m", metres);
+}
+
+double largest_deviation(const Comparison& comparison) {
+  double largest = 0;
+  for (const WindowResult& window : comparison.windows) {
+    if (window.largest) largest = std::max(largest, window.largest->distance);
+  }
+  return largest;
+}
+
+double largest_flip(const Comparison& comparison) {
+  double largest = 0;
+  for (const FrameResult& frame : comparison.frames) largest = std::max(largest, frame.difference.max_flip);
+  return largest;
+}
+
+Markup scene_content(const SceneResult& scene, const std::string& id) {
+  std::vector<html::Finding> findings;
+  for (const std::string& sentence : scene.findings) {
+    findings.push_back({findings.empty() ? tone_of(scene.verdict) : Tone::neutral, sentence});
+  }
+  Markup content;
+  if (!findings.empty()) content += html::findings(findings);
+  if (!scene.rerun_command.empty()) content += html::command("Run this check again", scene.rerun_command);
+  if (!scene.bless_command.empty()) content += html::command("Accept what it is now", scene.bless_command);
+  content += viewer(scene, scene.windows, id);
+  if (!scene.animation.empty()) {
+    content += html::figure(
+        html::picture("image/gif", scene.animation, "Expected, actual and difference side by side, as an animation"),
+        "Expected, actual and difference around the first frame that changed.");
+  }
+  content += figures(scene, scene.windows);
+  if (scene.end_to_end) {
+    content += html::section(3, id + "-end-to-end", "The whole motion, run again from its start",
+                             viewer(scene, *scene.end_to_end, id + "-whole") + figures(scene, *scene.end_to_end));
+  }
+  return content + html::details("How the golden was recorded", provenance(scene));
+}
+
+}  // namespace drape

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "check/report.hpp"
+#include "html/components.hpp"
+
+// The parts of the HTML report that are about one scene.
+
+namespace drape {
+
+html::Tone tone_of(SceneVerdict verdict);
+html::Tone tone_of(MotionVerdict verdict);
+html::Tone tone_of(PictureVerdict verdict);
+
+/// The verdict as a word with its sign.
+template <class Verdict>
+html::Markup verdict_badge(Verdict verdict) {
+  return html::badge(verdict_name(verdict), tone_of(verdict));
+}
+
+/// A distance as people read it: "2.1 mm", "13 µm", "0".
+std::string readable_distance(double metres);
+
+/// The largest deviation of any vertex at any step [m]; 0 if there is none.
+double largest_deviation(const Comparison& comparison);
+
+/// The largest FLIP error of any pixel in any frame.
+double largest_flip(const Comparison& comparison);
+
+/// Everything about a scene but its name and verdict.
+/// @param id of its own in the page, for the viewers
+html::Markup scene_content(const SceneResult& scene, const std::string& id);
+
+}  // namespace drape

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "check/report.hpp"
+
+namespace drape {
+
+/// The machine that this runs on.
+/// @param renderer what draws, see Renderer::description()
+Machine this_machine(std::string renderer);
+
+/// The moment, as "2026-01-31T12:00:00Z".
+std::string utc_now();
+
+}  // namespace drape

@@ -1,0 +1,146 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check/settings.hpp"
+
+// What a check found, as plain data: the terminal's lines, the JSON, the JUnit XML and the HTML page are all made from
+// it.
+
+namespace drape {
+
+/// How a motion compares with the golden one, from best to worst.
+enum class MotionVerdict { same_bits, within_tolerance, changed };
+
+/// How a picture compares with the golden one, from best to worst.
+enum class PictureVerdict {
+  exact,   ///< the same bytes
+  noise,   ///< other bytes, but within every limit: another processor rounds differently
+  changed  ///< anything else
+};
+
+/// What came out of a scene's check.
+enum class SceneVerdict {
+  passed,
+  changed,  ///< the motion or a picture changed
+  missing,  ///< there was no golden to compare with; it is there now unless the check was not to write one
+  updated   ///< the golden was recorded anew because the check was told to
+};
+
+/// The bytes of a PNG file; empty: there is no such picture.
+using Png = std::string;
+
+/// The difference of two pictures of the same size.
+struct PictureDifference {
+  PictureVerdict verdict = PictureVerdict::exact;
+  std::int64_t pixels = 0;           ///< that differ at all
+  double fraction = 0;               ///< of all pixels, 0 to 1
+  int largest_channel = 0;           ///< the largest difference in any channel, 0 to 255
+  double mean_flip = 0;              ///< over all pixels, 0 to 1
+  double max_flip = 0;               ///< 0 to 1
+  std::array<int, 2> worst_pixel{};  ///< column and row, from the top left, of the largest FLIP error
+};
+
+/// One compared frame.
+struct FrameResult {
+  int frame = 0;    ///< number of the film's frame
+  double time = 0;  ///< of the scene [s]
+  PictureDifference difference;
+  Png expected;   ///< the golden picture
+  Png actual;     ///< this and the next two are empty if the pictures are the same bytes
+  Png amplified;  ///< the absolute difference, brightened so that the largest is white
+  Png flip_map;   ///< the FLIP error of every pixel in the colours of the map "magma", black 0 to pale yellow 1
+};
+
+/// A vertex that is not where it was.
+struct Deviation {
+  std::int64_t step = 0;
+  int vertex = 0;
+  double distance = 0;  ///< [m]
+};
+
+/// A few steps of motion, computed from a golden state.
+struct WindowResult {
+  std::optional<int> frame;  ///< the compared frame at which it begins; absent: the start of a motion whose frame 0 is
+                             ///< not compared
+  std::int64_t first_step = 0, last_step = 0;
+  MotionVerdict verdict = MotionVerdict::same_bits;
+  std::vector<double> deviations;    ///< the largest distance of any vertex from its golden place, at every step from
+                                     ///< first_step to last_step [m]; shorter if the motion diverged
+  std::optional<Deviation> first;    ///< the worst vertex at the first step at which one is beyond the tolerance
+  std::optional<Deviation> largest;  ///< of all steps; absent if there is none
+  std::string problem;               ///< a sentence if there is something else to say: that it diverged
+};
+
+/// Motion and pictures of a scene beside its golden ones.
+struct Comparison {
+  MotionVerdict motion = MotionVerdict::same_bits;  ///< the worst of the windows
+  PictureVerdict picture = PictureVerdict::exact;   ///< the worst of the frames
+  std::vector<WindowResult> windows;                ///< ascending
+  std::vector<FrameResult> frames;                  ///< ascending
+  /// The first compared frame whose picture changed, or from which on the motion did.
+  std::optional<int> first_bad_frame;
+};
+
+/// Where and with what something was computed.
+struct Machine {
+  std::string drape;      ///< version
+  std::string compiler;   ///< "GNU 12.2.0"
+  std::string system;     ///< "Linux 6.1.0 x86_64"
+  std::string processor;  ///< "Intel(R) Xeon(R) …"
+  std::string cpu_flags;  ///< those that matter to floating-point code: "sse2 sse4_1 avx avx2 fma"
+  std::string kernels;    ///< instruction set of the simulation's kernels: "avx2"
+  std::string renderer;   ///< "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 3.3 …"
+};
+
+struct SceneResult {
+  std::string name;              ///< unique in the report: "5", or "homework-5" if there are several of that name
+  std::filesystem::path file;    ///< the scene's
+  std::filesystem::path golden;  ///< the golden's folder
+  SceneVerdict verdict = SceneVerdict::passed;
+  std::vector<std::string> findings;  ///< sentences, most important first: "the motion changed at step 37 by up to …"
+  Comparison windows;                 ///< the motion in windows from golden states, and the pictures of those states
+  std::optional<Comparison> end_to_end;  ///< the whole motion run again and drawn, if that was asked for
+
+  CheckSettings settings;      ///< with what the command line says
+  bool scene_changed = false;  ///< the scene says something else than when it was recorded
+  std::string recorded_at;     ///< "2026-01-31T12:00:00Z"; empty without a golden
+  Machine recorded_on;
+  std::string renderer;       ///< what drew the pictures now
+  std::array<int, 2> size{};  ///< of the pictures [pixels]
+  std::string animation;      ///< a GIF's bytes: expected, actual and difference side by side, looping around the
+                              ///< first bad frame; empty if there is none
+  std::string rerun_command, bless_command;
+  double seconds = 0;  ///< that the check took
+};
+
+/// A run of `drape check`.
+struct CheckReport {
+  std::string command;  ///< as it was typed
+  std::string date;     ///< "2026-01-31T12:00:00Z"
+  Machine machine;
+  std::vector<SceneResult> scenes;  ///< in the order of the command line
+  double seconds = 0;
+
+  /// Whether nothing changed and nothing was missing.
+  [[nodiscard]] bool passed() const;
+};
+
+/// "same bits", "within tolerance", "changed".
+const char* verdict_name(MotionVerdict verdict);
+/// "exact", "noise", "changed".
+const char* verdict_name(PictureVerdict verdict);
+/// "passed", "changed", "missing", "updated".
+const char* verdict_name(SceneVerdict verdict);
+
+/// The folder of a scene's files beside the report, relative to it: "5/".
+/// @returns `name`/frame_0040.KIND.png for "expected", "actual", "difference" and "flip", and with "end_to_end." before
+///          those for the pictures of the whole motion
+std::filesystem::path frame_file(const SceneResult& scene, int frame, const std::string& kind);
+
+}  // namespace drape

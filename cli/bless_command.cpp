@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+
+#include "check/check_scene.hpp"
+#include "cli/command_line.hpp"
+#include "cli/frame_list.hpp"
+#include "cli/scene_files.hpp"
+#include "cli/watched.hpp"
+
+namespace drape {
+namespace {
+
+struct BlessArguments {
+  std::vector<std::string> scenes;
+  std::string frames;
+  GlBackend backend = GlBackend::automatic;
+};
+
+ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
+  const std::vector<int> frames = parse_frame_list(arguments.frames);
+  for (const Scene& scene : load_scenes(arguments.scenes, {})) {
+    CheckSettings settings = scene.check;
+    if (!frames.empty()) settings.frames = frames;
+    std::optional<Blessing> blessing;
+    run_watched(common, [&](const std::stop_token& stop, Progress& progress) {
+      blessing = bless_scene(scene, settings, arguments.backend, stop, progress);
+    });
+    if (!blessing) {
+      spdlog::error("interrupted; {} is as it was", golden_folder(scene.file).string());
+      return ExitCode::interrupted;
+    }
+    if (!common.quiet) {
+      fmt::print("{}: recorded {} frames, {} kB\n", blessing->folder.string(), blessing->frames,
+                 (blessing->size + 500) / 1000);
+    }
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_bless_command(CLI::App& app, const CommonOptions& common, Command& command) {
+  auto arguments = std::make_shared<BlessArguments>();
+  CLI::App* sub = app.add_subcommand("bless", "Record the golden frames and motion that drape check compares with");
+  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
+  sub->add_option("--frames", arguments->frames, "A,B,C: compare these frames of the film, see [check] in the scene");
+  add_backend_option(*sub, arguments->backend);
+  sub->callback(
+      [arguments, &common, &command] { command = [arguments, &common] { return bless(*arguments, common); }; });
+}
+
+}  // namespace drape

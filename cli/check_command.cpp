@@ -1,0 +1,179 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "check/check_scene.hpp"
+#include "check/html_report.hpp"
+#include "check/json_report.hpp"
+#include "check/junit_report.hpp"
+#include "check/machine.hpp"
+#include "cli/command_line.hpp"
+#include "cli/frame_list.hpp"
+#include "cli/scene_files.hpp"
+#include "cli/watched.hpp"
+#include "core/atomic_file.hpp"
+#include "core/nearest.hpp"
+
+namespace drape {
+namespace {
+
+struct CheckArguments {
+  std::vector<std::string> scenes, overrides;
+  std::string frames;
+  std::string report = "out/check";
+  std::string update = "missing";
+  GlBackend backend = GlBackend::automatic;
+  bool end_to_end = false;
+  std::size_t threads = 0;
+  std::optional<double> motion_tolerance, pixels, flip;
+  std::optional<int> channel;
+};
+
+UpdateMode parse_update(const std::string& name) {
+  static const std::vector<std::string> names{"all", "changed", "missing", "none"};  // as the enumeration
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<UpdateMode>(found - names.begin());
+  throw UsageError(fmt::format("--update: unknown '{}'{}", name, did_you_mean(name, names, "the choices are")));
+}
+
+/// The table [check] of a scene with what the command line says.
+CheckSettings settings_of(const Scene& scene, const CheckArguments& arguments) {
+  CheckSettings settings = scene.check;
+  settings.motion_tolerance = arguments.motion_tolerance.value_or(settings.motion_tolerance);
+  settings.limits.channel = arguments.channel.value_or(settings.limits.channel);
+  settings.limits.pixels = arguments.pixels.value_or(settings.limits.pixels);
+  settings.limits.flip = arguments.flip.value_or(settings.limits.flip);
+  return settings;
+}
+
+/// Names that tell the scenes of a report apart: the files' own, with the folder's before it where there are several.
+std::vector<std::string> unique_names(const std::vector<Scene>& scenes) {
+  std::map<std::string, int> with_this_name, used;
+  for (const Scene& scene : scenes) ++with_this_name[scene.name];
+  std::vector<std::string> names;
+  for (const Scene& scene : scenes) {
+    std::string name = scene.name;
+    const std::string folder = std::filesystem::absolute(scene.file).parent_path().filename().string();
+    if (with_this_name[name] > 1) name = folder + "-" + name;
+    if (const int number = ++used[name]; number > 1) name += fmt::format("-{}", number);
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+std::string command_options(const CheckArguments& arguments) {
+  std::string text;
+  for (const std::string& value : arguments.overrides) text += " --set " + shell_word(value);
+  if (!arguments.frames.empty()) text += " --frames " + arguments.frames;
+  if (arguments.end_to_end) text += " --end-to-end";
+  if (arguments.backend != GlBackend::automatic) text += fmt::format(" --backend {}", backend_name(arguments.backend));
+  if (arguments.motion_tolerance) text += fmt::format(" --motion-tolerance {}", *arguments.motion_tolerance);
+  if (arguments.channel) text += fmt::format(" --channel-limit {}", *arguments.channel);
+  if (arguments.pixels) text += fmt::format(" --pixel-limit {}", *arguments.pixels);
+  if (arguments.flip) text += fmt::format(" --flip-limit {}", *arguments.flip);
+  return text;
+}
+
+/// One line about a scene.
+std::string describe(const SceneResult& scene) {
+  const std::string file = scene.file.string();
+  if (scene.verdict != SceneVerdict::passed) {
+    return fmt::format("{}: {}: {}", file, verdict_name(scene.verdict), fmt::join(scene.findings, "; "));
+  }
+  std::string text =
+      fmt::format("{}: passed: motion {}, {} {}", file, verdict_name(scene.windows.motion), scene.windows.frames.size(),
+                  scene.windows.frames.size() == 1 ? "picture" : "pictures");
+  text += fmt::format(" {}", verdict_name(scene.windows.picture));
+  if (scene.end_to_end) {
+    text += fmt::format("; end to end {}, {}", verdict_name(scene.end_to_end->motion),
+                        verdict_name(scene.end_to_end->picture));
+  }
+  return text + fmt::format(" ({:.1f} s)", scene.seconds);
+}
+
+void write_reports(const CheckReport& report, const std::filesystem::path& folder) {
+  write_frame_files(report, folder);
+  write_html_report(report, folder / "report.html");
+  write_file_atomically(folder / "report.json", json_report(report));
+  write_file_atomically(folder / "junit.xml", junit_report(report));
+}
+
+ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::vector<Scene> scenes = load_scenes(arguments.scenes, arguments.overrides);
+  const std::vector<std::string> names = unique_names(scenes);
+  const CheckOptions options{.frames = parse_frame_list(arguments.frames),
+                             .backend = arguments.backend,
+                             .end_to_end = arguments.end_to_end,
+                             .update = parse_update(arguments.update),
+                             .threads = arguments.threads,
+                             .artefacts = arguments.report};
+  CheckReport report;
+  report.date = utc_now();
+  report.command = "drape check";
+  for (const std::string& scene : arguments.scenes) report.command += " " + shell_word(scene);
+  report.command += command_options(arguments);
+
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    SceneResult result;
+    const bool interrupted = run_watched(common, [&](const std::stop_token& stop, Progress& progress) {
+      result = check_scene(scenes[i], names[i], settings_of(scenes[i], arguments), options, stop, progress);
+    });
+    if (interrupted) {
+      spdlog::error("interrupted; there is no report");
+      return ExitCode::interrupted;
+    }
+    const std::string file = shell_word(scenes[i].file.string());
+    result.rerun_command = "drape check " + file + command_options(arguments);
+    result.bless_command = "drape bless " + file;
+    const bool good = result.verdict == SceneVerdict::passed || result.verdict == SceneVerdict::updated;
+    if (!common.quiet || !good) fmt::print("{}\n", describe(result));
+    if (!result.renderer.empty()) report.machine.renderer = result.renderer;
+    report.scenes.push_back(std::move(result));
+  }
+  report.machine = this_machine(report.machine.renderer);
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  write_reports(report, arguments.report);
+  if (!common.quiet) fmt::print("{}\n", (std::filesystem::path(arguments.report) / "report.html").string());
+  return report.passed() ? ExitCode::ok : ExitCode::differs;
+}
+
+void add_limits(CLI::App& sub, CheckArguments& arguments) {
+  sub.add_option("--motion-tolerance", arguments.motion_tolerance, "How far a vertex may be from its golden place, m")
+      ->check(CLI::NonNegativeNumber);
+  sub.add_option("--channel-limit", arguments.channel, "Largest difference of a pixel in any channel, of 255")
+      ->check(CLI::Range(0, 255));
+  sub.add_option("--pixel-limit", arguments.pixels, "Largest fraction of pixels that differ at all")
+      ->check(CLI::Range(0.0, 1.0));
+  sub.add_option("--flip-limit", arguments.flip, "Largest FLIP error of a pixel")->check(CLI::Range(0.0, 1.0));
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, const CommonOptions& common, Command& command) {
+  auto arguments = std::make_shared<CheckArguments>();
+  CLI::App* sub = app.add_subcommand("check", "Compare scenes with their golden frames and motion");
+  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
+  sub->add_option("--set", arguments->overrides, "key.path=value: replaces a value of the scene; repeatable")
+      ->allow_extra_args(false);
+  sub->add_option("--frames", arguments->frames, "A,B,C: compare only these of the golden frames");
+  sub->add_flag("--end-to-end", arguments->end_to_end, "Run the whole motion and draw it, too");
+  sub->add_option(
+         "--update", arguments->update,
+         "all, changed, missing or none: which goldens to write; missing is the default, and fails all the same")
+      ->type_name("WHICH");
+  add_backend_option(*sub, arguments->backend);
+  sub->add_option("--report", arguments->report, "Folder for the reports (HTML, JSON, JUnit); default out/check");
+  sub->add_option("--threads", arguments->threads, "How many windows of motion are computed at once");
+  add_limits(*sub, *arguments);
+  sub->callback(
+      [arguments, &common, &command] { command = [arguments, &common] { return check(*arguments, common); }; });
+}
+
+}  // namespace drape

@@ -1,0 +1,213 @@
+#include "cli/diagnosis.hpp"
+
+#include <cholmod.h>
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "render/encode/inspect.hpp"
+#include "render/gl/context.hpp"
+#include "render/renderer.hpp"
+#include "scene/scene.hpp"
+#include "sim/kernels/kernels.hpp"
+#include "sim/mesh.hpp"
+
+namespace drape {
+namespace {
+
+/// Runs the work and returns what went wrong, or nothing.
+template <class Work>
+std::string problem_of(Work work) {
+  try {
+    work();
+    return {};
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> relevant_environment() {
+  std::vector<std::pair<std::string, std::string>> set;
+  for (const char* name : {"DRAPE_DATA", "DRAPE_ISA", "GALLIUM_DRIVER", "LIBGL_ALWAYS_SOFTWARE",
+                           "LP_NATIVE_VECTOR_WIDTH", "LP_NUM_THREADS", "OPENBLAS_CORETYPE", "OPENBLAS_NUM_THREADS"}) {
+    if (const char* value = std::getenv(name)) set.emplace_back(name, value);
+  }
+  return set;
+}
+
+void find_kernels(Diagnosis& diagnosis) {
+  for (const Kernels* version : all_kernels()) {
+    diagnosis.kernels.emplace_back(version->name);
+    if (version->supported() != 0) diagnosis.runnable_kernels.emplace_back(version->name);
+  }
+  diagnosis.chosen_kernels.name = "instruction set";
+  diagnosis.chosen_kernels.problem = problem_of([&] { diagnosis.chosen_kernels.detail = std::string(kernels().name); });
+}
+
+/// The library that CHOLMOD's calls of the BLAS end in.
+Finding find_blas() {
+  Finding found{.name = "BLAS", .detail = {}, .problem = {}, .packages = "libopenblas0-serial"};
+  Dl_info info{};
+  void* const symbol = dlsym(RTLD_DEFAULT, "dgemm_");
+  if (symbol == nullptr || dladdr(symbol, &info) == 0) {
+    found.problem = "no BLAS is loaded";
+    return found;
+  }
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::canonical(info.dli_fname, error);
+  found.detail = error ? info.dli_fname : file.string();
+  using Describe = char* (*)();
+  if (const auto describe = reinterpret_cast<Describe>(dlsym(RTLD_DEFAULT, "openblas_get_config"))) {
+    found.detail += fmt::format(", {}", describe());
+  } else if (found.detail.find("/blas/libblas") != std::string::npos) {
+    found.problem = "this is the reference BLAS, which factors large systems three times slower: " + found.detail;
+  }
+  return found;
+}
+
+BackendFinding find_backend(GlBackend backend) {
+  BackendFinding found;
+  found.name = backend_name(backend);
+  found.packages = debian_packages(backend);
+  found.problem = problem_of([&] { found.facts = inspect_backend(backend); });
+  if (found.works()) found.detail = fmt::format("{}, OpenGL {}", found.facts.renderer, found.facts.version);
+  return found;
+}
+
+/// Draws a square that fills the picture's middle, and looks at the middle and a corner.
+void draw_a_square() {
+  const Mesh mesh = make_grid(1, 1);
+  Look look;
+  look.background = {0, 0, 1};
+  look.color = {1, 1, 1};
+  Renderer renderer(data_folder(), {64, 64}, View{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30}, look, 4, mesh.triangles, {});
+  Frame frame;
+  frame.positions = mesh.positions;
+  const Image image = renderer.draw(frame);
+  const std::uint8_t* const middle = image.at(32, 32);
+  const std::array<std::uint8_t, 3> corner{image.at(0, 0)[0], image.at(0, 0)[1], image.at(0, 0)[2]};
+  if (corner != std::array<std::uint8_t, 3>{0, 0, 255} || middle[0] < 64) {
+    throw OutputError(
+        fmt::format("the test picture is wrong: its middle is rgb({}, {}, {}), its corner rgb({}, {}, {})", middle[0],
+                    middle[1], middle[2], corner[0], corner[1], corner[2]));
+  }
+}
+
+Finding find_drawing(const std::vector<BackendFinding>& backends) {
+  Finding drawing{.name = "drawing", .detail = {}, .problem = {}, .packages = {}};
+  const auto first = std::find_if(backends.begin(), backends.end(), [](const Finding& b) { return b.works(); });
+  if (first == backends.end()) {
+    drawing.problem = "there is no OpenGL";
+    return drawing;
+  }
+  drawing.detail = first->name;
+  drawing.problem = problem_of(draw_a_square);
+  return drawing;
+}
+
+/// A folder for temporary files, removed with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_(std::filesystem::temp_directory_path() / fmt::format("drape-doctor-{}", getpid())) {}
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  [[nodiscard]] std::filesystem::path file(const std::string& extension) const { return path_ / ("film" + extension); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+Finding find_encoder(const TemporaryFolder& folder, const std::string& extension) {
+  Finding found{.name = extension, .detail = {}, .problem = {}, .packages = "libopencv-dev"};
+  if (extension == ".gif") found.packages = "libavcodec-dev libavfilter-dev libavformat-dev";
+  found.problem = problem_of([&] { found.detail = encode_two_frames(folder.file(extension)); });
+  return found;
+}
+
+/// What a program prints, both streams; empty if there is no such program.
+std::string printed_by(const std::string& command) {
+  std::string text;
+  FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return text;
+  std::array<char, 4096> buffer{};
+  while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), count);
+  return pclose(pipe) == 0 ? text.substr(0, text.find_last_not_of('\n') + 1) : std::string();
+}
+
+Finding find_gnuplot() {
+  Finding found{.name = "gnuplot", .detail = {}, .problem = {}, .packages = "gnuplot-nox"};
+  found.detail = printed_by("gnuplot --version");
+  if (found.detail.empty()) {
+    found.problem = "not there: drape study writes its plots as .csv and .gp files only";
+    return found;
+  }
+  for (const char* terminal : {"svg", "pngcairo"}) {
+    if (printed_by(fmt::format("gnuplot -e 'set terminal {}; print 1'", terminal)).empty()) {
+      found.problem = fmt::format("it has no terminal {}", terminal);
+    }
+  }
+  return found;
+}
+
+Finding find_fonts() {
+  Finding found{.name = "fonts", .detail = {}, .problem = {}, .packages = "fontconfig fonts-dejavu-core"};
+  found.detail = printed_by("fc-match sans --format '%{family} (%{file})'");
+  if (found.detail.empty()) found.problem = "no font is found: gnuplot's PNG plots have no text";
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> Diagnosis::missing_packages() const {
+  std::vector<std::string> missing;
+  const auto add = [&](const Finding& finding) {
+    std::istringstream words(finding.works() ? "" : finding.packages);
+    for (std::string word; words >> word;) {
+      if (std::find(missing.begin(), missing.end(), word) == missing.end()) missing.push_back(word);
+    }
+  };
+  for (const BackendFinding& backend : backends) add(backend);
+  add(blas);
+  for (const Finding& encoder : encoders) add(encoder);
+  for (const Finding& finding : optional) add(finding);
+  return missing;
+}
+
+Diagnosis diagnose() {
+  Diagnosis diagnosis;
+  diagnosis.environment = relevant_environment();  // first: preparing OpenGL sets some of them
+  diagnosis.build = build_info();
+  diagnosis.machine = machine_facts();
+  find_kernels(diagnosis);
+  diagnosis.blas = find_blas();
+  std::array<int, 3> version{};
+  cholmod_version(version.data());
+  diagnosis.cholmod = fmt::format("{}.{}.{}", version[0], version[1], version[2]);
+
+  for (const GlBackend backend : {GlBackend::osmesa, GlBackend::egl}) {
+    diagnosis.backends.push_back(find_backend(backend));
+  }
+  diagnosis.drawing = find_drawing(diagnosis.backends);
+
+  const TemporaryFolder folder;
+  for (const char* extension : {".gif", ".png", ".mp4", ".webm", ".avi"}) {
+    diagnosis.encoders.push_back(find_encoder(folder, extension));
+  }
+  diagnosis.optional = {find_gnuplot(), find_fonts()};
+  return diagnosis;
+}
+
+}  // namespace drape

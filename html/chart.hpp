@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "html/chart_axis.hpp"
+#include "html/markup.hpp"
+
+namespace drape::html {
+
+struct ChartPoint {
+  double x = 0, y = 0;
+  std::string label;    ///< what the point says when it is pointed at: "step 37: 2.1 mm"
+  std::string command;  ///< that makes this point again; may be empty
+};
+
+struct ChartSeries {
+  std::string name;
+  std::vector<ChartPoint> points;
+  bool markers = true;  ///< a sign at every point, or only the line through them
+};
+
+/// A level to compare with, drawn across the chart.
+struct ChartLevel {
+  double y = 0;
+  std::string label;
+};
+
+/// Series of points against two axes.
+struct Chart {
+  std::string title;  ///< what it shows, in a sentence: also for who cannot see it
+  std::string x_title, y_title;
+  Scale x_scale = Scale::linear, y_scale = Scale::linear;
+  std::vector<ChartSeries> series;
+  std::vector<ChartLevel> levels;
+};
+
+/// A diagram as inline SVG with a legend. A point that is pointed at, or reached with the arrow keys, shows its label
+/// and its command. The points are also there as a table.
+/// Points that are not finite are left out, and the line has a gap there.
+Markup chart(const Chart& chart);
+
+}  // namespace drape::html

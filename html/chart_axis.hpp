@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace drape::html {
+
+enum class Scale { linear, logarithmic };
+
+/// Where values lie on an axis, and its ticks. A logarithmic axis has, where values of zero or less occur, a place for
+/// them below its smallest decade.
+class AxisMap {
+ public:
+  struct Tick {
+    double place = 0;  ///< 0 at the axis' beginning to 1 at its end
+    std::string label;
+  };
+
+  /// @param values that the axis must hold; those that are not finite do not count
+  AxisMap(Scale scale, const std::vector<double>& values);
+
+  /// 0 at the beginning to 1 at the end.
+  [[nodiscard]] double place(double value) const;
+  [[nodiscard]] const std::vector<Tick>& ticks() const { return ticks_; }
+
+ private:
+  void make_linear(double low, double high);
+  void make_logarithmic(double low, double high);
+
+  Scale scale_;
+  double low_ = 0, high_ = 1;  // of the values, or of their decimal logarithms
+  double floor_ = 0;           // the part of the axis that is kept for zero
+  std::vector<Tick> ticks_;
+};
+
+/// A number as people write it: "0.25", "1e-06".
+std::string short_number(double value);
+
+}  // namespace drape::html

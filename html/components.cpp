@@ -1,0 +1,92 @@
+#include "html/components.hpp"
+
+#include <stdexcept>
+
+namespace drape::html {
+namespace {
+
+std::string tone_class(Tone tone) {
+  switch (tone) {
+    case Tone::neutral:
+      return "neutral";
+    case Tone::good:
+      return "good";
+    case Tone::caution:
+      return "caution";
+    case Tone::bad:
+      return "bad";
+  }
+  return "";
+}
+
+}  // namespace
+
+Markup badge(const std::string& word, Tone tone) {
+  return element("span", {{"class", "badge " + tone_class(tone)}}, word);
+}
+
+Markup section(int level, const std::string& id, const Markup& heading, const Markup& content) {
+  const std::string tag = level == 2 ? "h2" : "h3";
+  return element("section", {{"aria-labelledby", id}}, element(tag, {{"id", id}}, heading) + content);
+}
+
+Markup paragraph(const Markup& content) { return element("p", content); }
+Markup note(const Markup& content) { return element("p", {{"class", "note"}}, content); }
+Markup code(const std::string& text) { return element("code", text); }
+Markup link(const std::string& href, const Markup& content) { return element("a", {{"href", href}}, content); }
+
+Markup command(const std::string& label, const std::string& line) {
+  return element(
+      "div", {{"class", "command"}},
+      element("span", {{"class", "label"}}, label) + element("code", {{"tabindex", "0"}}, line) +
+          element("button", {{"type", "button"}, {"class", "copy"}, {"aria-label", "Copy: " + label}}, "Copy"));
+}
+
+Markup findings(const std::vector<Finding>& list) {
+  Markup items;
+  for (const Finding& finding : list) items += element("li", {{"class", tone_class(finding.tone)}}, finding.text);
+  return element("ul", {{"class", "findings"}}, items);
+}
+
+Markup table(const Table& table) {
+  const auto cell = [&](std::string_view tag, std::size_t column, const Markup& content) {
+    Attributes attributes;
+    if (tag == "th") attributes.push_back({"scope", "col"});
+    if (table.columns[column].numeric) attributes.push_back({"class", "number"});
+    return element(tag, attributes, content);
+  };
+  Markup head, body;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) head += cell("th", c, table.columns[c].title);
+  for (const std::vector<Markup>& cells : table.rows) {
+    if (cells.size() != table.columns.size()) throw std::invalid_argument("a row must have a cell for every column");
+    Markup line;
+    for (std::size_t c = 0; c < cells.size(); ++c) line += cell("td", c, cells[c]);
+    body += element("tr", line);
+  }
+  // What scrolls must be reachable by keyboard, and then it needs a name.
+  return element("div", {{"class", "scroll"}, {"role", "region"}, {"tabindex", "0"}, {"aria-label", table.caption}},
+                 element("table", element("caption", table.caption) + element("thead", element("tr", head)) +
+                                      element("tbody", body)));
+}
+
+Markup facts(const std::vector<std::pair<std::string, Markup>>& list) {
+  Markup items;
+  for (const auto& [name, value] : list) items += element("div", element("dt", name) + element("dd", value));
+  return element("dl", {{"class", "facts"}}, items);
+}
+
+Markup details(const Markup& summary, const Markup& content, bool open) {
+  return element("details", {{"open?", open ? "open" : ""}}, element("summary", summary) + content);
+}
+
+Markup picture(const std::string& type, const std::string& bytes, const std::string& alt) {
+  return element("img", {{"src", data_uri(type, bytes)}, {"alt", alt}, {"decoding", "async"}});
+}
+
+Markup figure(const Markup& content, const Markup& caption) {
+  return element("figure", content + (caption.empty() ? Markup() : element("figcaption", caption)));
+}
+
+Markup row(const std::vector<Markup>& pieces) { return element("div", {{"class", "row"}}, join(pieces)); }
+
+}  // namespace drape::html

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+
+#include "sim/bending/curvature.hpp"
+#include "sim/spring_network.hpp"
+#include "sim/system.hpp"
+
+namespace drape {
+
+/// The bending energy of a cloth, E = ½ Σ (‖q‖ − r)² over the components of its curvature elements.
+///
+/// Its quadratic part ½ Σ ‖q‖² couples pairs of vertices as springs without a length do, E = Σ k/2 ‖xᵢ − xⱼ‖² with
+/// k = −Σ wᵢ wⱼ of either sign, and is evaluated as such. It is all there is where the rest shape is flat, and the
+/// bound of the Hessian elsewhere: what is left, r²/2 − r‖q‖, is concave.
+class BendingEnergy final : public CoupledEnergy {
+ public:
+  explicit BendingEnergy(std::span<const CurvatureElement> elements);
+
+  double add_gradient(const Vertices& x, Vertices& gradient) const override;
+  [[nodiscard]] const std::vector<Spring>& bound() const override { return quadratic_.springs(); }
+  [[nodiscard]] std::unique_ptr<CoupledHessian> make_hessian() const override;
+
+ private:
+  friend class BendingHessian;
+
+  /// A component whose rest curvature is not zero.
+  struct Curved {
+    std::array<int, 6> vertices;  // those beyond the element's count weigh nothing
+    Eigen::Matrix<double, 6, 1> weights;
+    double rest;  // r [√J]
+
+    [[nodiscard]] Eigen::RowVector3d bent(const Vertices& x) const;
+  };
+
+  SpringNetwork quadratic_;
+  std::vector<Curved> curved_;
+};
+
+}  // namespace drape

@@ -1,0 +1,91 @@
+#include "sim/collision/candidates.hpp"
+
+#include <algorithm>
+
+#include "sim/collision/impact.hpp"
+
+namespace drape {
+namespace {
+
+Box around(const Box& a, const Box& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
+
+FourPoints gather(const std::vector<Point>& points, const std::array<int, 4>& v) {
+  return {points[static_cast<std::size_t>(v[0])], points[static_cast<std::size_t>(v[1])],
+          points[static_cast<std::size_t>(v[2])], points[static_cast<std::size_t>(v[3])]};
+}
+
+/// Whether a plane across the axis lies between the two features, further than the distance from both together.
+bool separated(Feature feature, const Point& axis, const FourPoints& p, double distance) {
+  const double a = axis.dot(p[0]), b = axis.dot(p[1]), c = axis.dot(p[2]), d = axis.dot(p[3]);
+  const double gap = feature == Feature::vertex_triangle ? a - std::max({b, c, d}) : std::min(a, b) - std::max(c, d);
+  return gap > distance;
+}
+
+Point from_second_to_first(Feature feature, const FourPoints& p) {
+  if (feature == Feature::vertex_triangle) return p[0] - (p[1] + p[2] + p[3]) / 3;
+  return (p[0] + p[1] - p[2] - p[3]) / 2;
+}
+
+}  // namespace
+
+CollisionCandidates::CollisionCandidates(const Cloth& cloth)
+    : edges_(unique_edges(cloth.triangles)), pinned_(static_cast<std::size_t>(cloth.vertex_count()), false) {
+  for (const Triangle& t : cloth.triangles) {
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles_.push_back(t);
+  }
+  for (const Edge& edge : edges_) corners_.insert(corners_.end(), edge.begin(), edge.end());
+  std::sort(corners_.begin(), corners_.end());
+  corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+  for (const int pin : cloth.pins) pinned_[static_cast<std::size_t>(pin)] = true;
+}
+
+void CollisionCandidates::find(const std::vector<Point>& from, const std::vector<Point>& to, double reach) {
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(reach / 2);
+  vertex_boxes_.resize(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    vertex_boxes_[i] = {from[i].cwiseMin(to[i]) - margin, from[i].cwiseMax(to[i]) + margin};
+  }
+  const auto box = [&](int i) -> const Box& { return vertex_boxes_[static_cast<std::size_t>(i)]; };
+  triangle_boxes_.resize(triangles_.size());
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& [a, b, c] = triangles_[t];
+    triangle_boxes_[t] = around(around(box(a), box(b)), box(c));
+  }
+  edge_boxes_.resize(edges_.size());
+  for (std::size_t e = 0; e < edges_.size(); ++e) edge_boxes_[e] = around(box(edges_[e][0]), box(edges_[e][1]));
+
+  pairs_.clear();
+  triangle_hash_.build(triangle_boxes_);
+  for (const int i : corners_) {
+    triangle_hash_.for_overlapping(box(i), [&](int k) {
+      const auto& [a, b, c] = triangles_[static_cast<std::size_t>(k)];
+      if (i != a && i != b && i != c) add({Feature::vertex_triangle, {i, a, b, c}}, from, to, reach);
+    });
+  }
+  edge_hash_.build(edge_boxes_);
+  edge_hash_.for_pairs([&](int k, int l) {
+    const auto& [a, b] = edges_[static_cast<std::size_t>(k)];
+    const auto& [c, d] = edges_[static_cast<std::size_t>(l)];
+    if (a != c && a != d && b != c && b != d) add({Feature::edge_edge, {a, b, c, d}}, from, to, reach);
+  });
+  std::sort(pairs_.begin(), pairs_.end());
+}
+
+void CollisionCandidates::add(const FeaturePair& pair, const std::vector<Point>& from, const std::vector<Point>& to,
+                              double reach) {
+  const auto& v = pair.vertices;
+  if (std::all_of(v.begin(), v.end(), [&](int i) { return pinned_[static_cast<std::size_t>(i)]; })) return;
+  // On straight lines a distance along a fixed axis changes linearly: what it separates at both ends, it separates in
+  // between.
+  const FourPoints start = gather(from, v);
+  FourPoints end = gather(to, v);
+  const Point axis = from_second_to_first(pair.feature, start);
+  const double far = reach * axis.norm();
+  if (separated(pair.feature, axis, start, far) && separated(pair.feature, axis, end, far)) return;
+  for (std::size_t i = 0; i < 4; ++i) end[i] -= start[i];
+  const double near = reach + largest_change(pair.feature, end);
+  if (nearest(pair.feature, start).squared > near * near) return;
+  pairs_.push_back(pair);
+}
+
+}  // namespace drape

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sim/cloth.hpp"
+#include "sim/collision/distance.hpp"
+#include "sim/collision/spatial_hash.hpp"
+
+namespace drape {
+
+/// Two features of a cloth that share no vertex and may touch in a step.
+struct FeaturePair {
+  Feature feature;
+  std::array<int, 4> vertices;  ///< as in FourPoints
+
+  auto operator<=>(const FeaturePair&) const = default;
+};
+
+/// Finds the pairs of features of a cloth that may come near each other while its vertices move on straight lines.
+class CollisionCandidates {
+ public:
+  explicit CollisionCandidates(const Cloth& cloth);
+
+  /// Finds every pair that comes nearer than `reach` [m] while the vertices go from `from` to `to`, and some more;
+  /// those of pins only are left out.
+  void find(const std::vector<Point>& from, const std::vector<Point>& to, double reach);
+
+  /// What was found last, sorted: vertices and triangles, then edges and edges.
+  [[nodiscard]] const std::vector<FeaturePair>& pairs() const { return pairs_; }
+
+ private:
+  void add(const FeaturePair& pair, const std::vector<Point>& from, const std::vector<Point>& to, double reach);
+
+  std::vector<Triangle> triangles_;
+  std::vector<Edge> edges_;
+  std::vector<int> corners_;  // the vertices of the triangles, each once
+  std::vector<bool> pinned_;
+  std::vector<Box> vertex_boxes_, triangle_boxes_, edge_boxes_;
+  SpatialHash triangle_hash_, edge_hash_;
+  std::vector<FeaturePair> pairs_;
+};
+
+}  // namespace drape

@@ -1,0 +1,44 @@
+#include "sim/collision/impact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drape {
+namespace {
+
+// Of the step that would close the gap at full speed: less, so that rounding never takes it too far.
+constexpr double stride = 0.9;
+// Features that slide along each other at a small distance need many steps. Then they count as colliding.
+constexpr int max_steps = 200;
+
+Point mean(const FourPoints& p) { return (p[0] + p[1] + p[2] + p[3]) / 4; }
+
+}  // namespace
+
+double largest_change(Feature feature, const FourPoints& move) {
+  const Point together = mean(move);
+  const double a = (move[0] - together).norm(), b = (move[1] - together).norm();
+  const double c = (move[2] - together).norm(), d = (move[3] - together).norm();
+  return feature == Feature::vertex_triangle ? a + std::max({b, c, d}) : std::max(a, b) + std::max(c, d);
+}
+
+std::optional<double> time_of_impact(Feature feature, FourPoints p, FourPoints move) {
+  const double speed = largest_change(feature, move);
+  double distance = std::sqrt(nearest(feature, p).squared);
+  const double gap = kept_gap * distance;
+  if (!(distance > 0) || speed <= distance - gap) return std::nullopt;
+  const Point together = mean(move);
+  for (Point& m : move) m -= together;
+  double time = 0;
+  for (int step = 0; step < max_steps; ++step) {
+    const double forward = stride * distance / speed;
+    if (time + forward > 1) return std::nullopt;
+    time += forward;
+    for (std::size_t i = 0; i < 4; ++i) p[i] += forward * move[i];
+    distance = std::sqrt(nearest(feature, p).squared);
+    if (distance <= gap) return time;
+  }
+  return time;
+}
+
+}  // namespace drape

@@ -1,0 +1,157 @@
+#include "sim/collision/self_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/collision/impact.hpp"
+
+namespace drape {
+namespace {
+
+using Index = std::size_t;
+
+// How far a vertex may go from where it was expected before candidates are searched anew, in thicknesses. More finds
+// more pairs that never touch, less searches more often.
+constexpr double slack = 0.25;
+// After so many rounds all zones are joined: then it ends in as many rounds as there are vertices left outside.
+constexpr int most_zone_rounds = 50;
+
+}  // namespace
+
+SelfContact::SelfContact(const SelfContactValues& values, const Cloth& cloth)
+    : values_(values), cloth_(cloth), candidates_(cloth) {
+  const auto count = static_cast<Index>(cloth.vertex_count());
+  moving_.velocities.resize(count);
+  for (int i = 0; i < cloth.vertex_count(); ++i) moving_.inverse_masses.push_back(1 / cloth.masses[i]);
+  for (const int pin : cloth.pins) moving_.inverse_masses[Index(pin)] = 0;
+  x_.resize(count);
+  target_.resize(count);
+  found_for_.resize(count);
+  changed_.resize(count);
+}
+
+void SelfContact::apply(const Vertices& x, double, double h, Vertices& v) {
+  converged_ = true;
+  if (!x.allFinite() || !v.allFinite()) return;  // diverged: nothing to keep apart
+  load(x, h, v);
+  find_candidates();
+  if (candidates_.pairs().empty()) return;
+  repel();
+  stop_impacts();
+  if (!impacts_.empty()) make_rigid();
+  for (Eigen::Index i = 0; i < v.rows(); ++i) {
+    if (moving_.inverse_masses[Index(i)] > 0) v.row(i) = moving_.velocities[Index(i)].transpose();
+  }
+}
+
+void SelfContact::load(const Vertices& x, double h, const Vertices& v) {
+  h_ = h;
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    x_[Index(i)] = x.row(i).transpose();
+    moving_.velocities[Index(i)] = v.row(i).transpose();
+    target_[Index(i)] = x_[Index(i)] + h * moving_.velocities[Index(i)];
+  }
+}
+
+void SelfContact::find_candidates() {
+  // Reaches as far as two targets can move towards each other before the candidates are found anew.
+  // What the whole cloth does together would only make them search in larger boxes.
+  Point together = Point::Zero();
+  for (Index i = 0; i < x_.size(); ++i) together += target_[i] - x_[i];
+  together /= static_cast<double>(x_.size());
+  for (Index i = 0; i < x_.size(); ++i) found_for_[i] = target_[i] - together;
+  candidates_.find(x_, found_for_, (1 + 2 * slack) * values_.thickness);
+  found_for_ = target_;
+  std::fill(changed_.begin(), changed_.end(), 1);
+}
+
+void SelfContact::move_targets() {
+  bool far = false;
+  for (Index i = 0; i < x_.size(); ++i) {
+    const Point target = x_[i] + h_ * moving_.velocities[i];
+    if (target == target_[i]) continue;
+    target_[i] = target;
+    changed_[i] = 1;
+    far |= (target - found_for_[i]).norm() > slack * values_.thickness;
+  }
+  if (far) find_candidates();
+}
+
+FourPoints SelfContact::places(const FeaturePair& pair) const {
+  const auto& v = pair.vertices;
+  return {x_[Index(v[0])], x_[Index(v[1])], x_[Index(v[2])], x_[Index(v[3])]};
+}
+
+double SelfContact::rest_distance(const FeaturePair& pair) const {
+  FourPoints rest;
+  for (Index i = 0; i < 4; ++i) rest[i] = cloth_.rest.row(pair.vertices[i]).transpose();
+  return std::sqrt(nearest(pair.feature, rest).squared);
+}
+
+void SelfContact::repel() {
+  contacts_.clear();
+  for (const FeaturePair& pair : candidates_.pairs()) {
+    const FourPoints p = places(pair);
+    const Nearest near = nearest(pair.feature, p);
+    const double distance = std::sqrt(near.squared);
+    if (!(distance > 0)) continue;
+    const Point difference = near.difference(p);
+    Point relative = Point::Zero();
+    for (Index i = 0; i < 4; ++i) relative += near.weights[i] * moving_.velocity(pair.vertices[i]);
+    const double end = distance + h_ * relative.dot(difference) / distance;
+    if (end >= values_.thickness) continue;
+    // Neighbours are nearer than the thickness where the mesh is finer than that.
+    const double depth = std::min(values_.thickness, rest_distance(pair)) - distance;
+    const double speed = depth > 0 ? std::min(values_.repulsion, 1 / h_) * depth : depth / h_;
+    contacts_.emplace_back(pair, near.weights, difference, speed, moving_);
+  }
+  for (int pass = 0; pass < values_.iterations; ++pass) {
+    for (Contact& contact : contacts_) contact.apply(values_.friction, moving_);
+  }
+  move_targets();
+}
+
+bool SelfContact::changed(const FeaturePair& pair) const {
+  return std::any_of(pair.vertices.begin(), pair.vertices.end(), [&](int i) { return changed_[Index(i)] != 0; });
+}
+
+void SelfContact::find_impacts() {
+  impacts_.clear();
+  for (const FeaturePair& pair : candidates_.pairs()) {
+    if (!changed(pair)) continue;
+    FourPoints move;
+    for (Index i = 0; i < 4; ++i) move[i] = h_ * moving_.velocity(pair.vertices[i]);
+    if (const auto time = time_of_impact(pair.feature, places(pair), move)) impacts_.push_back({pair, *time});
+  }
+  std::fill(changed_.begin(), changed_.end(), 0);
+}
+
+void SelfContact::stop_impacts() {
+  find_impacts();
+  for (int pass = 0; pass < values_.iterations && !impacts_.empty(); ++pass) {
+    for (const Impact& impact : impacts_) {
+      FourPoints p = places(impact.pair);
+      for (const int i : impact.pair.vertices) changed_[Index(i)] = 1;
+      for (Index i = 0; i < 4; ++i) p[i] += impact.time * h_ * moving_.velocity(impact.pair.vertices[i]);
+      const Nearest near = nearest(impact.pair.feature, p);
+      if (!(near.squared > 0)) continue;
+      Contact(impact.pair, near.weights, near.difference(p), 0, moving_).apply(values_.friction, moving_);
+    }
+    move_targets();
+    find_impacts();
+  }
+}
+
+void SelfContact::make_rigid() {
+  zones_.begin(moving_.velocities);
+  for (int round = 0; !impacts_.empty(); ++round) {
+    for (const Impact& impact : impacts_) zones_.join(impact.pair.vertices);
+    if (round >= most_zone_rounds) zones_.join_all();
+    converged_ = zones_.apply(x_, moving_);
+    move_targets();
+    find_impacts();
+    std::erase_if(impacts_, [&](const Impact& impact) { return zones_.together(impact.pair.vertices); });
+  }
+}
+
+}  // namespace drape

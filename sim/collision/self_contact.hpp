@@ -1,0 +1,63 @@
+#pragma once
+
+#include "sim/collision/contacts.hpp"
+#include "sim/collision/rigid_zones.hpp"
+#include "sim/system.hpp"
+
+namespace drape {
+
+struct SelfContactValues {
+  double thickness = 0.01;  ///< [m]
+  double repulsion = 20;    ///< [1/s]
+  double friction = 0.3;
+  int iterations = 10;
+};
+
+/// Keeps a cloth from going through itself (after Bridson, Fedkiw and Anderson 2002, sections 6 and 7), in three steps:
+/// 1. Features nearer than the thickness are kept from coming nearer and pushed apart, those that would come nearer
+/// than
+///    it within the step are slowed down: contacts with friction, solved for by projected Gauss-Seidel.
+/// 2. Features that still collide on the way (time_of_impact) get inelastic impulses, in a few passes.
+/// 3. What collides after that moves as a rigid body, see RigidZones. After this step nothing collides.
+/// Every change is by opposite impulses or keeps momentum otherwise, so linear momentum is kept to rounding.
+class SelfContact final : public MotionFilter {
+ public:
+  SelfContact(const SelfContactValues& values, const Cloth& cloth);
+
+  void apply(const Vertices& x, double time, double h, Vertices& v) override;
+  [[nodiscard]] bool converged() const override { return converged_; }
+
+ private:
+  void load(const Vertices& x, double h, const Vertices& v);
+  void find_candidates();
+  void repel();
+  void stop_impacts();
+  void make_rigid();
+  /// The pairs that collide in this step, of those of which a vertex was changed since they were last asked for.
+  void find_impacts();
+  /// The target of every vertex whose velocity has changed; finds the candidates anew if one went further than they
+  /// were found for.
+  void move_targets();
+  [[nodiscard]] FourPoints places(const FeaturePair& pair) const;
+  [[nodiscard]] double rest_distance(const FeaturePair& pair) const;
+  [[nodiscard]] bool changed(const FeaturePair& pair) const;
+
+  struct Impact {
+    FeaturePair pair;
+    double time;  // as a part of the step
+  };
+
+  SelfContactValues values_;
+  const Cloth& cloth_;
+  CollisionCandidates candidates_;
+  MovingVertices moving_;
+  RigidZones zones_;
+  double h_ = 0;
+  std::vector<Point> x_, target_, found_for_;  // where vertices are, would go, and would have gone when last searched
+  std::vector<char> changed_;                  // vertices whose targets changed since impacts were last looked for
+  std::vector<Contact> contacts_;
+  std::vector<Impact> impacts_;
+  bool converged_ = true;
+};
+
+}  // namespace drape

@@ -1,0 +1,33 @@
+#include "sim/effects/self_collision.hpp"
+
+#include "sim/collision/self_contact.hpp"
+
+namespace drape {
+namespace {
+
+class SelfCollision final : public Effect {
+ public:
+  void describe(Keys& keys) override {
+    keys.add("thickness", &values_.thickness, "m", "Distance that layers of the cloth keep.").above(0);
+    keys.add("repulsion", &values_.repulsion, "1/s",
+             "Which part of what is missing to that distance they part by in a second, at first.")
+        .at_least(0);
+    keys.add("friction", &values_.friction, "", "Coefficient of Coulomb friction between layers.").at_least(0);
+    keys.add(
+            "iterations", &values_.iterations, "",
+            "Passes over the contacts in a step, and over the collisions before what is left becomes rigid for a step.")
+        .at_least(1);
+  }
+  void install(System& system) const override {
+    system.filters.push_back(std::make_unique<SelfContact>(values_, system.cloth));
+  }
+
+ private:
+  SelfContactValues values_;
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> make_self_collision() { return std::make_unique<SelfCollision>(); }
+
+}  // namespace drape

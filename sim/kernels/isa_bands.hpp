@@ -1,0 +1,207 @@
+#pragma once
+
+// Springs in bands, a stretch of vertices at a time. Included by kernels_isa.cpp only, see there.
+//
+// A vertex v receives the force of a band's spring v and gives back that of spring v − offset. The loop over a band
+// computes its forces, keeps them, and gives back those of the band before, which were written long enough ago that no
+// read waits for a write. The square root and the division of a spring take the processor longer than all else in the
+// loop together, so that the sums cost nothing; and the loop is short, so that many springs are under way at once.
+
+#include "sim/kernels/isa_springs.hpp"
+
+namespace drape {
+namespace {
+
+/// A vertex's three numbers.
+template <class V>
+struct Triple {
+  V x, y, z;
+};
+
+template <class V>
+inline Triple<V> load_triple(Columns<const double> from, int t) {
+  return {load<V>(from.x + t), load<V>(from.y + t), load<V>(from.z + t)};
+}
+template <class V>
+inline void store_triple(Columns<double> to, int t, const Triple<V>& value) {
+  store<V>(to.x + t, value.x);
+  store<V>(to.y + t, value.y);
+  store<V>(to.z + t, value.z);
+}
+template <class V>
+inline Triple<V> operator-(const Triple<V>& a, const Triple<V>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class V>
+inline void operator+=(Triple<V>& sum, const Triple<V>& term) {
+  sum.x += term.x;
+  sum.y += term.y;
+  sum.z += term.z;
+}
+inline Columns<const double> constant(Columns<double> c) { return {c.x, c.y, c.z}; }
+
+/// The first band: sum = its forces.
+struct NoBandBefore {
+  template <class V>
+  void add(Columns<double>, int, Triple<V>&) const {}
+};
+
+/// A later one: sum += its forces − those that the band before gives back.
+struct BandBefore {
+  SpringBand band;
+
+  template <class V>
+  void add(Columns<double> sum, int t, Triple<V>& total) const {
+    total += load_triple<V>(constant(sum), t) - load_triple<V>(constant(band.force), t - band.offset);
+  }
+};
+
+/// Computes the forces of one band and adds them up; zeros where the cloth has no vertices for their other ends.
+template <class Law, class Before>
+inline void add_band(const SpringBand band, int count, int springs, Columns<const double> from, Law& shared,
+                     const Before before, Columns<double> sum) {
+  Law law = shared;
+  for_range(0, springs, [&]<class V>(int t, V) {
+    Triple<V> force = load_triple<V>(from, t) - load_triple<V>(from, t + band.offset);
+    law(t, force.x, force.y, force.z);
+    store_triple(band.force, t, force);
+    before.add(sum, t, force);
+    store_triple(sum, t, force);
+  });
+  for_range(springs, count, [&]<class V>(int t, V) {
+    Triple<V> none{};
+    store_triple(band.force, t, none);
+    before.add(sum, t, none);
+    store_triple(sum, t, none);
+  });
+  shared = law;
+}
+
+/// Computes every band of a stretch with its law and hands every vertex's place and sum to `finish`.
+template <class Law, class Finish>
+inline void sweep(const SpringStretch& stretch, Columns<const double> from, Law* laws, Finish& shared) {
+  alignas(64) double sums[3][kernel_size];
+  const Columns<double> sum{sums[0], sums[1], sums[2]};
+  Finish finish = shared;
+  for (int b = 0; b < stretch.band_count; ++b) {
+    const SpringBand& band = stretch.bands[b];
+    const int there = stretch.count + stretch.vertices_after - band.offset;
+    const int springs = there < 0 ? 0 : there < stretch.count ? there : stretch.count;
+    if (b == 0) {
+      add_band(band, stretch.count, springs, from, laws[b], NoBandBefore{}, sum);
+    } else {
+      add_band(band, stretch.count, springs, from, laws[b], BandBefore{stretch.bands[b - 1]}, sum);
+    }
+  }
+  if (stretch.band_count == 0) {
+    for_range(0, stretch.count, [&]<class V>(int t, V) { finish(t, load_triple<V>(from, t), Triple<V>{}); });
+  } else {
+    const BandBefore last{stretch.bands[stretch.band_count - 1]};
+    for_range(0, stretch.count, [&]<class V>(int t, V) {
+      Triple<V> total{};
+      last.add(sum, t, total);
+      finish(t, load_triple<V>(from, t), total);
+    });
+  }
+  shared = finish;
+}
+
+struct AddTo {
+  Columns<double> to;
+
+  template <class V>
+  void operator()(int t, const Triple<V>&, Triple<V> sum) {
+    sum += load_triple<V>(constant(to), t);
+    store_triple(to, t, sum);
+  }
+};
+
+struct KickAndDrift {
+  SpringKick k;
+
+  template <class V>
+  void operator()(int t, const Triple<V>& at, const Triple<V>& sum) {
+    const V factor = load<V>(k.factor + t);
+    axis(t, factor, at.x, sum.x, k.force.x, k.velocity.x, k.position.x);
+    axis(t, factor, at.y, sum.y, k.force.y, k.velocity.y, k.position.y);
+    axis(t, factor, at.z, sum.z, k.force.z, k.velocity.z, k.position.z);
+  }
+
+ private:
+  template <class V>
+  void axis(int t, V factor, V at, V sum, const double* force, double* velocity, double* position) const {
+    const V v = load<V>(velocity + t) + factor * (sum - load<V>(force + t));
+    store<V>(velocity + t, v);
+    store<V>(position + t, at + k.h * v);
+  }
+};
+
+struct AddInertia {
+  SpringInertia i;
+  LaneSum twice_energy{};
+
+  template <class V>
+  void operator()(int t, const Triple<V>& at, Triple<V> sum) {
+    const V factor = load<V>(i.factor + t);
+    const Triple<V> d = at - load_triple<V>(i.y, t);
+    const Triple<V> pull{factor * d.x, factor * d.y, factor * d.z};
+    twice_energy.add(t, d.x * pull.x + d.y * pull.y + d.z * pull.z);
+    sum += pull;
+    store_triple(i.gradient, t, sum);
+  }
+};
+
+inline GradientLaw* laws_of(const SpringStretch& stretch, GradientLaw* laws) {
+  for (int b = 0; b < stretch.band_count; ++b) laws[b] = {stretch.bands[b].stiffness, stretch.bands[b].rest_length};
+  return laws;
+}
+inline ValueGradientLaw* laws_of(const SpringStretch& stretch, ValueGradientLaw* laws) {
+  for (int b = 0; b < stretch.band_count; ++b) laws[b] = {stretch.bands[b].stiffness, stretch.bands[b].rest_length, {}};
+  return laws;
+}
+
+inline double energy_of(const SpringStretch& stretch, const ValueGradientLaw* laws) {
+  double twice = 0;
+  for (int b = 0; b < stretch.band_count; ++b) twice += laws[b].twice_energy.total();
+  return twice;
+}
+
+double add_band_value_gradient(const SpringStretch& stretch, Columns<const double> positions,
+                               Columns<double> gradient) {
+  ValueGradientLaw laws[max_bands];
+  AddTo finish{gradient};
+  sweep(stretch, positions, laws_of(stretch, laws), finish);
+  return 0.5 * energy_of(stretch, laws);
+}
+
+double evaluate_bands(const SpringStretch& stretch, Columns<const double> positions, const SpringInertia& inertia) {
+  ValueGradientLaw laws[max_bands];
+  AddInertia finish{inertia};
+  sweep(stretch, positions, laws_of(stretch, laws), finish);
+  return 0.5 * (finish.twice_energy.total() + energy_of(stretch, laws));
+}
+
+void kick_bands(const SpringStretch& stretch, const SpringKick& kick) {
+  GradientLaw laws[max_bands];
+  KickAndDrift finish{kick};
+  sweep(stretch, constant(kick.position), laws_of(stretch, laws), finish);
+}
+
+void add_band_product(const SpringStretch& stretch, const ConstSpringBlocks* blocks, Columns<const double> vector,
+                      Columns<double> product) {
+  ProductLaw laws[max_bands];
+  for (int b = 0; b < stretch.band_count; ++b) laws[b].blocks = blocks[b];
+  AddTo finish{product};
+  sweep(stretch, vector, laws, finish);
+}
+
+void band_blocks(const SpringBand& band, int springs, Columns<const double> positions, SpringBlocks blocks) {
+  BlockLaw law{band.stiffness, band.rest_length, blocks};
+  for_range(0, springs, [&]<class V>(int t, V) {
+    Triple<V> d = load_triple<V>(positions, t) - load_triple<V>(positions, t + band.offset);
+    law(t, d.x, d.y, d.z);
+  });
+}
+
+}  // namespace
+}  // namespace drape

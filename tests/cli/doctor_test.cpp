@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_drape.hpp"
+
+namespace drape {
+namespace {
+
+using testing::drape;
+using testing::Finished;
+using testing::SceneFolder;
+
+/// Makes files in the folder that the loader finds instead of the OpenGL libraries, and that are none.
+/// @returns the assignment that makes the loader look there
+std::string without_libraries(const SceneFolder& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names) folder.write("no/" + name, "");
+  return "LD_LIBRARY_PATH='" + (folder.path() / "no").string() + "'";
+}
+const std::vector<std::string> osmesa{"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
+const std::vector<std::string> egl{"libEGL.so.1", "libEGL.so"};
+std::vector<std::string> both() {
+  std::vector<std::string> names = osmesa;
+  names.insert(names.end(), egl.begin(), egl.end());
+  return names;
+}
+
+const std::string scene = testing::least_scene + "duration = 0.05\n[video]\nsize = [32, 32]\n";
+
+TEST(Doctor, SaysInJsonWhatItFound) {
+  const SceneFolder folder;
+  const Finished finished = drape(folder, "doctor --json");
+  ASSERT_EQ(finished.code, 0) << finished.text;
+  const auto json = nlohmann::json::parse(finished.text);
+  EXPECT_TRUE(json.at("drawing").at("works"));
+  EXPECT_EQ(json.at("backends").size(), 2U);
+  for (const auto& backend : json.at("backends")) {
+    if (!backend.at("works")) continue;
+    EXPECT_FALSE(backend.at("renderer").get<std::string>().empty());
+    EXPECT_GE(backend.at("max_samples"), 4);
+    EXPECT_GE(backend.at("max_texture_size"), 4096);
+  }
+  for (const auto& output : json.at("outputs")) EXPECT_TRUE(output.at("works")) << output;
+  EXPECT_GE(json.at("machine").at("threads"), 1);
+}
+
+TEST(Doctor, ObeysTheCapOnInstructionSets) {
+  const SceneFolder folder;
+  const auto json = nlohmann::json::parse(drape(folder, "doctor --json", "DRAPE_ISA=sse2").text);
+  EXPECT_EQ(json.at("instruction_set").at("chosen"), "sse2");
+  EXPECT_EQ(json.at("environment").at("DRAPE_ISA"), "sse2");
+}
+
+TEST(Doctor, SaysWhatToInstallAndExitsWith4IfNothingCanDraw) {
+  const SceneFolder folder;
+  const std::string environment = without_libraries(folder, both());
+  Finished finished = drape(folder, "doctor", environment);
+  EXPECT_EQ(finished.code, 4) << finished.text;
+  EXPECT_NE(finished.text.find("\n  apt-get install --no-install-recommends libosmesa6 libegl1 libgl1-mesa-dri\n"),
+            std::string::npos)
+      << finished.text;
+  finished = drape(folder, "doctor --json", environment);
+  EXPECT_EQ(finished.code, 4);
+  const auto json = nlohmann::json::parse(finished.text);
+  EXPECT_FALSE(json.at("drawing").at("works"));
+  EXPECT_EQ(json.at("missing_packages"), (nlohmann::json{"libosmesa6", "libegl1", "libgl1-mesa-dri"}));
+}
+
+TEST(Doctor, DrawsWithEglIfThereIsNoOsMesa) {
+  const SceneFolder folder;
+  const auto present = nlohmann::json::parse(drape(folder, "doctor --json").text);
+  if (!present.at("backends").at(1).at("works")) GTEST_SKIP() << present.at("backends").at(1).at("problem");
+  const std::string environment = without_libraries(folder, osmesa);
+  const Finished finished = drape(folder, "doctor --json", environment);
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  EXPECT_EQ(nlohmann::json::parse(finished.text).at("drawing").at("detail"), "egl");
+  folder.write("scene.toml", scene);
+  EXPECT_EQ(drape(folder, "render scene.toml -o still.png", environment).code, 0);
+  EXPECT_EQ(drape(folder, "render scene.toml -o still.png --backend osmesa", environment).code, 4);
+}
+
+TEST(Backend, ThatIsMissingExitsWith4AndSaysWhatToInstall) {
+  const SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const std::string environment = without_libraries(folder, both());
+  const auto says = [&](const std::string& option, const std::string& what) {
+    const Finished finished = drape(folder, "render scene.toml -o still.png " + option, environment);
+    EXPECT_EQ(finished.code, 4) << finished.text;
+    EXPECT_NE(finished.text.find(what), std::string::npos) << finished.text;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "still.png"));
+  };
+  says("--backend osmesa", "apt-get install libosmesa6");
+  says("--backend egl", "apt-get install libegl1 libgl1-mesa-dri");
+  says("", "apt-get install libosmesa6");
+  says("", "apt-get install libegl1 libgl1-mesa-dri");
+}
+
+TEST(Backend, OfAnUnknownNameIsAUsageError) {
+  const SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const Finished finished = drape(folder, "render scene.toml --backend osmessa");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_NE(finished.text.find("did you mean 'osmesa'"), std::string::npos) << finished.text;
+}
+
+}  // namespace
+}  // namespace drape

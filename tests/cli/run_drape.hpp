@@ -1,0 +1,33 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include "tests/support/scene_folder.hpp"
+
+namespace drape::testing {
+
+struct Finished {
+  int code = -1;
+  std::string text;  // standard output and error together
+};
+
+/// Runs the drape that was built, in the folder.
+/// @param environment assignments that stand before it on the shell's command line
+inline Finished drape(const SceneFolder& folder, const std::string& arguments, const std::string& environment = "") {
+  const std::string command =
+      "cd '" + folder.path().string() + "' && " + environment + " " + DRAPE_EXECUTABLE + " " + arguments + " 2>&1";
+  Finished finished;
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe))
+    finished.text.append(buffer.data(), count);
+  const int status = pclose(pipe);
+  finished.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return finished;
+}
+
+}  // namespace drape::testing

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/browser.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+namespace drape::testing {
+
+/// Opens pages in a headless Chromium; skipped where there is none. A picture of each is kept in the folder that
+/// DRAPE_SCREENSHOTS names, for people to look at.
+class InBrowser : public ScratchFolder {
+ protected:
+  void SetUp() override {
+    if (const std::string why = Browser::missing(); !why.empty()) GTEST_SKIP() << why;
+    browser_ = std::make_unique<Browser>();
+  }
+
+  void open(const std::string& html) {
+    put(path("page.html"), html);
+    browser_->set_width(1200);
+    browser_->open(path("page.html"));
+  }
+
+  /// What every page must hold: nothing in the console, nothing from elsewhere, every picture there, every control with
+  /// a name, no sideways scrolling however narrow the window is.
+  void expect_sound() {
+    EXPECT_EQ(browser_->console_problems(), std::vector<std::string>());
+    EXPECT_EQ(browser_->requests(), std::vector<std::string>());
+    EXPECT_EQ(browser_->run("return [...document.images].filter((i) => !i.complete || !i.naturalWidth).length"), 0);
+    EXPECT_EQ(browser_->run("return [...document.images].filter((i) => !i.alt).length"), 0);
+    EXPECT_EQ(browser_->run("return [...document.querySelectorAll('input, button')].filter((i) => "
+                            "!i.closest('label') && !i.ariaLabel && !i.textContent).length"),
+              0);
+    EXPECT_EQ(browser_->run("const ids = [...document.querySelectorAll('[id]')].map((e) => e.id);"
+                            "return ids.length - new Set(ids).size"),
+              0);
+    for (const int width : {360, 1200}) {
+      browser_->set_width(width);
+      EXPECT_LE(browser_->run("return document.documentElement.scrollWidth").get<int>(), width);
+    }
+  }
+
+  /// Pictures of the page as it is now: narrow and wide, light and dark.
+  void keep_screenshots(const std::string& name) {
+    const char* folder = std::getenv("DRAPE_SCREENSHOTS");
+    if (folder == nullptr) return;
+    for (const bool dark : {false, true}) {
+      browser_->set_theme(dark);
+      for (const int width : {390, 1200}) {
+        browser_->set_width(width);
+        browser_->save_screenshot(std::filesystem::path(folder) /
+                                  (name + (dark ? "-dark-" : "-light-") + std::to_string(width) + ".png"));
+      }
+    }
+    browser_->set_theme(false);
+  }
+
+  std::unique_ptr<Browser> browser_;
+};
+
+}  // namespace drape::testing

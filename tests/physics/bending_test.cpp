@@ -1,0 +1,217 @@
+// Bending energies against what a rolled sheet holds, and what resistance to bending does to a cloth.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "sim/bending/bending_energy.hpp"
+#include "sim/bending/hinges.hpp"
+#include "sim/simulation.hpp"
+#include "sim/stability.hpp"
+#include "tests/support/meshes.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+constexpr double rigidity = 0.7;
+
+/// A flat sheet of n×n cells whose inner vertices are moved by up to a third of a cell, its diagonals chosen at random.
+Mesh uneven_grid(int n) {
+  Mesh mesh = make_grid(n, n);
+  mesh.uvs.clear();
+  Random random(7);
+  for (int j = 1; j < n; ++j) {
+    for (int i = 1; i < n; ++i) {
+      for (int axis = 0; axis < 2; ++axis) mesh.positions(j * (n + 1) + i, axis) += random.between(-0.5, 0.5) / n;
+    }
+  }
+  const auto cells = static_cast<std::size_t>(n * n);
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    if (random.number() < 0.5) continue;
+    const auto [b, d, a] = mesh.triangles[cell];
+    const int e = mesh.triangles[cells + cell][1];
+    mesh.triangles[cell] = {a, b, e};
+    mesh.triangles[cells + cell] = {a, e, d};
+  }
+  return mesh;
+}
+
+/// The plane rolled around a cylinder of radius R, around an axis at an angle to the y axis.
+Vertices rolled(const Vertices& flat, double radius, double angle) {
+  Vertices x = flat;
+  for (Eigen::Index i = 0; i < flat.rows(); ++i) {
+    const double u = std::cos(angle) * flat(i, 0) + std::sin(angle) * flat(i, 1);
+    const double v = -std::sin(angle) * flat(i, 0) + std::cos(angle) * flat(i, 1);
+    x.row(i) << radius * std::sin(u / radius), v, radius * (1 - std::cos(u / radius));
+  }
+  return x;
+}
+
+double bending_energy(const Cloth& cloth, const Vertices& x) {
+  Vertices ignored = Vertices::Zero(x.rows(), 3);
+  return BendingEnergy(curvature_elements(cloth, rigidity)).add_gradient(x, ignored);
+}
+
+/// What a sheet of 2 m × 2 m rolled to the radius holds: ½ D A/R².
+double analytic_energy(double radius) { return 0.5 * rigidity * 4 / (radius * radius); }
+
+struct Roll {
+  const char* name;
+  Mesh (*mesh)(int n);
+  double degrees;
+};
+
+class RolledSheet : public testing::TestWithParam<Roll> {};
+INSTANTIATE_TEST_SUITE_P(, RolledSheet,
+                         testing::Values(Roll{"GridAlongX", [](int n) { return make_grid(n, n); }, 0},
+                                         Roll{"GridAlongY", [](int n) { return make_grid(n, n); }, 90},
+                                         Roll{"GridAlongItsDiagonals", [](int n) { return make_grid(n, n); }, -45},
+                                         Roll{"GridAcrossItsDiagonals", [](int n) { return make_grid(n, n); }, 45},
+                                         Roll{"UnevenAlongX", uneven_grid, 0}, Roll{"UnevenAlongY", uneven_grid, 90},
+                                         Roll{"UnevenAskew", uneven_grid, 25}),
+                         [](const auto& tested) { return tested.param.name; });
+
+// The border, where a triangle has fewer hinges, is a share of 1/n of the sheet: the error halves with the cells, and
+// extrapolated by that order (Richardson) it is gone.
+TEST_P(RolledSheet, HoldsTheAnalyticBendingEnergy) {
+  const double angle = GetParam().degrees * std::numbers::pi / 180;
+  for (const double radius : {0.8, 3.0}) {
+    std::vector<double> ratios;
+    for (const int n : {20, 40, 80}) {
+      const Mesh mesh = GetParam().mesh(n);
+      const Cloth cloth = cloth_of(mesh, 1, 1, {});
+      ratios.push_back(bending_energy(cloth, rolled(mesh.positions, radius, angle)) / analytic_energy(radius));
+      EXPECT_NEAR(ratios.back(), 1, 1.2 / n) << n << " cells, R = " << radius;
+    }
+    EXPECT_NEAR((ratios[2] - 1) / (ratios[1] - 1), 0.5, 0.05);
+    EXPECT_NEAR(2 * ratios[2] - ratios[1], 1, 2e-3);
+  }
+}
+
+TEST(BendingEnergy, IsZeroForEveryPlaceAndDirectionOfAFlatSheet) {
+  const Mesh mesh = uneven_grid(15);
+  const Cloth cloth = cloth_of(mesh, 1, 1, {});
+  Eigen::Matrix3d turn;
+  turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -3).normalized());
+  Vertices x = mesh.positions * turn.transpose();
+  x.rowwise() += Eigen::RowVector3d(100, -50, 20);
+  Vertices gradient = Vertices::Zero(x.rows(), 3);
+  const double energy = BendingEnergy(curvature_elements(cloth, rigidity)).add_gradient(x, gradient);
+  EXPECT_NEAR(energy, 0, 1e-9 * analytic_energy(1));
+  EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-9);
+}
+
+// A rest shape that is rolled already is at rest, at its own radius only.
+TEST(BendingEnergy, IsZeroForARolledRestShape) {
+  const Mesh flat = uneven_grid(20);
+  Mesh mesh = flat;
+  mesh.positions = rolled(flat.positions, 0.8, 0.4);
+  const Cloth cloth = cloth_of(mesh, 1, 1, {});
+  Vertices gradient = Vertices::Zero(mesh.positions.rows(), 3);
+  const BendingEnergy energy(curvature_elements(cloth, rigidity));
+  EXPECT_NEAR(energy.add_gradient(mesh.positions, gradient), 0, 1e-9 * analytic_energy(0.8));
+  EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-9);
+  // Unrolled by half, the curvature is off by half of 1/R.
+  Vertices ignored = gradient;
+  EXPECT_NEAR(energy.add_gradient(rolled(flat.positions, 1.6, 0.4), ignored) / analytic_energy(1.6), 1, 0.1);
+  EXPECT_NEAR(energy.add_gradient(flat.positions, ignored) / analytic_energy(0.8), 1, 0.1);
+}
+
+TEST(CrossSprings, JoinTheVerticesOppositeToEveryInnerEdge) {
+  // Two cells, vertices 0 1 2 above 3 4 5; their diagonals are 1–3 and 2–4.
+  const Cloth cloth = cloth_of(make_grid(2, 1), 1, 1, {});
+  const std::vector<Spring> springs = cross_springs(cloth, 5);
+  ASSERT_EQ(springs.size(), 3U);
+  const auto expect = [](const Spring& spring, int i, int j, double length) {
+    EXPECT_EQ(spring.i, i);
+    EXPECT_EQ(spring.j, j);
+    EXPECT_DOUBLE_EQ(spring.rest_length, length);
+    EXPECT_EQ(spring.stiffness, 5);
+  };
+  expect(springs[0], 0, 4, std::sqrt(5.0));  // across 1–3
+  expect(springs[1], 1, 5, std::sqrt(5.0));  // across 2–4
+  expect(springs[2], 2, 3, std::sqrt(8.0));  // across 1–4
+}
+
+TEST(CrossSprings, AreOneForEachInnerEdgeOfAGrid) {
+  const int n = 7;
+  EXPECT_EQ(cross_springs(cloth_of(make_grid(n, n), 1, 1, {}), 1).size(), static_cast<std::size_t>(3 * n * n - 2 * n));
+}
+
+TEST(Hinges, OfThreeSheetsAtAnEdgeAreTheirThreePairs) {
+  const Cloth cloth = cloth_of(three_sheets(1), 1, 1, {});
+  EXPECT_EQ(cross_springs(cloth, 1).size(), 3U + 3U);  // the shared edge's and the diagonals'
+}
+
+// Semi-implicit Euler evaluates the energy as a force: its safe step has to know.
+TEST(SafeStep, IncludesBending) {
+  SimulationSettings settings = setup(cloth_of(make_grid(20, 20), 1, 1e-3, {0, 20}), Method::semi_implicit, 1);
+  settings.effects = {effect("bending", {{"rigidity", 1.0}})};
+  const double safe = safe_step(make_system(settings));
+  const auto grows = [&](double step) {
+    settings.step = step;
+    settings.cloth.positions.col(2) = 1e-6 * random_vertices(settings.cloth.vertex_count(), 3).col(2);
+    settings.integrator.allow_unstable = true;
+    Simulation simulation(settings);
+    const double before = simulation.energies().total();
+    for (int i = 0; i < 1000; ++i) simulation.step();
+    return simulation.energies().total() / before;
+  };
+  EXPECT_LT(grows(0.99 * safe), 1e3);
+  EXPECT_GT(grows(1.01 * safe), 1e6);
+}
+
+class BentStrip : public testing::TestWithParam<NamedMethod> {};
+INSTANTIATE_TEST_SUITE_P(With, BentStrip, testing::ValuesIn(all_methods), method_name);
+
+// Of a strip clamped at one end, the other end sinks by ρ g L⁴/(8 D) where that is small: Euler and Bernoulli's beam.
+TEST_P(BentStrip, SinksAsABeamDoes) {
+  constexpr int columns = 24, rows = 3;
+  constexpr double length = 1, width = 0.125, mass = 0.05, sag = 0.03, g = 9.8;
+  Mesh mesh = make_grid(columns, rows);
+  // The first column of cells is in the clamp. The hinge at its end bends the half cells on both sides of it.
+  const double cell = length / (columns - 0.5);
+  mesh.positions.col(0) = (mesh.positions.col(0).array() + 1) / 2 * columns * cell - cell;
+  mesh.positions.col(1) *= width / 2;
+  std::vector<int> clamp;
+  for (int j = 0; j <= rows; ++j) {
+    clamp.push_back(j * (columns + 1));
+    clamp.push_back(j * (columns + 1) + 1);
+  }
+  SimulationSettings settings = setup(cloth_of(mesh, mass, 200, clamp), GetParam(), 0.01);
+  settings.integrator.tolerance = 1e-7;
+  settings.integrator.max_iterations = 2000;
+  // The weight of a metre of the strip; as the masses are lumped, those at the tip are as large as all others.
+  const double load = g * mass / (columns + 1) / cell / width;
+  const double bending = load * std::pow(length, 4) / (8 * sag);
+  const double tip_load = g * mass / (columns + 1) / 2 / width;  // the tip's mass is half a cell's too much
+  const double expected = sag + tip_load * std::pow(length, 3) / (3 * bending);
+  settings.effects = {effect("gravity"), effect("bending", {{"rigidity", bending}}),
+                      effect("damping", {{"factor", 1e-9}})};
+  if (GetParam().method == Method::semi_implicit) settings.step = 0.95 * safe_step(make_system(settings));
+  Simulation simulation(settings);
+  while (simulation.time() < 2) simulation.step();
+  const int tip = (rows + 1) / 2 * (columns + 1) + columns;
+  EXPECT_LT(simulation.state().v.cwiseAbs().maxCoeff(), 1e-3) << "still moving";
+  EXPECT_NEAR(-simulation.state().x(tip, 2), expected, 0.02 * expected);
+}
+
+// Without resistance the same strip hangs straight down.
+TEST(BentStrip, WouldHangWithoutResistance) {
+  Mesh mesh = make_grid(24, 3);
+  mesh.positions.col(1) *= 0.06;
+  std::vector<int> clamp;
+  for (int j = 0; j <= 3; ++j) clamp.insert(clamp.end(), {j * 25, j * 25 + 1});
+  SimulationSettings settings = setup(cloth_of(mesh, 0.05, 200, clamp), Method::implicit, 0.01);
+  settings.effects = {effect("gravity"), effect("damping", {{"factor", 0.01}})};
+  Simulation simulation(settings);
+  while (simulation.time() < 4) simulation.step();
+  EXPECT_LT(simulation.state().x(24, 2), -1.8);
+}
+
+}  // namespace
+}  // namespace drape::test

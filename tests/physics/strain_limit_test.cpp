@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "sim/simulation.hpp"
+#include "tests/support/meshes.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+class StrainLimit : public testing::TestWithParam<NamedMethod> {
+ protected:
+  static double step() { return GetParam().method == Method::semi_implicit ? 0.002 : 0.02; }
+};
+INSTANTIATE_TEST_SUITE_P(With, StrainLimit, testing::ValuesIn(all_methods), method_name);
+
+/// The stretches of a cloth's edges furthest from 1, those between pins aside.
+struct Extremes {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+};
+Extremes extremes(const Cloth& cloth, const Vertices& x) {
+  Extremes e;
+  for (const Spring& s : cloth.springs) {
+    const double stretch = (x.row(s.i) - x.row(s.j)).norm() / s.rest_length;
+    e = {std::min(e.least, stretch), std::max(e.most, stretch)};
+  }
+  return e;
+}
+
+// So soft that some of its edges would become more than twice as long.
+TEST_P(StrainLimit, HoldsAHangingClothAtEveryStep) {
+  SimulationSettings settings = homework(GetParam(), step(), 5);
+  settings.integrator.max_iterations = 2000;
+  settings.effects.push_back(effect("strain_limit", {{"max_stretch", 1.1}, {"tolerance", 1e-3}}));
+  Simulation simulation(settings);
+  double most = 0;
+  while (simulation.time() < 2) {
+    EXPECT_TRUE(simulation.step().converged) << "step " << simulation.state().step;
+    most = std::max(most, extremes(settings.cloth, simulation.state().x).most);
+  }
+  EXPECT_LE(most, 1.1 * 1.001 + 1e-9);
+  EXPECT_GT(most, 1.09) << "the limit was never felt";
+
+  settings.effects.pop_back();
+  Simulation unlimited(settings);
+  while (unlimited.time() < 1) unlimited.step();
+  EXPECT_GT(extremes(settings.cloth, unlimited.state().x).most, 2) << "nothing to hold";
+}
+
+// A strip hangs from one side, and its lower half is kicked down and aside at once.
+TEST_P(StrainLimit, HoldsUnderASuddenLoad) {
+  Mesh mesh = make_grid(4, 16);
+  mesh.positions.col(0) *= 0.25;
+  std::vector<int> top{80, 81, 82, 83, 84};
+  SimulationSettings settings = setup(cloth_of(mesh, 0.5, 20, top), GetParam(), step());
+  for (int i = 0; i < 40; ++i) settings.cloth.velocities.row(i) << 3, -8, 2;
+  settings.effects = {effect("gravity"), effect("strain_limit", {{"max_stretch", 1.05}, {"min_stretch", 0.8}})};
+  Simulation simulation(settings);
+  while (simulation.time() < 1) {
+    if (!simulation.step().converged) continue;  // squeezed into what no shape can satisfy: reported
+    const Extremes e = extremes(settings.cloth, simulation.state().x);
+    EXPECT_LE(e.most, 1.05 * 1.001 + 1e-9) << "step " << simulation.state().step;
+    EXPECT_GE(e.least, 0.8 * 0.999 - 1e-9) << "step " << simulation.state().step;
+  }
+}
+
+// Between pins that are too far apart no cloth satisfies the limit: every step says so, and the motion stays finite.
+TEST_P(StrainLimit, ReportsWhatItCannotHold) {
+  SimulationSettings settings = setup(cloth_of(make_grid(4, 4), 1, 20, {0, 4, 20, 24}), GetParam(), step());
+  settings.effects = {effect("strain_limit", {{"max_stretch", 1.1}, {"iterations", 50}})};
+  Simulation simulation(settings);
+  State apart = simulation.state();
+  apart.x *= 1.3;
+  simulation.restore(apart);
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(simulation.step().converged);
+  EXPECT_LT(simulation.state().x.norm(), 2 * apart.x.norm());
+}
+
+Eigen::RowVector3d momentum(const Cloth& cloth, const State& state) { return cloth.masses.transpose() * state.v; }
+Eigen::RowVector3d angular_momentum(const Cloth& cloth, const State& state) {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (int i = 0; i < cloth.vertex_count(); ++i) sum += cloth.masses[i] * state.x.row(i).cross(state.v.row(i));
+  return sum;
+}
+
+// What the filter alone does to a free cloth that flies apart and turns. Semi-implicit Euler keeps both momenta itself.
+TEST(StrainLimitAlone, KeepsBothMomentaOfAFreeCloth) {
+  Cloth cloth = cloth_of(irregular_mesh(8), 1, 5, {});
+  for (int i = 0; i < cloth.vertex_count(); ++i) {
+    cloth.masses[i] *= 1 + 0.5 * std::sin(i);
+    const Eigen::RowVector3d x = cloth.positions.row(i);
+    cloth.velocities.row(i) << 2 - 3 * x[1] + 2 * x[0], 1 + 3 * x[0] + 2 * x[1], -1 + std::sin(3 * x[0]);
+  }
+  SimulationSettings settings = setup(std::move(cloth), Method::semi_implicit, 0.002);
+  settings.effects = {effect("strain_limit", {{"max_stretch", 1.05}})};
+  Simulation simulation(settings);
+  const Eigen::RowVector3d p = momentum(settings.cloth, simulation.state());
+  const Eigen::RowVector3d l = angular_momentum(settings.cloth, simulation.state());
+  ASSERT_GT(l.norm(), 0.1);
+  constexpr int steps = 500;
+  double most = 0;
+  for (int i = 0; i < steps; ++i) {
+    EXPECT_TRUE(simulation.step().converged);
+    most = std::max(most, extremes(settings.cloth, simulation.state().x).most);
+  }
+  EXPECT_GT(most, 1.04) << "the limit was never felt";
+  EXPECT_LE(most, 1.05 * 1.001 + 1e-9);
+  EXPECT_LT((momentum(settings.cloth, simulation.state()) - p).norm(), 1e-12 * p.norm());
+  EXPECT_LT((angular_momentum(settings.cloth, simulation.state()) - l).norm(), 1e-11 * l.norm());
+}
+
+TEST(StrainLimitAlone, RefusesAClothThatStartsBeyondIt) {
+  SimulationSettings settings = setup(cloth_of(make_grid(4, 4), 1, 20, {}), Method::liu13, 0.02);
+  settings.cloth.positions.col(0) *= 1.3;
+  const auto found = problems(effect("strain_limit", {{"max_stretch", 1.1}}), settings);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_TRUE(found[0].starts_with("max_stretch: the cloth starts beyond the limit")) << found[0];
+  EXPECT_TRUE(problems(effect("strain_limit", {{"max_stretch", 1.4}}), settings).empty());
+  EXPECT_EQ(problems(effect("strain_limit", {{"max_stretch", 2.0}, {"min_stretch", 1.0}}), settings).size(), 0U);
+  settings.cloth.positions.col(0) *= 0.5;
+  EXPECT_EQ(problems(effect("strain_limit", {{"max_stretch", 2.0}, {"min_stretch", 0.9}}), settings).size(), 1U);
+}
+
+}  // namespace
+}  // namespace drape::test

@@ -1,0 +1,190 @@
+// Every energy that a step minimises, against finite differences and its own bounds.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <functional>
+#include <ostream>
+#include <string>
+
+#include "sim/linear/conjugate_gradients.hpp"
+#include "sim/linear/newton_system.hpp"
+#include "sim/step_objective.hpp"
+#include "tests/support/meshes.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+/// An effect with an energy, on a cloth that feels it.
+struct Case {
+  std::string name;
+  std::function<Mesh()> mesh;
+  std::function<ActiveEffect()> effect;
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+Mesh flat_mesh() { return make_grid(9, 7); }
+Mesh bowl() {
+  Mesh mesh = irregular_mesh(9);
+  mesh.positions.col(2) += 0.4 * mesh.positions.leftCols(2).rowwise().squaredNorm();
+  return mesh;
+}
+ActiveEffect bending() { return effect("bending", {{"rigidity", 0.3}}); }
+ActiveEffect implicit_sphere() {
+  return effect("sphere",
+                {{"center", Eigen::Vector3d(0.1, 0, -0.5)}, {"radius", 0.7}, {"response", std::string("implicit")}});
+}
+
+/// One term of the energy, whichever kind it is: of vertices by themselves, or of vertices together.
+class Term {
+ public:
+  Term(const Mesh& mesh, const ActiveEffect& active) : cloth_(cloth_of(mesh, 1, 180, {0, 3})), system_(cloth_, 0.02) {
+    active.effect->install(system_);
+    for (const auto& energy : system_.coupled_energies) hessians_.push_back(energy->make_hessian());
+  }
+
+  [[nodiscard]] const Cloth& cloth() const { return cloth_; }
+  [[nodiscard]] const System& system() const { return system_; }
+
+  double value(const Vertices& x) const {
+    Vertices ignored = Vertices::Zero(x.rows(), 3);
+    return add_gradient(x, ignored);
+  }
+  Vertices gradient(const Vertices& x) const {
+    Vertices result = Vertices::Zero(x.rows(), 3);
+    add_gradient(x, result);
+    return result;
+  }
+  /// H(x)·v
+  Vertices product(const Vertices& x, const Vertices& v) {
+    Vertices result = Vertices::Zero(x.rows(), 3);
+    for (const auto& hessian : hessians_) {
+      hessian->linearise(x);
+      hessian->add_product(v, result);
+    }
+    DiagonalBlocks b = DiagonalBlocks::Zero(x.rows(), 6);
+    for (const auto& energy : system_.energies) energy->add_hessian(x, 0, b);
+    for (Eigen::Index i = 0; i < x.rows(); ++i) {
+      Eigen::Matrix3d block;
+      block << b(i, 0), b(i, 1), b(i, 2), b(i, 1), b(i, 3), b(i, 4), b(i, 2), b(i, 4), b(i, 5);
+      result.row(i) += v.row(i) * block;
+    }
+    return result;
+  }
+  /// vᵀ B v of the constant bound B.
+  double bounded(const Vertices& v) const {
+    double sum = 0;
+    for (const auto& energy : system_.coupled_energies) {
+      for (const Spring& s : energy->bound()) sum += s.stiffness * (v.row(s.i) - v.row(s.j)).squaredNorm();
+    }
+    Eigen::VectorXd bound = Eigen::VectorXd::Zero(v.rows());
+    for (const auto& energy : system_.energies) energy->add_bound(bound);
+    return sum + bound.dot(v.rowwise().squaredNorm());
+  }
+
+ private:
+  double add_gradient(const Vertices& x, Vertices& gradient) const {
+    double value = 0;
+    for (const auto& energy : system_.coupled_energies) value += energy->add_gradient(x, gradient);
+    for (const auto& energy : system_.energies) value += energy->add_gradient(x, 0, gradient);
+    return value;
+  }
+
+  Cloth cloth_;
+  System system_;
+  std::vector<std::unique_ptr<CoupledHessian>> hessians_;
+};
+
+double product(const Vertices& a, const Vertices& b) { return a.cwiseProduct(b).sum(); }
+
+class EveryEnergy : public testing::TestWithParam<Case> {
+ protected:
+  EveryEnergy() : term_(GetParam().mesh(), GetParam().effect()) {}
+
+  /// The cloth crumpled by up to so many metres.
+  Vertices crumpled(double by, int seed) const {
+    return term_.cloth().positions + by * random_vertices(term_.cloth().vertex_count(), seed);
+  }
+  Vertices direction(int seed) const { return random_vertices(term_.cloth().vertex_count(), seed); }
+
+  Term term_;
+};
+INSTANTIATE_TEST_SUITE_P(, EveryEnergy,
+                         testing::Values(Case{"BendingFromFlat", flat_mesh, bending},
+                                         Case{"BendingFromABowl", bowl, bending},
+                                         Case{"BendingOfThreeSheets", [] { return three_sheets(4); }, bending},
+                                         Case{"ImplicitSphere", flat_mesh, implicit_sphere}),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST_P(EveryEnergy, HasTheSlopeItsGradientSays) {
+  constexpr double e = 1e-5;
+  for (const int seed : {1, 2, 3}) {
+    const Vertices x = crumpled(0.1, seed), d = direction(seed + 10);
+    ASSERT_GT(term_.value(x), 0);
+    const double slope = (term_.value(x + e * d) - term_.value(x - e * d)) / (2 * e);
+    EXPECT_NEAR(product(term_.gradient(x), d), slope, 1e-6 * term_.gradient(x).norm());
+  }
+}
+
+TEST_P(EveryEnergy, IsNeverNegative) {
+  EXPECT_GE(term_.value(term_.cloth().positions), -1e-12);
+  for (const int seed : {1, 2, 3}) EXPECT_GE(term_.value(crumpled(0.5, seed)), 0);
+}
+
+// The Hessian is the slope of the gradient, unless negative eigenvalues were left out: then it is larger.
+TEST_P(EveryEnergy, HasTheCurvatureItsHessianSaysOrLess) {
+  constexpr double e = 1e-6;
+  for (const int seed : {1, 2, 3}) {
+    const Vertices x = crumpled(0.1, seed), d = direction(seed + 10);
+    const double slope = product(term_.gradient(x + e * d) - term_.gradient(x - e * d), d) / (2 * e);
+    const double curvature = product(term_.product(x, d), d);
+    EXPECT_GE(curvature, slope - 1e-5 * term_.bounded(d));
+    EXPECT_GE(curvature, 0);
+    EXPECT_LE(curvature, term_.bounded(d) * (1 + 1e-12));
+  }
+}
+
+// What lets Liu13 do without a line search: E(x + d) ≤ E(x) + ∇E·d + ½ dᵀBd, however far d goes.
+TEST_P(EveryEnergy, StaysBelowTheParabolaOfItsBound) {
+  for (const int seed : {1, 2, 3}) {
+    for (const double far : {1e-2, 0.3, 5.0}) {
+      const Vertices x = crumpled(0.1, seed), d = far * direction(seed + 10);
+      const double parabola = term_.value(x) + product(term_.gradient(x), d) + 0.5 * term_.bounded(d);
+      EXPECT_LE(term_.value(x + d), parabola * (1 + 1e-12));
+    }
+  }
+}
+
+TEST_P(EveryEnergy, PullsNowhereAsAWhole) {
+  if (term_.system().coupled_energies.empty()) GTEST_SKIP() << "of vertices by themselves";
+  const Vertices x = crumpled(0.1, 1), g = term_.gradient(x);
+  EXPECT_LT(g.colwise().sum().norm(), 1e-12 * g.norm() * std::sqrt(static_cast<double>(g.rows())));
+}
+
+// M/h² p + (springs and energy) p = b, with the assembled matrix and with the products alone.
+TEST_P(EveryEnergy, EntersBothOfNewtonsLinearSolvers) {
+  const System& system = term_.system();
+  const StepObjective objective(system);
+  const Vertices x = crumpled(0.1, 1);
+  Vertices b = direction(5);
+  for (const int pin : term_.cloth().pins) b.row(pin).setZero();
+  const auto residual = [&](const Vertices& p) {
+    SpringNetwork::Blocks blocks;
+    objective.springs().compute_blocks(x, blocks);
+    Vertices left = objective.inertia().asDiagonal() * p + term_.product(x, p);
+    objective.springs().add_product(blocks, p, left);
+    for (const int pin : term_.cloth().pins) left.row(pin).setZero();
+    return (left - b).norm() / b.norm();
+  };
+  Vertices p(x.rows(), 3);
+  NewtonSystem(system, objective).solve(x, b, p);
+  EXPECT_LT(residual(p), 1e-10);
+  ConjugateGradients(system, objective).solve(x, b, p);
+  EXPECT_LT(residual(p), 1.01e-2);
+}
+
+}  // namespace
+}  // namespace drape::test
