@@ -119,6 +119,20 @@ std::optional<Eigen::Vector2i> read_int_pair(const TomlValue& value, const std::
   return first && second ? std::optional(Eigen::Vector2i(*first, *second)) : std::nullopt;
 }
 
+std::optional<std::vector<int>> read_ints(const TomlValue& value, const std::string& name, const Range& range,
+                                          Problems& problems) {
+  const TomlArray* array = value.as<TomlArray>();
+  if (array == nullptr) {
+    expected("an array of whole numbers", value, name, problems);
+    return std::nullopt;
+  }
+  std::vector<int> numbers;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    if (const auto number = read_int((*array)[i], item_name(name, i), range, problems)) numbers.push_back(*number);
+  }
+  return numbers.size() == array->size() ? std::optional(numbers) : std::nullopt;
+}
+
 namespace {
 
 /// Reads one keyframe into `list`; false if it is not one. `used` is the name that the values have, once it is known.
@@ -184,20 +198,6 @@ void read_keyframes(const TomlValue& value, const std::string& name, const Keyfr
     if (!read_keyframe((*array)[i], item_name(name, i), list, used, problems)) return;
   }
   if (list.name != nullptr) *list.name = *used;
-}
-
-std::optional<std::vector<int>> read_ints(const TomlValue& value, const std::string& name, const Range& range,
-                                          Problems& problems) {
-  const TomlArray* array = value.as<TomlArray>();
-  if (array == nullptr) {
-    expected("an array of whole numbers", value, name, problems);
-    return std::nullopt;
-  }
-  std::vector<int> numbers;
-  for (std::size_t i = 0; i < array->size(); ++i) {
-    if (const auto number = read_int((*array)[i], item_name(name, i), range, problems)) numbers.push_back(*number);
-  }
-  return numbers.size() == array->size() ? std::optional(numbers) : std::nullopt;
 }
 
 std::optional<std::filesystem::path> read_file_name(const TomlValue& value, const std::string& name,

@@ -44,12 +44,12 @@ std::optional<Eigen::Vector3d> read_vector(const TomlValue& value, const std::st
 std::optional<Eigen::Vector2i> read_int_pair(const TomlValue& value, const std::string& name, const Range& range,
                                              Problems& problems);
 
-/// Reads keyframes, an array of { time, NAME = [x, y, z] }, at least one, whose times increase from 0 on.
-void read_keyframes(const TomlValue& value, const std::string& name, const KeyframeList& list, Problems& problems);
-
 /// Reads an array of whole numbers, each in the range.
 std::optional<std::vector<int>> read_ints(const TomlValue& value, const std::string& name, const Range& range,
                                           Problems& problems);
+
+/// Reads keyframes, an array of { time, NAME = [x, y, z] }, at least one, whose times increase from 0 on.
+void read_keyframes(const TomlValue& value, const std::string& name, const KeyframeList& list, Problems& problems);
 
 /// Reads the name of a file: relative to `folder`, the scene's, or else in the data folder's textures/. An empty string
 /// stays empty: no file.

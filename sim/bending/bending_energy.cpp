@@ -66,7 +66,7 @@ class BendingHessian final : public CoupledHessian {
   }
 
   void add_product(const Vertices& vector, Vertices& product) const override {
-    energy_.quadratic_.add_gradient(vector, product);  // a linear function, as no pair has a rest length
+    energy_.quadratic_.add_value_gradient(vector, product);  // a linear function, as no pair has a rest length
     for (std::size_t k = 0; k < curved_.size(); ++k) {
       const auto& component = energy_.curved_[k];
       const Eigen::RowVector3d force = component.bent(vector) * curved_[k];
@@ -96,7 +96,8 @@ class BendingHessian final : public CoupledHessian {
   std::vector<int> places_;              // among the pairs, of the 15 of each curved component; −1 for none
 };
 
-BendingEnergy::BendingEnergy(std::span<const CurvatureElement> elements) : quadratic_(couplings(elements)) {
+BendingEnergy::BendingEnergy(std::span<const CurvatureElement> elements, int vertex_count)
+    : quadratic_(couplings(elements), vertex_count) {
   for (const CurvatureElement& e : elements) {
     for (int k = 0; k < 3; ++k) {
       if (e.rest[k] == 0) continue;

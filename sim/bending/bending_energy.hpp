@@ -15,7 +15,7 @@ namespace drape {
 /// bound of the Hessian elsewhere: what is left, r²/2 − r‖q‖, is concave.
 class BendingEnergy final : public CoupledEnergy {
  public:
-  explicit BendingEnergy(std::span<const CurvatureElement> elements);
+  BendingEnergy(std::span<const CurvatureElement> elements, int vertex_count);
 
   double add_gradient(const Vertices& x, Vertices& gradient) const override;
   [[nodiscard]] const std::vector<Spring>& bound() const override { return quadratic_.springs(); }
