@@ -4,14 +4,15 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "bench/equal_accuracy.hpp"
 #include "bench/moving_cloth.hpp"
 #include "bench/ratio_table.hpp"
+#include "bench/subject.hpp"
 #include "bench/textbook.hpp"
 #include "sim/effects/effect.hpp"
 #include "sim/simulation.hpp"
@@ -42,12 +43,6 @@ const std::vector<Case>& cases() {
   };
   return all;
 }
-
-/// Something that can do a case's work again and again from the same state.
-struct Subject {
-  std::function<void()> restore;
-  std::function<int()> run;  ///< returns how many steps or iterations it did
-};
 
 /// The tolerance that no iteration meets, so that a step does its whole batch.
 constexpr double never = 0;
@@ -102,39 +97,17 @@ Subject make_drape(const Case& c) {
           .run = make_run(c, [simulation] { return simulation->step().iterations; })};
 }
 
-/// Repetitions of a benchmark share the subject, which is made when the first of them runs. Measured is the process's
-/// CPU time, which other processes disturb less than the wall clock; nothing here has a second thread.
-void add(const Case& c, const std::string& who, Subject (*make)(const Case&)) {
-  const auto subject = std::make_shared<Subject>();
-  const auto measure = [c, make, subject](benchmark::State& state) {
-    if (!subject->run) *subject = make(c);
-    subject->restore();
-    subject->run();  // warms the caches that the benchmark before this one has filled
-    for (auto _ : state) {
-      subject->restore();
-      const std::clock_t start = std::clock();
-      const int done = subject->run();
-      const double elapsed = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-      state.SetIterationTime(elapsed / done);
-      if (done != c.batch) state.SkipWithError("a step ended before its batch was done");
-    }
-  };
-  benchmark::RegisterBenchmark((c.name + "/" + who).c_str(), measure)
-      ->UseManualTime()
-      ->Unit(benchmark::kMicrosecond)
-      ->Iterations(1);
-}
-
 }  // namespace
 }  // namespace drape
 
 int main(int argc, char** argv) {
   std::vector<std::string> names;
   for (const drape::Case& c : drape::cases()) {
-    drape::add(c, "drape", drape::make_drape);
-    drape::add(c, "textbook", drape::make_textbook);
+    drape::register_subject(c.name, "drape", c.batch, [c] { return drape::make_drape(c); });
+    drape::register_subject(c.name, "textbook", c.batch, [c] { return drape::make_textbook(c); });
     names.push_back(c.name);
   }
+  for (std::string& name : drape::register_equal_accuracy()) names.push_back(std::move(name));
 
   // Ours first, so that the caller's own flags win.
   std::vector<std::string> defaults{"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=11"};

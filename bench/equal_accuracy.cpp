@@ -1,0 +1,131 @@
+#include "bench/equal_accuracy.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "bench/moving_cloth.hpp"
+#include "bench/subject.hpp"
+#include "bench/textbook.hpp"
+#include "sim/effects/effect.hpp"
+#include "sim/simulation.hpp"
+
+namespace drape {
+namespace {
+
+constexpr int cells = 20;
+constexpr double step = 0.02;  // h [s]
+constexpr int measured_steps = 20;
+constexpr int steps_to_contact = 20;  // from when the moving cloth lies on the sphere
+
+struct Comparison {
+  std::string name;
+  double tolerance;  ///< the textbook's ε [m]
+  bool sphere;
+};
+
+/// Where the textbook's steps begin and how far from balance they leave the cloth.
+struct Reference {
+  std::vector<State> states;
+  std::vector<double> residuals;  ///< ‖∇g‖ [N]
+};
+
+textbook::Settings textbook_settings(const Comparison& c) {
+  textbook::Settings settings;
+  settings.step = step;
+  settings.tolerance = c.tolerance;
+  if (c.sphere) settings.sphere = textbook::Sphere{};
+  return settings;
+}
+
+Reference make_reference(const Comparison& c) {
+  const Cloth cloth = make_moving_cloth(cells);
+  const textbook::Settings settings = textbook_settings(c);
+  const auto stepper = textbook::make_newton(cloth, settings);
+  stepper->positions = cloth.positions;
+  stepper->velocities = cloth.velocities;
+  for (int i = 0; c.sphere && i < steps_to_contact; ++i) stepper->step();
+  Reference reference;
+  for (int i = 0; i < measured_steps; ++i) {
+    reference.states.push_back({.x = stepper->positions, .v = stepper->velocities, .step = 0});
+    stepper->step();
+    reference.residuals.push_back(textbook::gradient_norm(cloth, settings, *stepper));
+  }
+  return reference;
+}
+
+Subject make_textbook(const Comparison& c) {
+  const auto reference = std::make_shared<Reference>(make_reference(c));
+  const std::shared_ptr<textbook::Stepper> stepper =
+      textbook::make_newton(make_moving_cloth(cells), textbook_settings(c));
+  return {.restore = [] {},
+          .run =
+              [=] {
+                for (const State& state : reference->states) {
+                  stepper->positions = state.x;
+                  stepper->velocities = state.v;
+                  stepper->step();
+                }
+                return measured_steps;
+              }};
+}
+
+/// An effect with its defaults, but for the keys of the textbook's sphere.
+ActiveEffect make_effect(std::string_view name) {
+  const auto types = effect_types();
+  const auto type = std::find_if(types.begin(), types.end(), [&](const EffectType& t) { return t.name == name; });
+  ActiveEffect active{.name = std::string(name), .effect = type->make()};
+  Keys keys;
+  active.effect->describe(keys);
+  const textbook::Sphere sphere;
+  for (const Key& key : keys.all()) {
+    if (key.name == "center") *std::get<Eigen::Vector3d*>(key.target) = sphere.center;
+    if (key.name == "radius") *std::get<double*>(key.target) = sphere.radius;
+    if (key.name == "scale") *std::get<double*>(key.target) = sphere.scale;
+    if (key.name == "stiffness") *std::get<double*>(key.target) = sphere.stiffness;
+  }
+  return active;
+}
+
+/// One simulation for every step: each has its own residual to reach.
+Subject make_drape(const Comparison& c) {
+  const auto reference = std::make_shared<Reference>(make_reference(c));
+  const auto simulations = std::make_shared<std::vector<std::unique_ptr<Simulation>>>();
+  for (const double residual : reference->residuals) {
+    SimulationSettings settings;
+    settings.cloth = make_moving_cloth(cells);
+    settings.step = step;
+    settings.integrator.method = Method::quasi_newton;
+    settings.integrator.stop = StoppingRule::gradient;
+    settings.integrator.tolerance = residual;
+    settings.effects.push_back(make_effect("gravity"));
+    if (c.sphere) settings.effects.push_back(make_effect("sphere"));
+    simulations->push_back(std::make_unique<Simulation>(std::move(settings)));
+  }
+  return {.restore =
+              [=] {
+                for (std::size_t i = 0; i < simulations->size(); ++i) (*simulations)[i]->restore(reference->states[i]);
+              },
+          .run =
+              [=] {
+                int converged = 0;
+                for (const auto& simulation : *simulations) converged += simulation->step().converged ? 1 : 0;
+                return converged;
+              }};
+}
+
+}  // namespace
+
+std::vector<std::string> register_equal_accuracy() {
+  std::vector<std::string> names;
+  for (const Comparison& c : {Comparison{"step_as_accurate_as_newton/1e-3", 1e-3, false},
+                              Comparison{"step_as_accurate_as_newton/1e-5", 1e-5, false},
+                              Comparison{"step_as_accurate_as_newton/1e-5_sphere", 1e-5, true}}) {
+    register_subject(c.name, "drape", measured_steps, [c] { return make_drape(c); });
+    register_subject(c.name, "textbook", measured_steps, [c] { return make_textbook(c); });
+    names.push_back(c.name);
+  }
+  return names;
+}
+
+}  // namespace drape
