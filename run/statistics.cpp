@@ -53,10 +53,12 @@ std::vector<Statistics::EffectShare> Statistics::effects() const {
 }
 
 std::string Statistics::to_json(const std::string& outcome) const {
-  nlohmann::ordered_json effects = nlohmann::ordered_json::array();
-  for (const EffectShare& effect : this->effects()) {
-    effects.push_back({{"name", effect.name}});
-    if (effect.share) effects.back()["share"] = *effect.share;
+  // Of every effect its name, and of those of one name together their share of the steps' time.
+  auto names = nlohmann::ordered_json::array();
+  auto shares = nlohmann::ordered_json::object();
+  for (const EffectShare& effect : effects()) {
+    if (std::find(names.begin(), names.end(), effect.name) == names.end()) names.push_back(effect.name);
+    if (effect.share) shares[effect.name] = shares.value(effect.name, 0.0) + *effect.share;
   }
   const nlohmann::ordered_json json = {
       {"method", method_},
@@ -66,7 +68,8 @@ std::string Statistics::to_json(const std::string& outcome) const {
       {"steps", steps()},
       {"iterations", {{"mean", mean_iterations()}, {"max", max_iterations_}, {"steps_not_converged", not_converged_}}},
       {"step_us", {{"mean", mean_microseconds()}, {"median", median_microseconds()}}},
-      {"effects", effects},
+      {"effects", names},
+      {"effect_shares", shares},
       {"outcome", outcome}};
   return json.dump(2) + "\n";
 }

@@ -74,7 +74,7 @@ TEST(RunScene, WritesEveryRecordThatIsAskedFor) {
   EXPECT_GT(stats["step_us"]["mean"], 0);
   EXPECT_GT(stats["step_us"]["median"], 0);
   ASSERT_EQ(stats["effects"].size(), 1U);
-  EXPECT_EQ(stats["effects"][0]["name"], "gravity");
+  EXPECT_EQ(stats["effects"][0], "gravity");
   EXPECT_EQ(stats["outcome"], "completed");
 }
 
