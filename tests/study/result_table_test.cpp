@@ -14,7 +14,7 @@ TEST(ResultTable, SetsNumbersToTheRightWhateverBytesTheyTake) {
             "Title\n"
             "  method       µs\n"
             "  a, \"b\" | c  9.5\n"
-            "  d              –\n"
+            "  d             –\n"
             "  A note.\n");
 }
 
