@@ -73,5 +73,19 @@ TEST_F(StudyPage, ArrowKeysGoFromPointToPoint) {
   EXPECT_EQ(tip(), "");
 }
 
+// The browser reports a scroll later than it happens: also after the key that shows a point's values.
+TEST_F(StudyPage, ValuesStayWithTheirPointWhileThePageScrolls) {
+  open(homework_page(sample_study()));
+  browser_->run("document.querySelector('.chart > svg').focus()");
+  browser_->press(Browser::arrow_right);
+  const std::string above =
+      "const p = document.querySelector('.point.shown .sign').getBoundingClientRect();"
+      "return p.top - document.getElementById('tip').getBoundingClientRect().bottom";
+  const double before = browser_->run(above);
+  browser_->run("scrollBy(0, -40); dispatchEvent(new Event('scroll'))");
+  EXPECT_EQ(tip(), "implicit, ε = 1e-0drape simulate implicit 1e-0");
+  EXPECT_NEAR(browser_->run(above).get<double>(), before, 1);
+}
+
 }  // namespace
 }  // namespace drape
