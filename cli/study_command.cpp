@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 
-#include "cli/command_line.hpp"
+#include "cli/studies.hpp"
 #include "cli/watched.hpp"
-#include "study/homework_files.hpp"
+#include "study/homework_report.hpp"
 
 namespace drape {
 namespace {
@@ -26,25 +25,32 @@ ExitCode run_homework(const HomeworkArguments& arguments, const CommonOptions& c
     spdlog::error("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
-  const std::string problem = write_homework_files(*study, arguments.folder);
-  if (!problem.empty()) spdlog::warn(problem);
-  if (!common.quiet) {
-    fmt::print("{}\n{}\n", homework_text(*study), (std::filesystem::path(arguments.folder) / "report.html").string());
-  }
-  return ExitCode::ok;
+  return hand_out(homework_report(*study), arguments.folder, common);
 }
 
-}  // namespace
-
-void add_study_command(CLI::App& app, const CommonOptions& common, Command& command) {
-  CLI::App* study = app.add_subcommand("study", "Measure what accuracy costs, and write tables, plots and a page");
-  study->require_subcommand(1);
+void add_homework_study(CLI::App& study, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<HomeworkArguments>();
-  CLI::App* homework = study->add_subcommand("homework", "Measure the homework's tables again, beside its report");
+  CLI::App* homework = study.add_subcommand("homework", "Measure the homework's tables again, beside its report");
   homework->add_option("-o,--output", arguments->folder, "Folder for the results; default out/homework");
   homework->add_option("--runs", arguments->runs, "Timed runs of every case; default 5")->check(CLI::Range(1, 1000));
   homework->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_homework(*arguments, common); }; });
+}
+
+}  // namespace
+
+ExitCode hand_out(const StudyReport& report, const std::filesystem::path& folder, const CommonOptions& common) {
+  const std::string problem = write_report(report, folder);
+  if (!problem.empty()) spdlog::warn(problem);
+  if (!common.quiet) fmt::print("{}\n{}\n", to_text(report), (folder / "report.html").string());
+  return ExitCode::ok;
+}
+
+void add_study_command(CLI::App& app, const CommonOptions& common, Command& command) {
+  CLI::App* study = app.add_subcommand("study", "Measure what accuracy costs, and write tables, plots and a page");
+  study->require_subcommand(1);
+  add_homework_study(*study, common, command);
+  add_accuracy_study(*study, common, command);
 }
 
 }  // namespace drape
