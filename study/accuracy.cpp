@@ -87,12 +87,13 @@ class SceneStudy {
   bool find_references(const std::stop_token& stop, Progress& progress) {
     const std::vector<double>& times = result_.options.times;
     const std::int64_t last = steps_until(times.back(), result_.step);
+    const std::int64_t whole = scene_.step_count();
     std::vector<std::int64_t> keep;
     for (std::int64_t i = 0; i < states; ++i) keep.push_back(i * last / states);
     for (const double time : times) keep.push_back(steps_until(time, result_.step));
     std::sort(keep.begin(), keep.end());
     keep.erase(std::unique(keep.begin(), keep.end()), keep.end());
-    reference_ = run_reference(scene_.simulation, last, keep, stop, progress);
+    reference_ = run_reference(scene_.simulation, whole, keep, stop, progress);
     if (!reference_) return false;
     result_.apart_by_step = reference_->apart;
     for (const double time : times) result_.apart.push_back(reference_->apart_after(steps_until(time, result_.step)));

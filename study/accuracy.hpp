@@ -42,14 +42,14 @@ struct StepPoint {
 
 /// What accuracy costs in one scene.
 struct SceneAccuracy {
-  std::string name;            ///< of its files
-  std::string scene;           ///< its file, as it was given
-  AccuracyOptions options;     ///< complete
-  double step = 0;             ///< of the scene [s]
+  std::string name;                  ///< of its files
+  std::string scene;                 ///< its file, as it was given
+  AccuracyOptions options;           ///< complete
+  double step = 0;                   ///< of the scene [s]
   const char* tolerance_unit = "m";  ///< or "N"
 
   std::vector<double> apart;           ///< of the two references at every time [m]
-  std::vector<double> apart_by_step;   ///< after every step
+  std::vector<double> apart_by_step;   ///< after every step of the whole motion
   std::optional<double> chaotic_from;  ///< when the two references part by more than smallest_error [s]
   double solve_apart = 0;              ///< of the two exact results of a step, at most [m]
   std::size_t states = 0, left_out = 0;

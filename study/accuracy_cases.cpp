@@ -45,6 +45,7 @@ AccuracyCases accuracy_cases(const Scene& scene, const std::string& file, const 
         StudyCase what = make_case(file, options, method, fmt::format("{}, ε = {:g}", method_name(method), tolerance));
         add_tolerance(what, tolerance);
         what.steps = std::llround(options.times.back() / scene.simulation.step);
+        what.watched_steps = scene.step_count();
         cases.tolerances.push_back({method, tolerance, std::move(what)});
       }
     }

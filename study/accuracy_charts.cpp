@@ -15,12 +15,12 @@ std::string list(const std::vector<double>& values) {
   return text;
 }
 
-/// The study of one method alone.
-std::string study_command(const SceneAccuracy& scene, Method method) {
+std::string command_of(const SceneAccuracy& scene, const std::string& methods, const std::vector<double>& tolerances,
+                       const std::vector<double>& steps) {
   std::string text = "drape study accuracy " + shell_word(scene.scene);
   for (const std::string& value : scene.options.overrides) text += " --set " + shell_word(value);
-  return text + fmt::format(" --methods {} --times {} --runs {}", method_name(method), list(scene.options.times),
-                            scene.options.runs);
+  return text + fmt::format(" --methods {} --tolerances {} --steps {} --times {} --runs {}", methods, list(tolerances),
+                            list(steps), list(scene.options.times), scene.options.runs);
 }
 
 std::string film(const SceneAccuracy& scene, Method method, const char* key, double value) {
@@ -28,15 +28,15 @@ std::string film(const SceneAccuracy& scene, Method method, const char* key, dou
 }
 
 std::string commands(const SceneAccuracy& scene, const TolerancePoint& point) {
-  return fmt::format("{} --tolerances {} --steps {}\n{}", study_command(scene, point.method),
-                     plain_number(point.tolerance), plain_number(scene.options.steps.front()),
+  return fmt::format("{}\n{}",
+                     command_of(scene, method_name(point.method), {point.tolerance}, {scene.options.steps.front()}),
                      point.measured.what.film_command(film(scene, point.method, "tolerance", point.tolerance)));
 }
 
 std::string commands(const SceneAccuracy& scene, const StepPoint& point) {
-  return fmt::format("{} --tolerances {} --steps {}\n{}", study_command(scene, point.method),
-                     plain_number(scene.options.tolerances.front()), list(scene.options.steps),
-                     point.measured.what.film_command(film(scene, point.method, "step", point.step)));
+  return fmt::format(
+      "{}\n{}", command_of(scene, method_name(point.method), {scene.options.tolerances.front()}, scene.options.steps),
+      point.measured.what.film_command(film(scene, point.method, "step", point.step)));
 }
 
 std::array<double, 2> spread(const Quartiles& time) { return {time.lower, time.upper}; }
@@ -116,6 +116,13 @@ NamedChart apart_chart(const SceneAccuracy& scene) {
 }
 
 }  // namespace
+
+std::string study_command(const SceneAccuracy& scene) {
+  std::string methods;
+  for (const Method method : scene.options.methods)
+    methods.append(methods.empty() ? "" : ",").append(method_name(method));
+  return command_of(scene, methods, scene.options.tolerances, scene.options.steps);
+}
 
 Quartiles cost_of_motion(const StepPoint& point) {
   const double scale = 1e-3 / point.step;

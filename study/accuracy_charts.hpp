@@ -9,6 +9,9 @@ namespace drape {
 /// references part.
 std::vector<NamedChart> accuracy_charts(const SceneAccuracy& scene);
 
+/// The command of the study of a scene, with all that was asked.
+std::string study_command(const SceneAccuracy& scene);
+
 /// The cost of a step's length: computing time for a second of motion [ms].
 Quartiles cost_of_motion(const StepPoint& point);
 

@@ -28,7 +28,8 @@ ResultTable tolerance_table(const SceneAccuracy& scene) {
   for (const double time : scene.options.times) table.columns.push_back(fmt::format("motion at {:g} s [m]", time));
   table.columns.emplace_back("flipped pairs");
   table.notes.emplace_back(
-      "Flipped pairs: neighbouring triangles whose normals are more than 150° apart, mean over the steps.");
+      "Flipped pairs: neighbouring triangles whose normals are more than 150° apart, mean over the steps of the whole "
+      "motion. Times and iterations are means up to the last of the times compared.");
   for (const TolerancePoint& p : scene.points) {
     const Quartiles time = p.measured.time();
     table.rows.push_back(
@@ -164,9 +165,8 @@ void add_findings(StudyReport& report, const SceneAccuracy& scene) {
                                fmt::format("{}: the reference.", scene.scene), confirmed});
     report.findings.push_back(
         {scene.chaotic_from ? html::Tone::caution : html::Tone::good, "",
-         scene.chaotic_from
-             ? fmt::format("{}: the motion is chaotic from {:g} s on.", scene.scene, *scene.chaotic_from)
-             : fmt::format("{}: the motion is not chaotic up to {:g} s.", scene.scene, scene.options.times.back()),
+         scene.chaotic_from ? fmt::format("{}: the motion is chaotic from {:g} s on.", scene.scene, *scene.chaotic_from)
+                            : fmt::format("{}: the motion is not chaotic up to its end.", scene.scene),
          fmt::format("The two reference motions, which differ by rounding alone, {} 1 µm; at {:g} s they are {:.2g} m "
                      "apart.",
                      scene.chaotic_from ? "part by more than" : "stay within", scene.options.times.back(),

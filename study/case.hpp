@@ -15,6 +15,7 @@ struct StudyCase {
   std::string scene;                   ///< a file, relative to `folder`: "scenes/homework/3.toml"
   std::vector<std::string> overrides;  ///< as for --set
   std::int64_t steps = 0;
+  std::int64_t watched_steps = 0;     ///< of a run that is not timed, if they are more than `steps`
   std::filesystem::path folder = {};  ///< empty: the data folder
 
   /// @throws UsageError

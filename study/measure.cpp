@@ -29,7 +29,7 @@ class CaseRun {
   }
 
   void turn() {
-    const std::int64_t steps = measured_.what.steps;
+    const std::int64_t steps = step_count();
     const std::int64_t end = std::min(steps, simulation_->state().step + (steps + turns - 1) / turns);
     while (simulation_->state().step < end) {
       const double begin = thread_seconds();
@@ -40,7 +40,7 @@ class CaseRun {
   }
 
   void finish() {
-    const auto steps = static_cast<double>(measured_.what.steps);
+    const auto steps = static_cast<double>(step_count());
     if (watch_) {
       measured_.flipped_pairs /= steps;
     } else {
@@ -49,11 +49,15 @@ class CaseRun {
   }
 
  private:
+  [[nodiscard]] std::int64_t step_count() const {
+    return watch_ ? std::max(measured_.what.steps, measured_.what.watched_steps) : measured_.what.steps;
+  }
+
   void observe(const StepReport& report) {
     const State& state = simulation_->state();
     const Eigen::VectorXd& m = simulation_->cloth().masses;
     measured_.iterations.push_back(report.iterations);
-    measured_.capped += report.converged ? 0 : 1;
+    if (state.step <= measured_.what.steps) measured_.capped += report.converged ? 0 : 1;
     measured_.height.push_back(m.dot(state.x.col(2)) / m.sum());
     measured_.flipped_pairs += pairs_.count(state.x);
     watch_(*simulation_);
@@ -98,7 +102,7 @@ Quartiles quartiles(std::vector<double> values) {
   return {at(0.25), at(0.5), at(0.75)};
 }
 
-double Measured::mean_iterations() const { return mean_iterations(0, iterations.size()); }
+double Measured::mean_iterations() const { return mean_iterations(0, static_cast<std::size_t>(what.steps)); }
 
 double Measured::mean_iterations(std::size_t first, std::size_t last) const {
   const auto from = iterations.begin() + static_cast<std::ptrdiff_t>(first);

@@ -24,13 +24,14 @@ Quartiles quartiles(std::vector<double> values);
 struct Measured {
   StudyCase what;
   double step = 0;                   ///< h [s]
-  std::vector<int> iterations;       ///< of every step
-  std::int64_t capped = 0;           ///< steps that ended at the cap
-  std::vector<double> height;        ///< of the centre of mass after every step [m]
-  double flipped_pairs = 0;          ///< mean over the steps, see FlippedPairs
+  std::vector<int> iterations;       ///< of every step that is watched
+  std::int64_t capped = 0;           ///< of what.steps, those that ended at the cap
+  std::vector<double> height;        ///< of the centre of mass after every step that is watched [m]
+  double flipped_pairs = 0;          ///< mean over the steps that are watched, see FlippedPairs
   std::vector<double> microseconds;  ///< mean over the steps, of every timed run, as computing time
   std::vector<double> setup;         ///< likewise, before the first step: analysing and factoring included
 
+  /// Over what.steps.
   [[nodiscard]] double mean_iterations() const;
   /// Over the steps first … last−1.
   [[nodiscard]] double mean_iterations(std::size_t first, std::size_t last) const;

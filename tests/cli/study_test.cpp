@@ -43,14 +43,15 @@ TEST(Study, OfAccuracyWritesEverythingForEveryScene) {
   const SceneFolder folder;
   folder.write("a.toml", swing);
   folder.write("b/a.toml", swing);
-  const Finished finished = drape(folder,
-                                  "study accuracy a.toml b/a.toml -o results --runs 1 --methods liu13,implicit "
-                                  "--tolerances 1e-2,1e-4 --times 0.1,0.2 --steps 0.02,0.01");
+  const Finished finished =
+      drape(folder,
+            "study accuracy a.toml b/a.toml -o results --runs 1 --animate methods --methods liu13,implicit "
+            "--tolerances 1e-2,1e-4 --times 0.1,0.2 --steps 0.02,0.01");
   EXPECT_EQ(finished.code, 0) << finished.text;
   EXPECT_NE(finished.text.find("for an error"), std::string::npos) << finished.text;
-  for (const char* name :
-       {"report.html", "report.md", "b-a-solve.csv", "b-a-solve.gp", "b-a-motion-1.gp", "b-a-motion-2.gp",
-        "b-a-step.gp", "b-a-step-cost.gp", "b-a-apart.gp", "b-a-tolerances.csv", "b-a-steps.csv", "b-a-cheapest.csv"}) {
+  for (const char* name : {"report.html", "report.md", "b-a-solve.csv", "b-a-solve.gp", "b-a-motion-1.gp",
+                           "b-a-motion-2.gp", "b-a-step.gp", "b-a-by-methods.gif", "b-a-step-cost.gp", "b-a-apart.gp",
+                           "b-a-tolerances.csv", "b-a-steps.csv", "b-a-cheapest.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "results" / name)) << name;
   }
 }
