@@ -51,6 +51,7 @@ void add_study_command(CLI::App& app, const CommonOptions& common, Command& comm
   study->require_subcommand(1);
   add_homework_study(*study, common, command);
   add_accuracy_study(*study, common, command);
+  add_scaling_study(*study, common, command);
 }
 
 }  // namespace drape

@@ -95,6 +95,7 @@ html::Chart by_step(const SceneAccuracy& scene, const std::string& title, const 
     }
     if (!series.points.empty()) chart.series.push_back(std::move(series));
   }
+  if (scene.step_gained > 0) chart.levels.push_back({scene.step_gained, "the reference is known better than this"});
   return chart;
 }
 

@@ -20,7 +20,7 @@
 namespace drape {
 namespace {
 
-constexpr double most_frames_per_second = 12.5;  // a GIF that shows differences need not be smooth
+constexpr double most_frames_per_second = 10;  // a GIF that shows differences need not be smooth
 constexpr int picture_width = 340, gap = 6, band = 42, bar_height = 46, margin = 10;  // [pixels]
 constexpr double letters = 9;                                                         // height of a capital [pixels]
 constexpr double smallest = 1e-6, largest = 1;                                        // of the colour bar [m]

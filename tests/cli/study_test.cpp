@@ -72,5 +72,15 @@ TEST(Study, OfAccuracySaysWhatItCannotMeasure) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
+TEST(Study, OfScalingWritesEverything) {
+  const SceneFolder folder;
+  const Finished finished = drape(folder, "study scaling --largest 10 --runs 1 -o results");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  for (const char* name : {"report.html", "report.md", "scaling-times.csv", "scaling-growth.csv", "scaling-shares.csv",
+                           "scaling-step.gp", "scaling-iteration.gp", "scaling-memory.gp"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "results" / name)) << name;
+  }
+}
+
 }  // namespace
 }  // namespace drape

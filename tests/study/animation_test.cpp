@@ -31,7 +31,7 @@ TEST(Animation, HasAPanelForEachMotionAndAFrameForEachMoment) {
   ASSERT_TRUE(bytes);
   EXPECT_EQ(bytes->size(), std::filesystem::file_size(gif_file));
   const testing::GifFile gif = testing::read_gif(gif_file);
-  EXPECT_EQ(gif.delays.size(), 6U);  // 0 to 0.4 s, 12.5 a second
+  EXPECT_EQ(gif.delays.size(), 5U);  // 0 to 0.4 s, 10 a second
   EXPECT_EQ(gif.width, 2 * 340 + 6);
   EXPECT_GT(gif.height, 2 * 170);
 }
