@@ -12,11 +12,6 @@ namespace {
 constexpr int coarse_cells = 20;
 constexpr double stiffness = 180;  // [N/m]
 
-Cloth make_resting_cloth(int cells) {
-  const Mesh grid = make_grid(cells, cells);
-  return make_cloth(grid, grid, 1.0, stiffness, {0, cells});
-}
-
 /// Values at the vertices of the coarse grid to those of a grid of cells×cells, bilinearly.
 Vertices interpolate(const Eigen::MatrixXd& coarse, int cells) {
   const int stride = coarse_cells + 1, scale = cells / coarse_cells;
@@ -34,6 +29,11 @@ Vertices interpolate(const Eigen::MatrixXd& coarse, int cells) {
 }
 
 }  // namespace
+
+Cloth make_resting_cloth(int cells) {
+  const Mesh grid = make_grid(cells, cells);
+  return make_cloth(grid, grid, 1.0, stiffness, {0, cells});
+}
 
 Cloth make_moving_cloth(int cells) {
   if (cells < coarse_cells || cells % coarse_cells != 0) throw std::invalid_argument("cells must be a multiple of 20");

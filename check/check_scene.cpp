@@ -11,6 +11,7 @@
 #include "check/animation.hpp"
 #include "check/compare_motion.hpp"
 #include "check/draw_windows.hpp"
+#include "check/golden_mismatch.hpp"
 #include "check/machine.hpp"
 #include "check/record_motion.hpp"
 #include "core/error.hpp"
@@ -22,13 +23,6 @@ namespace fs = std::filesystem;
 
 std::size_t thread_count(const CheckOptions& options) {
   return options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-}
-
-/// Whether two views are the same but for rounding, which may differ between processors.
-bool near(const View& a, const View& b) {
-  constexpr double rounding = 1e-9;
-  return a.position.isApprox(b.position, rounding) && (a.target - b.target).norm() <= rounding * a.position.norm() &&
-         a.up.isApprox(b.up, rounding) && std::abs(a.field_of_view - b.field_of_view) <= rounding * a.field_of_view;
 }
 
 /// The windows of the wanted frames, and the motion's start.
@@ -108,8 +102,8 @@ class SceneCheck {
     result_.recorded_on = golden_.machine;
     result_.scene_changed = golden_.scene_digest != scene_.digest;
 
-    const std::string another_motion = motion_mismatch();
-    const std::string other_pictures = picture_mismatch();
+    const std::string another_motion = motion_mismatch(scene_, golden_);
+    const std::string other_pictures = picture_mismatch(scene_, settings_, golden_, !options_.frames.empty());
     if (another_motion.empty()) {
       compare_window_motion();
     } else {
@@ -137,43 +131,6 @@ class SceneCheck {
     }
   }
 
-  /// Why the motion is another one before any step of it is compared.
-  [[nodiscard]] std::string motion_mismatch() const {
-    if (const int count = scene_.simulation.cloth.vertex_count(); count != golden_.vertex_count) {
-      return fmt::format("the cloth has {} vertices, the golden one {}", count, golden_.vertex_count);
-    }
-    if (scene_.simulation.step != golden_.step) {
-      return fmt::format("a step is {} s long, in the golden {} s", scene_.simulation.step, golden_.step);
-    }
-    if (scene_.step_count() != golden_.step_count) {
-      return fmt::format("the motion has {} steps, the golden one {}", scene_.step_count(), golden_.step_count);
-    }
-    return {};
-  }
-
-  [[nodiscard]] std::string picture_mismatch() const {
-    if (scene_.simulation.cloth.vertex_count() != golden_.vertex_count) {
-      return "the pictures cannot be compared: the cloth has other vertices";
-    }
-    if (const Eigen::Vector2i size = picture_size(scene_, settings_); size != golden_.size) {
-      return fmt::format("the pictures have {}x{} pixels, the golden ones {}x{}", size.x(), size.y(), golden_.size.x(),
-                         golden_.size.y());
-    }
-    if (const double seconds = scene_.video.speed / scene_.video.fps; seconds != golden_.seconds_per_frame) {
-      return fmt::format("a frame of the film comes every {:g} s of the scene, in the golden every {:g} s", seconds,
-                         golden_.seconds_per_frame);
-    }
-    std::vector<int> recorded;
-    for (const GoldenWindow& window : golden_.windows) {
-      if (window.frame) recorded.push_back(*window.frame);
-    }
-    if (options_.frames.empty() && !settings_.frames.empty() && settings_.frames != recorded) {
-      return fmt::format("the frames {} are to be compared, the golden has {}", fmt::join(settings_.frames, ", "),
-                         fmt::join(recorded, ", "));
-    }
-    return {};
-  }
-
   void compare_window_motion() {
     progress_.begin("checking", "windows", static_cast<std::int64_t>(windows_.size()));
     result_.windows.windows = compare_windows(scene_.simulation, windows_, settings_.motion_tolerance,
@@ -190,7 +147,8 @@ class SceneCheck {
   [[nodiscard]] View current_view() {
     const Simulation simulation(scene_.simulation);
     if (same_camera(scene_.camera, golden_.camera) &&
-        near(view_of_windows(scene_.camera, golden_.size, golden_.windows, simulation), golden_.window_view)) {
+        same_but_for_rounding(view_of_windows(scene_.camera, golden_.size, golden_.windows, simulation),
+                              golden_.window_view)) {
       return golden_.view;
     }
     if (!needs_motion(scene_.camera)) return fixed_view(scene_.camera);

@@ -134,7 +134,17 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
     result.bless_command = "drape bless " + file;
     const bool good = result.verdict == SceneVerdict::passed || result.verdict == SceneVerdict::updated;
     if (!common.quiet || !good) fmt::print("{}\n", describe(result));
-    if (!result.renderer.empty()) report.machine.renderer = result.renderer;
+    for (const WindowResult& window : result.windows.windows) {
+      spdlog::debug("steps {} to {}: {}", window.first_step, window.last_step, verdict_name(window.verdict));
+    }
+    for (const FrameResult& frame : result.windows.frames) {
+      spdlog::debug("frame {}: {}, {} pixels differ, FLIP error up to {:.3f}", frame.frame,
+                    verdict_name(frame.difference.verdict), frame.difference.pixels, frame.difference.max_flip);
+    }
+    if (!result.renderer.empty()) {
+      spdlog::debug("drawn by {}", result.renderer);
+      report.machine.renderer = result.renderer;
+    }
     report.scenes.push_back(std::move(result));
   }
   report.machine = this_machine(report.machine.renderer);

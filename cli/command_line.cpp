@@ -92,6 +92,7 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   add_run_commands(app, common, command);
   add_check_command(app, common, command);
   add_bless_command(app, common, command);
+  add_study_command(app, common, command);
   add_doctor_command(app, command);
   try {
     app.parse(argc, argv);

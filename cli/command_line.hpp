@@ -24,6 +24,9 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
 void add_check_command(CLI::App& app, const CommonOptions& common, Command& command);
 void add_bless_command(CLI::App& app, const CommonOptions& common, Command& command);
 
+/// Adds study, whose subcommands are the studies.
+void add_study_command(CLI::App& app, const CommonOptions& common, Command& command);
+
 /// Adds doctor, which says what drape finds on this machine.
 void add_doctor_command(CLI::App& app, Command& command);
 

@@ -105,7 +105,7 @@ Markup draw(const ChartSeries& series, std::size_t style, const Frame& frame) {
     if (!point.command.empty()) attributes.push_back({"data-command", point.command});
     points += element("g", attributes, sign(style));
   }
-  return element("g", {{"class", fmt::format("series s{}", style)}},
+  return element("g", {{"class", fmt::format("series s{}", style)}, {"data-command", series.command}},
                  element("path", {{"class", "curve"}, {"d", path}}) + points);
 }
 
@@ -121,6 +121,15 @@ Markup legend(const Chart& chart) {
   return entries.empty() ? entries : element("ul", {{"class", "legend"}}, entries);
 }
 
+/// The commands that make whole series.
+Markup series_commands(const Chart& chart) {
+  Markup commands;
+  for (const ChartSeries& series : chart.series) {
+    if (!series.command.empty()) commands += command(series.name, series.command);
+  }
+  return commands;
+}
+
 Markup points_table(const Chart& chart) {
   Table points{chart.title, {{"Series"}, {chart.x_title, true}, {chart.y_title, true}, {"Command"}}, {}};
   for (const ChartSeries& series : chart.series) {
@@ -130,7 +139,7 @@ Markup points_table(const Chart& chart) {
                              point.command.empty() ? Markup() : code(point.command)});
     }
   }
-  return details("Points as a table", table(points));
+  return details("Points as a table", series_commands(chart) + table(points));
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ struct ChartSeries {
   std::string name;
   std::vector<ChartPoint> points;
   bool markers = true;  ///< a sign at every point, or only the line through them
+  std::string command;  ///< that makes every point which has none of its own; may be empty
 };
 
 /// A level to compare with, drawn across the chart.

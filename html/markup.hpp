@@ -43,8 +43,7 @@ using Attributes = std::vector<Attribute>;
 Markup element(std::string_view tag, const Attributes& attributes, const Markup& content = {});
 /// A template, since attributes in braces could be read as text as well.
 template <class Content>
-  requires std::convertible_to<Content, Markup>
-Markup element(std::string_view tag, const Content& content) {
+requires std::convertible_to<Content, Markup> Markup element(std::string_view tag, const Content& content) {
   return element(tag, {}, content);
 }
 

@@ -80,9 +80,10 @@
 
   function showTip(point) {
     tip.replaceChildren(point.dataset.label);
-    if (point.dataset.command) {
+    const command = point.dataset.command || point.closest(".series").dataset.command;
+    if (command) {
       const code = document.createElement("code");
-      code.textContent = point.dataset.command;
+      code.textContent = command;
       tip.append(code);
     }
     tip.hidden = false;

@@ -108,7 +108,8 @@ void GroundShadow::fill(const Triangle& triangle) {
 void GroundShadow::soften(double sharpness_height) {
   for (std::size_t i = 0; i < heights_.size(); ++i) {
     const float height = heights_[i];
-    sharp_[i] = height < 0 ? 0 : std::exp(-height / static_cast<float>(sharpness_height));
+    const float relative = height / static_cast<float>(sharpness_height);
+    sharp_[i] = height < 0 ? 0 : 1 / (1 + relative + relative * relative);
     soft_[i] = height < 0 ? 0 : 1 - sharp_[i];
   }
   blur(sharp_, scratch_, sharp_radius);

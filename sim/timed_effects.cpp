@@ -49,7 +49,22 @@ struct TimedEnergy final : Timed<Energy> {
   void add_bound(Eigen::VectorXd& bound) const override { inner->add_bound(bound); }
 };
 
-/// Times the gradient; Newton's solvers keep the energy's own Hessian.
+struct TimedHessian final : Timed<CoupledHessian> {
+  using Timed::Timed;
+  void linearise(const Vertices& x) override {
+    const Stopwatch watch(seconds);
+    inner->linearise(x);
+  }
+  void add_product(const Vertices& vector, Vertices& product) const override {
+    const Stopwatch watch(seconds);
+    inner->add_product(vector, product);
+  }
+  void add_blocks(std::vector<Eigen::Matrix3d>& blocks) const override {
+    const Stopwatch watch(seconds);
+    inner->add_blocks(blocks);
+  }
+};
+
 struct TimedCoupledEnergy final : Timed<CoupledEnergy> {
   using Timed::Timed;
   double add_gradient(const Vertices& x, Vertices& gradient) const override {
@@ -57,7 +72,9 @@ struct TimedCoupledEnergy final : Timed<CoupledEnergy> {
     return inner->add_gradient(x, gradient);
   }
   [[nodiscard]] const std::vector<Spring>& bound() const override { return inner->bound(); }
-  [[nodiscard]] std::unique_ptr<CoupledHessian> make_hessian() const override { return inner->make_hessian(); }
+  [[nodiscard]] std::unique_ptr<CoupledHessian> make_hessian() const override {
+    return std::make_unique<TimedHessian>(inner->make_hessian(), seconds);
+  }
 };
 
 struct TimedCorrection final : Timed<Correction> {

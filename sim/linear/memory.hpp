@@ -4,10 +4,14 @@
 
 namespace drape {
 
-/// Refuses what cannot fit, before it is taken.
-/// @param what  to name in the message, "the factor of Newton's matrix"
-/// @param bytes that it will take
-/// @throws UsageError with both figures if that is more than the machine's physical memory
+/// What this process may take in all: the machine's physical memory, or less where its address space is limited
+/// (RLIMIT_AS) [bytes].
+double memory_limit();
+
+/// Refuses what cannot fit before it is begun, so that it fails with a figure and not after minutes of swapping.
+/// @param what  the subject of the message: "a sparse factor of 1000000 rows"
+/// @param bytes what it will take beside what the process holds already
+/// @throws UsageError with the figures if that is more than memory_limit()
 void require_memory(const std::string& what, double bytes);
 
 }  // namespace drape

@@ -49,6 +49,18 @@ TEST(CommandLine, NamesTheNearestOptionAndCommand) {
   EXPECT_NE(finished.text.find("did you mean 'render'"), std::string::npos) << finished.text;
 }
 
+TEST(CommandLine, RefusesAFactorThatCannotFitBeforeItIsBegun) {
+  const testing::SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const Finished finished =
+      drape(folder,
+            "simulate scene.toml --steps 1 --set 'cloth.mesh={ grid = [400, 400] }' --set "
+            "'integrator.method=\"implicit\"' --set 'integrator.linear_solver=\"cholesky\"'",
+            "ulimit -v 1600000;");
+  EXPECT_EQ(finished.code, 2) << finished.text;
+  EXPECT_NE(finished.text.find("a sparse factor of 482397 rows would take"), std::string::npos) << finished.text;
+}
+
 TEST(CommandLine, ReportsTheProblemsOfAllScenesTogether) {
   const testing::SceneFolder folder;
   folder.write("a.toml", "[cloth]\nstifness = 1\n");

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "scene/mesh_file.hpp"
 #include "sim/simulation.hpp"
 #include "sim/step_objective.hpp"
 #include "tests/support/cloths.hpp"
@@ -25,6 +28,11 @@ SimulationSettings settings(const Case& c, Method method) {
   result.effects = {testing::gravity()};
   if (c.with_sphere) result.effects.push_back(testing::sphere(true));
   return result;
+}
+
+Cloth disc_from_obj() {
+  const Mesh disc = read_mesh(std::filesystem::path(DRAPE_SOURCE_DIR) / "tests/data/disc.obj");
+  return make_cloth(disc, disc, 1.0, 180, {0, 1, 2});
 }
 
 class Agreement : public ::testing::TestWithParam<Case> {};
@@ -87,6 +95,7 @@ INSTANTIATE_TEST_SUITE_P(, Agreement,
                                            Case{"stiff_grid", testing::grid_cloth(20, 1800), false, 1e-7},
                                            Case{"grid_on_sphere", testing::grid_cloth(10, 180), true, 1e-8},
                                            Case{"irregular", testing::irregular_cloth(), true, 1e-8},
+                                           Case{"irregular_obj", disc_from_obj(), false, 1e-8},
                                            Case{"non_manifold", testing::non_manifold_cloth(), false, 1e-8}),
                          [](const auto& tested) { return tested.param.name; });
 

@@ -142,10 +142,11 @@ TEST(SceneEffects, TheAnimatedSpherePlaysAsItWasAuthored) {
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << ": set DRAPE_REFERENCE_MESHES to its folder";
   const SceneFolder folder;
   const Scene scene = folder.load(with("sphere", "track = '" + std::filesystem::absolute(file).string() + "'"));
-  // Its samples as the file has them: time codes 1 to 250 at 24 per second, of which the first is 0 s.
-  EXPECT_EQ(sphere_at(scene, 0).center, Vector3d(0, 0.0008330001146532595, 0));
-  EXPECT_EQ(sphere_at(scene, 1 / 24.0).center, Vector3d(0, 0.0033040004782378674, 0));
-  EXPECT_EQ(sphere_at(scene, 45 / 24.0).center, Vector3d(0, 1.09608793258667, 0));
+  // Its samples as the file has them: time codes 1 to 250 at 24 per second, of which the first is 0 s. The centre is
+  // that of the mesh's points, which are in single precision.
+  const std::pair<double, double> samples[] = {
+      {0, 0.0008330001146532595}, {1 / 24.0, 0.0033040004782378674}, {45 / 24.0, 1.09608793258667}};
+  for (const auto& [time, y] : samples) EXPECT_LT((sphere_at(scene, time).center - Vector3d(0, y, 0)).norm(), 1e-6);
   EXPECT_NEAR(sphere_at(scene, 45 / 24.0).radius, 1, 1e-6);
 }
 

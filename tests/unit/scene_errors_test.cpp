@@ -69,7 +69,7 @@ TEST(SceneErrors, AnUnknownTableNamesTheNearest) {
             "scene.toml:4:2: unknown table 'effect'; did you mean 'effects'?");
   EXPECT_EQ(folder.problems(with("renderer", "")),
             "scene.toml:4:2: unknown table 'renderer'; the tables are 'cloth', 'time', 'integrator', 'camera', 'look', "
-            "'video', 'effects'");
+            "'video', 'check', 'effects'");
 }
 
 TEST(SceneErrors, AnUnknownEffectNamesTheNearest) {

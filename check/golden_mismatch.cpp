@@ -1,0 +1,56 @@
+#include "check/golden_mismatch.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <vector>
+
+#include "check/record_motion.hpp"
+
+namespace drape {
+
+std::string motion_mismatch(const Scene& scene, const Golden& golden) {
+  if (const int count = scene.simulation.cloth.vertex_count(); count != golden.vertex_count) {
+    return fmt::format("the cloth has {} vertices, the golden one {}", count, golden.vertex_count);
+  }
+  if (scene.simulation.step != golden.step) {
+    return fmt::format("a step is {} s long, in the golden {} s", scene.simulation.step, golden.step);
+  }
+  if (scene.step_count() != golden.step_count) {
+    return fmt::format("the motion has {} steps, the golden one {}", scene.step_count(), golden.step_count);
+  }
+  return {};
+}
+
+std::string picture_mismatch(const Scene& scene, const CheckSettings& settings, const Golden& golden,
+                             bool some_frames) {
+  if (scene.simulation.cloth.vertex_count() != golden.vertex_count) {
+    return "the pictures cannot be compared: the cloth has other vertices";
+  }
+  if (const Eigen::Vector2i size = picture_size(scene, settings); size != golden.size) {
+    return fmt::format("the pictures have {}x{} pixels, the golden ones {}x{}", size.x(), size.y(), golden.size.x(),
+                       golden.size.y());
+  }
+  if (const double seconds = scene.video.speed / scene.video.fps; seconds != golden.seconds_per_frame) {
+    return fmt::format("a frame of the film comes every {:g} s of the scene, in the golden every {:g} s", seconds,
+                       golden.seconds_per_frame);
+  }
+  std::vector<int> recorded;
+  for (const GoldenWindow& window : golden.windows) {
+    if (window.frame) recorded.push_back(*window.frame);
+  }
+  if (!some_frames && !settings.frames.empty() && settings.frames != recorded) {
+    return fmt::format("the frames {} are to be compared, the golden has {}", fmt::join(settings.frames, ", "),
+                       fmt::join(recorded, ", "));
+  }
+  return {};
+}
+
+bool same_but_for_rounding(const View& a, const View& b) {
+  constexpr double rounding = 1e-9;
+  return a.position.isApprox(b.position, rounding) && (a.target - b.target).norm() <= rounding * a.position.norm() &&
+         a.up.isApprox(b.up, rounding) && std::abs(a.field_of_view - b.field_of_view) <= rounding * a.field_of_view;
+}
+
+}  // namespace drape

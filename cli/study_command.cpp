@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "cli/command_line.hpp"
+#include "cli/watched.hpp"
+#include "study/homework_files.hpp"
+
+namespace drape {
+namespace {
+
+struct HomeworkArguments {
+  std::string folder = "out/homework";
+  int runs = 5;
+};
+
+ExitCode run_homework(const HomeworkArguments& arguments, const CommonOptions& common) {
+  std::optional<HomeworkStudy> study;
+  run_watched(common, [&](const std::stop_token& stop, Progress& progress) {
+    study = study_homework(arguments.runs, stop, progress);
+  });
+  if (!study) {
+    spdlog::error("interrupted; nothing was written");
+    return ExitCode::interrupted;
+  }
+  const std::string problem = write_homework_files(*study, arguments.folder);
+  if (!problem.empty()) spdlog::warn(problem);
+  if (!common.quiet) {
+    fmt::print("{}\n{}\n", homework_text(*study), (std::filesystem::path(arguments.folder) / "report.html").string());
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_study_command(CLI::App& app, const CommonOptions& common, Command& command) {
+  CLI::App* study = app.add_subcommand("study", "Measure what accuracy costs, and write tables, plots and a page");
+  study->require_subcommand(1);
+  auto arguments = std::make_shared<HomeworkArguments>();
+  CLI::App* homework = study->add_subcommand("homework", "Measure the homework's tables again, beside its report");
+  homework->add_option("-o,--output", arguments->folder, "Folder for the results; default out/homework");
+  homework->add_option("--runs", arguments->runs, "Timed runs of every case; default 5")->check(CLI::Range(1, 1000));
+  homework->callback(
+      [arguments, &common, &command] { command = [arguments, &common] { return run_homework(*arguments, common); }; });
+}
+
+}  // namespace drape

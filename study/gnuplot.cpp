@@ -1,0 +1,82 @@
+#include "study/gnuplot.hpp"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "core/atomic_file.hpp"
+
+namespace drape {
+namespace {
+
+/// Between double quotes, as gnuplot reads it. With them a text is plain: "noenhanced" is set.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
+/// One block of lines for each series, so that each is a data set of its own: index 0, 1, …
+std::string points_csv(const html::Chart& chart) {
+  std::string text = fmt::format("# series,{},{}\n", chart.x_title, chart.y_title);
+  for (const html::ChartSeries& series : chart.series) {
+    for (const html::ChartPoint& point : series.points) {
+      text += std::isfinite(point.y) ? fmt::format("\"{}\",{:.17g},{:.17g}\n", series.name, point.x, point.y) : "\n";
+    }
+    text += "\n\n";
+  }
+  return text;
+}
+
+std::string script(const html::Chart& chart, const std::string& name) {
+  std::string text = fmt::format(
+      "# gnuplot {0}.gp draws {0}.svg and {0}.png from {0}.csv.\n"
+      "set datafile separator ','\nset encoding utf8\nset title {1} noenhanced\nset xlabel {2} noenhanced\n"
+      "set ylabel {3} noenhanced\nset key outside below noenhanced\nset grid lt 1 lc rgb '#dddddd'\nset border 3\n"
+      "set tics nomirror\n",
+      name, quoted(chart.title), quoted(chart.x_title), quoted(chart.y_title));
+  if (chart.x_scale == html::Scale::logarithmic) text += "set logscale x\nset format x '10^{%L}'\n";
+  if (chart.y_scale == html::Scale::logarithmic) text += "set logscale y\nset format y '10^{%L}'\n";
+  std::string plots;
+  for (std::size_t i = 0; i < chart.series.size(); ++i) {
+    plots += fmt::format("{}'{}.csv' index {} using 2:3 with {} lw 1.5 title {}",
+                         plots.empty() ? "plot " : ", \\\n     ", name, i,
+                         chart.series[i].markers ? "linespoints pt 7 ps 0.6" : "lines", quoted(chart.series[i].name));
+  }
+  for (const html::ChartLevel& level : chart.levels) {
+    plots += fmt::format(", \\\n     {} with lines dt 2 title {}", level.y, quoted(level.label));
+  }
+  text += fmt::format("set terminal svg size 800,480 font 'DejaVu Sans,13'\nset output '{}.svg'\n{}\n", name, plots);
+  text +=
+      fmt::format("set terminal pngcairo size 1200,720 font 'DejaVu Sans,16'\nset output '{}.png'\n{}\n", name, plots);
+  return text;
+}
+
+std::string shell_quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+}  // namespace
+
+std::string write_plot(const html::Chart& chart, const std::filesystem::path& folder, const std::string& name) {
+  write_file_atomically(folder / (name + ".csv"), points_csv(chart));
+  write_file_atomically(folder / (name + ".gp"), script(chart, name));
+  const int status = std::system(
+      fmt::format("cd {} && gnuplot {} >/dev/null 2>&1", shell_quoted(folder.string()), shell_quoted(name + ".gp"))
+          .c_str());
+  if (status == 0) return {};
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
+    return "gnuplot is not installed, so the plots are there as .csv and .gp files only; on Debian: apt-get install "
+           "gnuplot-nox";
+  }
+  return fmt::format("gnuplot could not draw {}; its data and script are there", (folder / (name + ".gp")).string());
+}
+
+}  // namespace drape

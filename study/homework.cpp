@@ -1,0 +1,211 @@
+#include "study/homework.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+
+#include "sim/simulation.hpp"
+#include "study/homework_cases.hpp"
+#include "study/homework_conclusions.hpp"
+
+namespace drape {
+namespace {
+
+constexpr std::array<const char*, 3> titles{"Table 1: no sphere, k = 18 N/m", "Table 2: with the sphere, k = 180 N/m",
+                                            "Table 3: no sphere, k = 180 N/m, by tolerance ε"};
+
+std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : "–"; }
+
+std::string microseconds(double value) { return fmt::format("{:.{}f}", value, value < 100 ? 2 : 0); }
+
+ResultTable make_table(int table, const std::vector<HomeworkRow>& rows, const std::vector<Measured>& measured) {
+  ResultTable result{fmt::format("table{}", table),
+                     titles[static_cast<std::size_t>(table - 1)],
+                     {"method", "h [s]", "ε [m]", "iterations: report", "its code again", "drape", "capped steps",
+                      "µs a step: report", "drape", "lower quartile", "upper quartile", "times faster"},
+                     {},
+                     {}};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const HomeworkRow& r = rows[i];
+    if (r.table != table) continue;
+    const Quartiles time = measured[i].time();
+    const bool iterates = r.reported.iterations.has_value();
+    result.rows.push_back({r.method, fmt::format("{:g}", r.step), r.tolerance.empty() ? "–" : r.tolerance,
+                           number(r.reported.iterations), number(r.reported.again),
+                           iterates ? fmt::format("{:.4f}", measured[i].mean_iterations()) : "–",
+                           iterates ? fmt::format("{}", measured[i].capped) : "–", number(r.reported.microseconds),
+                           microseconds(time.median), microseconds(time.lower), microseconds(time.upper),
+                           fmt::format("{:.1f}", r.reported.microseconds / time.median)});
+  }
+  if (table == 2) result.notes.push_back("The implicit method over its first 167 steps, as in the report.");
+  return result;
+}
+
+/// The report's log, row by row.
+struct EnergyRow {
+  std::int64_t step;
+  double total, kinetic, gravity, elastic;
+};
+constexpr std::array<EnergyRow, 6> reported_energies{{{1, -4.7802e-05, 4.78023e-05, -9.56045e-05, 1.86e-10},
+                                                      {5, -0.000239011, 0.00119506, -0.00143407, 2.07e-10},
+                                                      {10, -0.000478022, 0.00478022, -0.00525825, 7.51e-10},
+                                                      {13, -0.000621427, 0.00807857, -0.0087, 4.179e-09},
+                                                      {16, -0.000764831, 0.0122374, -0.0130022, 1.8299e-08},
+                                                      {20, -0.000956025, 0.0191208, -0.0200769, 9.40691e-08}}};
+
+void add_energies(HomeworkStudy& study) {
+  const StudyCase what = homework_energy_case();
+  Simulation simulation(what.load().simulation);
+  study.energies = {
+      "energies", "Energies of the first steps [J]", {"step", "total", "kinetic", "gravity", "elastic"}, {}, {}};
+  ResultTable beside{
+      "energy-log",
+      "Energy log: semi-implicit, h = 0.001 s, k = 180 N/m, no damping [J]",
+      {"step", "total: report", "drape", "kinetic: report", "drape", "gravity: report", "drape", "elastic: report",
+       "drape"},
+      {},
+      {"The report's positions are in single precision, which leaves noise of about 2e-10 J in its elastic "
+       "energy. The steady loss is the scheme's own, ½ M g² h² = 4.78e-5 J a step in free fall, and no "
+       "damping.",
+       what.command() + " --energies energies.csv"}};
+  for (std::int64_t step = 1; step <= what.steps; ++step) {
+    simulation.step();
+    const Energies e = simulation.energies();
+    const auto text = [](double value) { return fmt::format("{:.6g}", value); };
+    study.energies.rows.push_back({fmt::format("{}", step), fmt::format("{:.17g}", e.total()),
+                                   fmt::format("{:.17g}", e.kinetic), fmt::format("{:.17g}", e.gravity),
+                                   fmt::format("{:.17g}", e.elastic)});
+    for (const EnergyRow& r : reported_energies) {
+      if (r.step != step) continue;
+      beside.rows.push_back({fmt::format("{}", step), text(r.total), text(e.total()), text(r.kinetic), text(e.kinetic),
+                             text(r.gravity), text(e.gravity), text(r.elastic), text(e.elastic)});
+    }
+  }
+  study.tables.push_back(std::move(beside));
+}
+
+html::ChartSeries iterations_of(const Measured& measured, const std::string& name) {
+  html::ChartSeries series{name, {}, false, measured.what.command()};
+  for (std::size_t i = 0; i < measured.iterations.size(); ++i) {
+    const double time = static_cast<double>(i + 1) * measured.step;
+    series.points.push_back({time,
+                             static_cast<double>(measured.iterations[i]),
+                             fmt::format("step {} at {:.2f} s: {} iterations", i + 1, time, measured.iterations[i]),
+                             {}});
+  }
+  return series;
+}
+
+/// @param every how many steps there is a point
+html::ChartSeries height_of(const Measured& measured, const std::string& name, std::size_t every) {
+  html::ChartSeries series{name, {}, false, measured.what.command()};
+  for (std::size_t i = every - 1; i < measured.height.size(); i += every) {
+    const double time = static_cast<double>(i + 1) * measured.step;
+    series.points.push_back(
+        {time, measured.height[i], fmt::format("{:.2f} s: {:.3f} m", time, measured.height[i]), {}});
+  }
+  return series;
+}
+
+/// Table 3's column by tolerance, of one method.
+template <class Value>
+html::ChartSeries by_tolerance(const std::vector<HomeworkRow>& rows, const std::vector<Measured>& measured,
+                               const std::string& method, const std::string& name, Value value) {
+  html::ChartSeries series{name, {}};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].table != 3 || rows[i].method != method) continue;
+    const double y = value(rows[i], measured[i]);
+    series.points.push_back({std::stod(rows[i].tolerance), y, fmt::format("ε = {}: {:.5g}", rows[i].tolerance, y),
+                             measured[i].what.command()});
+  }
+  return series;
+}
+
+void add_charts(HomeworkStudy& study, const std::vector<HomeworkRow>& rows, const std::vector<Measured>& measured,
+                const std::vector<Measured>& extras) {
+  const Measured& soft = measured[find_row(rows, 1, "implicit")];
+  const Measured& soft_liu13 = measured[find_row(rows, 1, "liu13")];
+  const Measured& newton = measured[find_row(rows, 3, "implicit", "1e-3")];
+  const Measured& liu13 = measured[find_row(rows, 3, "liu13", "1e-3")];
+  study.charts.push_back({"iterations-k18",
+                          {"Iterations of every step over the motion, k = 18 N/m, ε = 1e-3 m.",
+                           "time [s]",
+                           "iterations",
+                           html::Scale::linear,
+                           html::Scale::linear,
+                           {iterations_of(soft, "implicit"), iterations_of(soft_liu13, "liu13")},
+                           {}}});
+  study.charts.push_back(
+      {"height-k18",
+       {"Height of the centre of mass, k = 18 N/m: the swings, by both methods.",
+        "time [s]",
+        "height [m]",
+        html::Scale::linear,
+        html::Scale::linear,
+        {height_of(soft, "implicit", 1),
+         height_of(extras.at(static_cast<std::size_t>(Extra::undamped)), "semi-implicit, undamped", 20)},
+        {}}});
+  study.charts.push_back({"iterations-k180",
+                          {"Iterations of every step over the motion, k = 180 N/m, ε = 1e-3 m.",
+                           "time [s]",
+                           "iterations",
+                           html::Scale::linear,
+                           html::Scale::linear,
+                           {iterations_of(newton, "implicit"), iterations_of(liu13, "liu13")},
+                           {}}});
+  const auto iterations = [](const HomeworkRow&, const Measured& m) { return m.mean_iterations(); };
+  const auto reported_iterations = [](const HomeworkRow& r, const Measured&) {
+    return r.reported.iterations.value_or(0);
+  };
+  const auto time = [](const HomeworkRow&, const Measured& m) { return m.time().median; };
+  const auto reported_time = [](const HomeworkRow& r, const Measured&) { return r.reported.microseconds; };
+  study.charts.push_back({"iterations-by-tolerance",
+                          {"Mean iterations a step by tolerance (table 3).",
+                           "tolerance ε [m]",
+                           "iterations a step",
+                           html::Scale::logarithmic,
+                           html::Scale::logarithmic,
+                           {by_tolerance(rows, measured, "implicit", "implicit", iterations),
+                            by_tolerance(rows, measured, "liu13", "liu13", iterations),
+                            by_tolerance(rows, measured, "implicit", "implicit, report", reported_iterations),
+                            by_tolerance(rows, measured, "liu13", "liu13, report", reported_iterations)},
+                           {}}});
+  study.charts.push_back({"time-by-tolerance",
+                          {"Time a step by tolerance (table 3).",
+                           "tolerance ε [m]",
+                           "µs a step",
+                           html::Scale::logarithmic,
+                           html::Scale::logarithmic,
+                           {by_tolerance(rows, measured, "implicit", "implicit", time),
+                            by_tolerance(rows, measured, "liu13", "liu13", time),
+                            by_tolerance(rows, measured, "implicit", "implicit, report", reported_time),
+                            by_tolerance(rows, measured, "liu13", "liu13, report", reported_time)},
+                           {}}});
+}
+
+}  // namespace
+
+std::optional<HomeworkStudy> study_homework(int runs, const std::stop_token& stop, Progress& progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::vector<HomeworkRow> rows = homework_rows();
+  std::vector<StudyCase> cases;
+  for (const HomeworkRow& row : rows) cases.push_back(row.what);
+  for (StudyCase& extra : homework_extras()) cases.push_back(std::move(extra));
+  std::vector<Measured> measured = measure(cases, runs, stop, progress);
+  if (measured.empty()) return std::nullopt;
+  const std::vector<Measured> extras(measured.begin() + static_cast<std::ptrdiff_t>(rows.size()), measured.end());
+  measured.resize(rows.size());
+
+  HomeworkStudy study;
+  study.runs = runs;
+  for (const int table : {1, 2, 3}) study.tables.push_back(make_table(table, rows, measured));
+  add_energies(study);
+  add_charts(study, rows, measured, extras);
+  study.conclusions = judge_conclusions(rows, measured, extras);
+  study.differences = homework_differences();
+  study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return study;
+}
+
+}  // namespace drape

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "html/chart.hpp"
+#include "study/measure.hpp"
+#include "study/result_table.hpp"
+
+namespace drape {
+
+/// Something that the homework's report concludes, and what came out here.
+struct Conclusion {
+  std::string claim;
+  bool confirmed = false;
+  std::string figures;
+};
+
+struct NamedChart {
+  std::string name;  ///< of its files
+  html::Chart chart;
+};
+
+/// The homework's tables, measured again, beside what its report prints.
+struct HomeworkStudy {
+  std::vector<ResultTable> tables;
+  ResultTable energies;  ///< the log of the first 20 steps, in full
+  std::vector<NamedChart> charts;
+  std::vector<Conclusion> conclusions;
+  std::vector<std::string> differences;  ///< from the report on purpose, a sentence each
+  int runs = 0;
+  double seconds = 0;
+};
+
+/// @param runs  timed runs of every case
+/// @returns nothing if it was stopped
+std::optional<HomeworkStudy> study_homework(int runs, const std::stop_token& stop, Progress& progress);
+
+}  // namespace drape

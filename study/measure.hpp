@@ -1,0 +1,42 @@
+#pragma once
+
+#include <stop_token>
+#include <vector>
+
+#include "run/progress.hpp"
+#include "study/case.hpp"
+
+namespace drape {
+
+/// The middle of some values and of their halves.
+struct Quartiles {
+  double lower = 0, median = 0, upper = 0;
+};
+
+/// By linear interpolation between the sorted values. @param values at least one
+Quartiles quartiles(std::vector<double> values);
+
+/// What a case did. The motion is the same in every run; the times are not.
+struct Measured {
+  StudyCase what;
+  double step = 0;                   ///< h [s]
+  std::vector<int> iterations;       ///< of every step
+  std::int64_t capped = 0;           ///< steps that ended at the cap
+  std::vector<double> height;        ///< of the centre of mass after every step [m]
+  double flipped_pairs = 0;          ///< mean over the steps, see FlippedPairs
+  std::vector<double> microseconds;  ///< mean over the steps, of every timed run, as computing time
+
+  [[nodiscard]] double mean_iterations() const;
+  /// Over the steps first … last−1.
+  [[nodiscard]] double mean_iterations(std::size_t first, std::size_t last) const;
+  [[nodiscard]] Quartiles time() const { return quartiles(microseconds); }
+};
+
+/// Runs every case `runs` times after a first time that is not timed, on one thread that stays on one processor. The
+/// cases take turns within each run, a few steps each, so that whatever slows the machine down slows all of them.
+/// @returns nothing if it was stopped
+/// @throws UsageError, DivergedError
+std::vector<Measured> measure(const std::vector<StudyCase>& cases, int runs, const std::stop_token& stop,
+                              Progress& progress);
+
+}  // namespace drape

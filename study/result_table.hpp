@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "html/components.hpp"
+
+namespace drape {
+
+/// A table of results, which is printed, written as Markdown and CSV, and shown on a page.
+struct ResultTable {
+  std::string name;   ///< of its file: "table1"
+  std::string title;  ///< "Table 1: no sphere, k = 18 N/m"
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> notes;  ///< sentences below it
+};
+
+/// For a terminal: columns in line, those that are numbers to the right.
+std::string to_text(const ResultTable& table);
+std::string to_markdown(const ResultTable& table);
+/// RFC 4180.
+std::string to_csv(const ResultTable& table);
+html::Markup to_html(const ResultTable& table);
+
+}  // namespace drape

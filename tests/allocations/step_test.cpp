@@ -1,0 +1,140 @@
+// What a step takes from the heap: nothing of ours, whatever the method and the effects.
+
+#include <gtest/gtest.h>
+
+#include <SuiteSparse_config.h>
+
+#include <atomic>
+#include <cstdlib>
+
+#include "sim/simulation.hpp"
+#include "tests/support/setups.hpp"
+
+// The C library's own functions under the names that everybody calls, Eigen and CHOLMOD included. A sanitizer has its
+// own, so that there is nothing to count.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool counted = false;
+static std::atomic<long> allocations = 0;
+#else
+constexpr bool counted = true;
+static std::atomic<long> allocations = 0;
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+void* malloc(std::size_t size) noexcept { return ++allocations, __libc_malloc(size); }
+void* calloc(std::size_t count, std::size_t size) noexcept { return ++allocations, __libc_calloc(count, size); }
+void* realloc(void* old, std::size_t size) noexcept { return ++allocations, __libc_realloc(old, size); }
+void* memalign(std::size_t to, std::size_t size) noexcept { return ++allocations, __libc_memalign(to, size); }
+void* aligned_alloc(std::size_t to, std::size_t size) noexcept { return ++allocations, __libc_memalign(to, size); }
+int posix_memalign(void** result, std::size_t to, std::size_t size) noexcept {
+  ++allocations;
+  *result = __libc_memalign(to, size);
+  return *result == nullptr ? 12 : 0;
+}
+}
+#endif
+
+namespace drape::test {
+namespace {
+
+using Eigen::Vector3d;
+
+/// CHOLMOD's allocations: it takes them through functions that can be replaced.
+long cholmod_allocations = 0;
+void* cholmod_malloc(std::size_t size) { return ++cholmod_allocations, std::malloc(size); }
+void* cholmod_calloc(std::size_t count, std::size_t size) { return ++cholmod_allocations, std::calloc(count, size); }
+void* cholmod_realloc(void* old, std::size_t size) { return ++cholmod_allocations, std::realloc(old, size); }
+
+class Allocations : public testing::TestWithParam<NamedMethod> {
+ protected:
+  Allocations() {
+    if (!counted) return;
+    SuiteSparse_config.malloc_func = cholmod_malloc;
+    SuiteSparse_config.calloc_func = cholmod_calloc;
+    SuiteSparse_config.realloc_func = cholmod_realloc;
+  }
+  void SetUp() override {
+    if (!counted) GTEST_SKIP() << "a sanitizer has an allocator of its own";
+  }
+
+  /// Those of one step, ours and CHOLMOD's, once everything has the size it needs.
+  static std::pair<long, long> steady_step(Simulation& simulation) {
+    for (int step = 0; step < 5; ++step) simulation.step();
+    const long all = allocations, cholmod = cholmod_allocations;
+    simulation.step();
+    return {(allocations - all) - (cholmod_allocations - cholmod), cholmod_allocations - cholmod};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Of, Allocations, testing::ValuesIn(all_methods), method_name);
+
+SimulationSettings falling(Solver solver) {
+  SimulationSettings settings = setup(cloth_of(make_grid(10, 10), 1, 100, {0, 10}), solver, 0.005);
+  settings.effects = {effect("gravity")};
+  return settings;
+}
+
+/// Every effect there is, spheres and pins that move included.
+SimulationSettings eventful(Solver solver) {
+  SimulationSettings settings = falling(solver);
+  const KeyframesValue path{"offset", {{1, {0, 0, 0.2}}, {2, {0.1, 0, 0}}}};
+  const bool implicit = solver.method != Method::semi_implicit;
+  const std::string response = implicit ? "implicit" : "explicit";
+  settings.effects.insert(
+      settings.effects.end(),
+      {effect("wind", {{"acceleration", Vector3d(1, 0, 0)}}),
+       effect("air", {{"velocity", Vector3d(1, 2, 0)}, {"gust", 1.0}}),
+       effect("moving_pins", {{"pins", std::vector{0, 10}}, {"keyframes", path}, {"interpolation", "smooth"}}),
+       effect("sphere", {{"center", Vector3d(0, 0, -0.3)}, {"radius", 0.3}, {"response", response}, {"friction", 0.3}}),
+       effect("ground", {{"height", -0.05}, {"response", response}}), effect("damping", {{"factor", 0.5}})});
+  return settings;
+}
+
+// CHOLMOD's own, stated: four small workspaces for each factorisation and its solve, which is 12 in a step of three
+// iterations. Only the Cholesky solver of the implicit method asks it for anything within a step.
+constexpr long most_of_cholmod = 4L * 4;
+
+TEST_P(Allocations, ASteadyStepTakesNothingOfOurs) {
+  Simulation simulation(falling(GetParam()));
+  const auto [ours, cholmod] = steady_step(simulation);
+  EXPECT_EQ(ours, 0);
+  const bool factors = GetParam().linear_solver == LinearSolver::cholesky;
+  EXPECT_LE(cholmod, factors ? most_of_cholmod : 0);
+  RecordProperty("cholmod", std::to_string(cholmod));
+}
+
+TEST_P(Allocations, AStepWithEveryEffectTakesNothingOfOurs) {
+  Simulation simulation(eventful(GetParam()));
+  const auto [ours, cholmod] = steady_step(simulation);
+  EXPECT_EQ(ours, 0);
+}
+
+TEST_P(Allocations, AbsentEffectsTakeNothing) {
+  // Nothing in the system but what gravity installs.
+  const SimulationSettings settings = falling(GetParam());
+  const System system = make_system(settings);
+  EXPECT_EQ(system.forces.size(), 1U);
+  EXPECT_EQ(system.forces.capacity(), 1U);
+  EXPECT_EQ(system.energies.capacity() + system.corrections.capacity() + system.filters.capacity() +
+                system.colliders.capacity() + system.pin_motions.capacity() + system.pin_releases.capacity(),
+            0U);
+  // And what making one takes is the same for the same scene, however many effects there are to choose from.
+  const auto made = [&] {
+    const long before = allocations;
+    const System another = make_system(settings);
+    return allocations - before;
+  };
+  EXPECT_EQ(made(), 3) << "the springs' copy, the list of forces and gravity";
+}
+
+TEST(AllocationCounter, Counts) {
+  if (!counted) GTEST_SKIP() << "a sanitizer has an allocator of its own";
+  const long before = allocations;
+  const Eigen::VectorXd eigen = Eigen::VectorXd::Zero(100);
+  const std::vector<int> standard(100);
+  EXPECT_GE(allocations - before, 2);
+}
+
+}  // namespace
+}  // namespace drape::test

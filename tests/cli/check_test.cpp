@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "tests/cli/run_drape.hpp"
+
+namespace drape {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::drape;
+
+constexpr const char* scene = R"(
+[cloth]
+mesh = { grid = [6, 6] }
+stiffness = 50
+pins = ["corner:x-y-", "corner:x+y-"]
+[time]
+step = 0.02
+duration = 0.8
+[integrator]
+method = "liu13"
+[effects.gravity]
+[check]
+frames = [0, 10]
+size = [64, 48]
+)";
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(CheckCommand, BlessesChecksAndFails) {
+  const testing::SceneFolder folder;
+  folder.write("swing.toml", scene);
+  const auto blessed = drape(folder, "bless swing.toml");
+  EXPECT_EQ(blessed.code, 0) << blessed.text;
+  EXPECT_TRUE(fs::exists(folder.path() / "swing.golden/frames/0010.png"));
+
+  const auto passed = drape(folder, "check swing.toml --end-to-end");
+  EXPECT_EQ(passed.code, 0) << passed.text;
+  EXPECT_NE(passed.text.find("swing.toml: passed: motion same bits, 2 pictures exact; end to end same bits, exact"),
+            std::string::npos)
+      << passed.text;
+  for (const char* file : {"report.json", "junit.xml", "report.html"}) {
+    EXPECT_TRUE(fs::exists(folder.path() / "out/check" / file)) << file;
+  }
+
+  const auto failed = drape(folder, "check swing.toml --set cloth.mass=1.1 --report elsewhere");
+  EXPECT_EQ(failed.code, 1) << failed.text;
+  EXPECT_NE(failed.text.find("swing.toml: changed: the motion changed at step "), std::string::npos) << failed.text;
+  EXPECT_NE(text_of(folder.path() / "elsewhere/report.json").find("drape check swing.toml --set cloth.mass=1.1"),
+            std::string::npos);
+  EXPECT_TRUE(fs::exists(folder.path() / "elsewhere/swing/difference.gif"));
+}
+
+TEST(CheckCommand, AMissingGoldenIsWrittenAndFails) {
+  const testing::SceneFolder folder;
+  folder.write("swing.toml", scene);
+  EXPECT_EQ(drape(folder, "check swing.toml --update none").code, 1);
+  EXPECT_FALSE(fs::exists(folder.path() / "swing.golden"));
+  const auto written = drape(folder, "check swing.toml");
+  EXPECT_EQ(written.code, 1) << written.text;
+  EXPECT_NE(written.text.find("swing.toml: missing: there was no golden"), std::string::npos) << written.text;
+  EXPECT_EQ(drape(folder, "check swing.toml").code, 0);
+}
+
+TEST(CheckCommand, QuietPrintsOnlyWhatChanged) {
+  const testing::SceneFolder folder;
+  folder.write("swing.toml", scene);
+  EXPECT_EQ(drape(folder, "bless swing.toml --quiet").text, "");
+  EXPECT_EQ(drape(folder, "check swing.toml --quiet").text, "");
+  const auto failed = drape(folder, "check swing.toml --quiet --set look.color=red");
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_NE(failed.text.find("swing.toml: changed: 2 of 2 pictures changed"), std::string::npos) << failed.text;
+  EXPECT_NE(failed.text.find("the motion did not change"), std::string::npos) << failed.text;
+}
+
+TEST(CheckCommand, LimitsCanBeWiderOnTheCommandLine) {
+  const testing::SceneFolder folder;
+  folder.write("swing.toml", scene);
+  EXPECT_EQ(drape(folder, "bless swing.toml").code, 0);
+  const std::string check = "check swing.toml --set look.background=#fefefe";
+  EXPECT_EQ(drape(folder, check).code, 1);
+  const auto wide = drape(folder, check + " --pixel-limit 1 --flip-limit 1");
+  EXPECT_EQ(wide.code, 0) << wide.text;
+  EXPECT_NE(wide.text.find("2 pictures noise"), std::string::npos) << wide.text;
+  const auto slow = drape(folder, "check swing.toml --set cloth.stiffness=50.000001 --motion-tolerance 0.01");
+  EXPECT_EQ(slow.code, 0) << slow.text;
+  EXPECT_NE(slow.text.find("motion within tolerance"), std::string::npos) << slow.text;
+}
+
+TEST(CheckCommand, SaysWhatIsWrongWithItsOptions) {
+  const testing::SceneFolder folder;
+  folder.write("swing.toml", scene);
+  const auto expect = [&](const std::string& arguments, const std::string& message) {
+    const auto finished = drape(folder, arguments);
+    EXPECT_EQ(finished.code, 2) << arguments;
+    EXPECT_NE(finished.text.find(message), std::string::npos) << finished.text;
+  };
+  expect("check swing.toml --update chnaged", "--update: unknown 'chnaged'; did you mean 'changed'?");
+  expect("check swing.toml --frames 1,,2", "--frames takes A,B,C, numbers of frames from 0 on, found '1,,2'");
+  expect("bless swing.toml --frames 1000", "the film ends with frame 20");
+  expect("check nowhere.toml", "nowhere.toml: no such file");
+  EXPECT_EQ(drape(folder, "bless swing.toml").code, 0);
+  std::ofstream(folder.path() / "swing.golden/motion.bin", std::ios::binary) << "nonsense";
+  expect("check swing.toml", "swing.golden/motion.bin: it is no golden motion");
+}
+
+}  // namespace
+}  // namespace drape

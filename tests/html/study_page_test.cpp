@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include "study/homework_files.hpp"
+#include "tests/html/html_page.hpp"
+
+namespace drape {
+namespace {
+
+using testing::Browser;
+
+HomeworkStudy sample_study() {
+  HomeworkStudy study;
+  study.runs = 5;
+  study.conclusions = {{"Implicit Euler looks right even at ε = 1.", true, "0.000 pairs a frame."},
+                       {"The sphere makes every method <faster>.", false, "It does not."}};
+  study.tables = {{"table1", "Table 1", {"method", "iterations"}, {{"liu13", "7.24"}}, {"A note."}}};
+  html::Chart chart;
+  chart.title = "Iterations by tolerance.";
+  chart.x_title = "tolerance ε [m]";
+  chart.y_title = "iterations";
+  chart.x_scale = chart.y_scale = html::Scale::logarithmic;
+  for (const std::string method : {"implicit", "liu13"}) {
+    html::ChartSeries series{method, {}};
+    for (int k = 0; k <= 5; ++k) {
+      const double tolerance = std::pow(10, -k);
+      series.points.push_back({tolerance, method == "liu13" ? 2 + 3.0 * k * k : 2.0 + k, "ε = 1e-" + std::to_string(k),
+                               "drape simulate " + method + " 1e-" + std::to_string(k)});
+    }
+    chart.series.push_back(series);
+  }
+  study.charts = {{"iterations", chart}};
+  study.differences = {"Pins are held."};
+  return study;
+}
+
+class StudyPage : public testing::InBrowser {
+ protected:
+  std::string tip() {
+    return browser_->run("const t = document.getElementById('tip'); return t.hidden ? '' : t.textContent");
+  }
+};
+
+TEST_F(StudyPage, IsSoundAndSaysWhatIsNotConfirmed) {
+  open(homework_page(sample_study()));
+  expect_sound();
+  EXPECT_EQ(browser_->run("return document.querySelector('h1').textContent"),
+            "1 of the report's 2 conclusions are confirmed");
+  EXPECT_EQ(browser_->run("return document.querySelectorAll('.findings .bad').length"), 1);
+  keep_screenshots("study");
+}
+
+TEST_F(StudyPage, HoveringAPointShowsItsCommand) {
+  open(homework_page(sample_study()));
+  EXPECT_EQ(tip(), "");
+  browser_->point_at(".series.s1 .point:nth-of-type(4) .sign");
+  EXPECT_EQ(tip(), "liu13, ε = 1e-3drape simulate liu13 1e-3");
+  browser_->point_at("h1");
+  EXPECT_EQ(tip(), "");
+}
+
+TEST_F(StudyPage, ArrowKeysGoFromPointToPoint) {
+  open(homework_page(sample_study()));
+  browser_->run("document.querySelector('.chart > svg').focus()");
+  browser_->press(Browser::arrow_right);
+  EXPECT_EQ(tip(), "implicit, ε = 1e-0drape simulate implicit 1e-0");
+  browser_->press(Browser::arrow_right);
+  EXPECT_EQ(tip(), "implicit, ε = 1e-1drape simulate implicit 1e-1");
+  browser_->press("\uE015");  // down: the other series, nearby
+  EXPECT_TRUE(tip().starts_with("liu13, ε = 1e-1")) << tip();
+  browser_->press(Browser::arrow_left);
+  EXPECT_TRUE(tip().starts_with("liu13, ε = 1e-0")) << tip();
+  browser_->press("\uE00C");  // escape
+  EXPECT_EQ(tip(), "");
+}
+
+}  // namespace
+}  // namespace drape

@@ -1,0 +1,104 @@
+#include "study/measure.hpp"
+
+#include <gtest/gtest.h>
+
+#include "study/homework_cases.hpp"
+#include "study/homework_conclusions.hpp"
+
+namespace drape {
+namespace {
+
+TEST(Quartiles, OfKnownValues) {
+  const Quartiles odd = quartiles({5, 1, 4, 2, 3});
+  EXPECT_EQ(odd.lower, 2);
+  EXPECT_EQ(odd.median, 3);
+  EXPECT_EQ(odd.upper, 4);
+  const Quartiles even = quartiles({1, 2, 3, 4});
+  EXPECT_EQ(even.lower, 1.75);
+  EXPECT_EQ(even.median, 2.5);
+  EXPECT_EQ(quartiles({7}).upper, 7);
+}
+
+TEST(Measure, RunsEveryStepOfEveryCaseAsOftenAsAsked) {
+  const std::vector<StudyCase> cases{{"a", "scenes/homework/3.toml", {}, 31}, {"b", "scenes/homework/1.toml", {}, 100}};
+  Progress progress;
+  const std::vector<Measured> measured = measure(cases, 2, {}, progress);
+  ASSERT_EQ(measured.size(), 2U);
+  EXPECT_EQ(measured[0].iterations.size(), 31U);
+  EXPECT_EQ(measured[1].height.size(), 100U);
+  EXPECT_EQ(measured[0].microseconds.size(), 2U);
+  EXPECT_EQ(progress.done, progress.total);
+  // Free fall of what is not held up yet: the damped cloth is a little above −g t²/2.
+  const double time = 0.1;
+  EXPECT_LT(measured[1].height.back(), -0.4 * 9.8 * time * time);
+  EXPECT_GT(measured[1].height.back(), -0.51 * 9.8 * time * time);
+}
+
+TEST(Measure, ReturnsNothingWhenItIsStopped) {
+  std::stop_source stop;
+  stop.request_stop();
+  Progress progress;
+  EXPECT_TRUE(measure({{"a", "scenes/homework/3.toml", {}, 31}}, 1, stop.get_token(), progress).empty());
+}
+
+// The tables' headings, in the report's words, against what the cases' scenes and overrides amount to.
+TEST(HomeworkCases, AreThoseOfTheReport) {
+  for (const HomeworkRow& row : homework_rows()) {
+    SCOPED_TRACE(row.what.command());
+    const SimulationSettings s = row.what.load().simulation;
+    const bool semi = row.method == "semi-implicit";
+    EXPECT_EQ(method_name(s.integrator.method), row.method);
+    EXPECT_EQ(s.step, row.step);
+    EXPECT_EQ(s.cloth.vertex_count(), 441);
+    EXPECT_EQ(s.cloth.springs.front().stiffness, row.table == 1 ? 18 : 180);
+    std::vector<std::string> effects;
+    for (const ActiveEffect& active : s.effects) effects.push_back(active.name);
+    const auto has = [&](const char* name) { return std::count(effects.begin(), effects.end(), name) == 1; };
+    EXPECT_TRUE(has("gravity"));
+    EXPECT_EQ(has("sphere"), row.table == 2);
+    EXPECT_EQ(has("damping"), semi);
+    const std::int64_t whole = semi ? 8334 : 417;
+    EXPECT_EQ(row.what.steps, row.table == 2 && row.method == "implicit" ? 167 : whole);
+    if (semi) continue;
+    EXPECT_EQ(s.integrator.tolerance, std::stod(row.tolerance));
+    EXPECT_EQ(s.integrator.max_iterations, row.method == "liu13" ? 100 : 20);
+  }
+  EXPECT_EQ(homework_rows().size(), 18U);
+}
+
+/// As many invented results as there are rows, with neither swings, flips nor differences between the cases.
+std::vector<Measured> dull_results(const std::vector<StudyCase>& cases) {
+  std::vector<Measured> results;
+  for (const StudyCase& one : cases) {
+    Measured m;
+    m.what = one;
+    m.step = one.load().simulation.step;
+    m.iterations.assign(static_cast<std::size_t>(one.steps), 3);
+    for (std::int64_t i = 0; i < one.steps; ++i) m.height.push_back(-static_cast<double>(i) * m.step);
+    m.microseconds = {10, 10, 10};
+    results.push_back(std::move(m));
+  }
+  return results;
+}
+
+TEST(Conclusions, AreNotConfirmedByResultsThatDoNotShowThem) {
+  const std::vector<HomeworkRow> rows = homework_rows();
+  std::vector<StudyCase> cases;
+  for (const HomeworkRow& row : rows) cases.push_back(row.what);
+  std::vector<Measured> tables = dull_results(cases);
+  const std::vector<Measured> extras = dull_results(homework_extras());
+  std::vector<bool> confirmed;
+  for (const Conclusion& c : judge_conclusions(rows, tables, extras)) confirmed.push_back(c.confirmed);
+  // Without flips the implicit method looks right, and motions that are alike are alike.
+  EXPECT_EQ(confirmed, (std::vector<bool>{true, false, false, false, false, true, true}));
+
+  tables[find_row(rows, 3, "implicit", "1")].flipped_pairs = 4;
+  for (double& height : tables[find_row(rows, 1, "implicit")].height) height *= 2;
+  for (double& height : tables[find_row(rows, 1, "semi-implicit")].height) height *= 1.1;
+  confirmed.clear();
+  for (const Conclusion& c : judge_conclusions(rows, tables, extras)) confirmed.push_back(c.confirmed);
+  EXPECT_EQ(confirmed, (std::vector<bool>{false, false, false, false, false, false, false}));
+}
+
+}  // namespace
+}  // namespace drape
