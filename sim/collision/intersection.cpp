@@ -14,10 +14,11 @@ double volume(const Point& a, const Point& b, const Point& c, const Point& d) {
   return (b - a).cross(c - a).dot(d - a);
 }
 
+/// Also through a triangle's side or corner.
 bool passes_through(const Point& from, const Point& to, const Point& a, const Point& b, const Point& c) {
   if (volume(a, b, c, from) * volume(a, b, c, to) >= 0) return false;
   const double ab = volume(from, to, a, b), bc = volume(from, to, b, c), ca = volume(from, to, c, a);
-  return (ab > 0 && bc > 0 && ca > 0) || (ab < 0 && bc < 0 && ca < 0);
+  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
 template <class Vertex>

@@ -148,8 +148,8 @@ TEST(TimeOfImpact, MissesNothing) {
     const double until = time.value_or(1);
     for (int k = 0; k <= 1000; ++k) {
       const double t = k / 1000.0 * until;
-      if (t < 0.999 * until)
-        ASSERT_GT(distance(feature, moved(p, move, t)), gap * (1 - 1e-9)) << "case " << i << ", t = " << t;
+      if (t >= 0.999 * until) continue;
+      ASSERT_GT(distance(feature, moved(p, move, t)), gap * (1 - 1e-9)) << "case " << i << ", t = " << t;
     }
   }
   EXPECT_GT(impacts, 100);
@@ -273,7 +273,9 @@ TEST(RigidZones, KeepBothMomentaAndBringNoPointsNearer) {
   Point p = Point::Zero(), l = p;
   for (std::size_t i = 0; i < count; ++i) {
     const Point change = (moving.velocities[i] - before[i]) / moving.inverse_masses[i];
-    if (i > 6) EXPECT_EQ(change, Point::Zero());
+    if (i > 6) {
+      EXPECT_EQ(change, Point::Zero());
+    }
     p += change;
     l += x[i].cross(change);
   }
