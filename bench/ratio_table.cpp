@@ -69,9 +69,8 @@ void RatioReporter::Finalize() {
   for (const RatioTable& table : tables_) print(table);
   out << fmt::format(
       "Medians of CPU time ± half the interquartile range of repetitions in random order, in one process. {} logical "
-      "CPUs at "
-      "{:.2f} "
-      "GHz; compiler {}; Eigen {}.{}.{}.\n",
+      "CPUs "
+      "at {:.2f} GHz; compiler {}; Eigen {}.{}.{}.\n",
       benchmark::CPUInfo::Get().num_cpus, benchmark::CPUInfo::Get().cycles_per_second / 1e9, __VERSION__,
       EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
 }
