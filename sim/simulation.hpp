@@ -38,9 +38,8 @@ enum class Timing { none, effects };
 /// the same bits.
 class Simulation {
  public:
-  /// @throws UsageError if the step is larger than semi-implicit Euler's safe one, see safe_step(), or a matrix of the
-  ///         integrator would not fit into memory
-  /// @throws std::domain_error if a matrix of the integrator cannot be factored to working precision
+  /// @throws UsageError if the motion cannot be computed, see stability_problem(), or a matrix of the integrator would
+  ///         not fit into memory or cannot be factored to working precision
   explicit Simulation(SimulationSettings settings, Timing timing = Timing::none);
   ~Simulation();
   Simulation(const Simulation&) = delete;

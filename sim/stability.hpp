@@ -16,8 +16,18 @@ namespace drape {
 /// λ_max is found by Lanczos iteration to a relative 1e-4 from below, and the error bound of that value is added to it.
 double safe_step(const System& system);
 
-/// Why the settings' step makes the motion unstable, with the largest safe one: a sentence if the method is
-/// semi-implicit Euler and the step is beyond safe_step(); nothing otherwise, and for the implicit methods.
+/// How much smaller the inertia of a vertex is than what holds it, 1 + h² max (2 Σ k + c)/m over the free vertices, k the
+/// stiffness of the springs and couplings there and c the bounds of other energies. By Gershgorin's theorem no eigenvalue
+/// of the implicit step's matrix M/h² + L exceeds its smallest possible one, m/h², by more, so it bounds the condition of
+/// that matrix and of every Hessian below it. Where the cloth is flat, nothing but inertia moves it across its plane, and
+/// the bound is reached within a factor of about two.
+double condition_bound(const System& system);
+
+/// Beyond this condition_bound() double precision no longer holds the inertia beside the springs.
+inline constexpr double largest_condition = 1e14;
+
+/// Why the motion cannot be computed with these settings, in a sentence: the method is semi-implicit Euler and the step
+/// is beyond safe_step(), or it is implicit and condition_bound() is beyond largest_condition. Nothing where it can.
 std::optional<std::string> stability_problem(const SimulationSettings& settings, const System& system);
 
 }  // namespace drape
