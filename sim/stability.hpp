@@ -16,11 +16,11 @@ namespace drape {
 /// λ_max is found by Lanczos iteration to a relative 1e-4 from below, and the error bound of that value is added to it.
 double safe_step(const System& system);
 
-/// How much smaller the inertia of a vertex is than what holds it, 1 + h² max (2 Σ k + c)/m over the free vertices, k the
-/// stiffness of the springs and couplings there and c the bounds of other energies. By Gershgorin's theorem no eigenvalue
-/// of the implicit step's matrix M/h² + L exceeds its smallest possible one, m/h², by more, so it bounds the condition of
-/// that matrix and of every Hessian below it. Where the cloth is flat, nothing but inertia moves it across its plane, and
-/// the bound is reached within a factor of about two.
+/// How much smaller the inertia of a vertex is than what holds it, 1 + h² max (2 Σ k + c)/m over the free vertices, k
+/// the stiffness of the springs and couplings there and c the bounds of other energies. By Gershgorin's theorem no
+/// eigenvalue of the implicit step's matrix M/h² + L exceeds its smallest possible one, m/h², by more, so it bounds the
+/// condition of that matrix and of every Hessian below it. Where the cloth is flat, nothing but inertia moves it across
+/// its plane, and the bound is reached within a factor of about two.
 double condition_bound(const System& system);
 
 /// Beyond this condition_bound() double precision no longer holds the inertia beside the springs.

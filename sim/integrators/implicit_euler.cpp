@@ -46,16 +46,25 @@ StepReport ImplicitEuler::advance(State& state, const Vertices& force) {
 }
 
 StepReport ImplicitEuler::minimise(const State& state) {
+  StepReport report;
   const auto balanced = [&] {
     return stop_ == StoppingRule::gradient && residual() < tolerance_ && !gains_energy(state, tolerated_gain);
   };
-  for (int iteration = 1; iteration <= max_iterations_; ++iteration) {
-    if (balanced()) return {iteration - 1, true};
+  for (; report.iterations < max_iterations_; ++report.iterations) {
+    if (balanced()) return report;
+    const double before = point_.value;
     const double change = iterate(point_);
-    const bool settled = stop_ == StoppingRule::change && iteration >= 2 && change < tolerance_;
-    if (settled && !gains_energy(state, tolerated_gain)) return {iteration, true};
+    if (point_.value > before) {
+      report.rise = std::max(report.rise, point_.value - before - objective_.rounding(before));
+    }
+    const bool settled = stop_ == StoppingRule::change && report.iterations >= 1 && change < tolerance_;
+    if (settled && !gains_energy(state, tolerated_gain)) {
+      ++report.iterations;
+      return report;
+    }
   }
-  return {max_iterations_, balanced()};
+  report.converged = balanced();
+  return report;
 }
 
 double ImplicitEuler::descend(Point& point, const Vertices& direction, double slope) {

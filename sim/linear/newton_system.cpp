@@ -128,8 +128,8 @@ bool NewtonSystem::factorize(const Vertices& x) {
   }
   add_coupled_energies(x);
   add_energies(x);
-  // Positive definite in exact arithmetic; what rounding has spoilt, a multiple of the identity mends (Nocedal and Wright
-  // 2006, algorithm 3.3).
+  // Positive definite in exact arithmetic; what rounding has spoilt, a multiple of the identity mends (Nocedal and
+  // Wright 2006, algorithm 3.3).
   double largest = 0;
   for (const int start : column_starts_) largest = std::max(largest, values_[Index(start)]);
   for (double shift = first_shift * largest; !factor_.front().factorize(values_.data()); shift *= 10) {

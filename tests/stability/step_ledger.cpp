@@ -90,6 +90,7 @@ StepBalance StepLedger::balance(const State& before, const State& after) const {
   b.kinetic_after = squared(w, masses_) / 2;
   b.energy_before = old_value.energy;
   b.energy_after = new_value.energy;
+  b.elastic_before = old_value.elastic;
   b.elastic_after = new_value.elastic;
   b.work = f.cwiseProduct(change).sum();
   b.inertial_loss = squared(gained, masses_) / 2;
@@ -101,9 +102,10 @@ StepBalance StepLedger::balance(const State& before, const State& after) const {
   const RealVertices reach = after.x.cast<Real>().cwiseAbs() + y.cwiseAbs() + before.x.cast<Real>().cwiseAbs();
   const Real inertia = (masses_.asDiagonal() * reach).norm() / (h * h);
   b.gradient_rounding = new_value.gradient_rounding + 4 * unit * inertia + 4 * unit * f.norm();
-  b.energy_rounding = 4 * (new_value.energy_rounding + old_value.energy_rounding + start_value.energy_rounding) +
-                      8 * unit * (b.start_value + b.end_value + b.energy_before) +
-                      8 * unit * std::sqrt(squared(reach, masses_) * squared(after.x.cast<Real>() - y, masses_)) / (h * h);
+  b.energy_rounding =
+      4 * (new_value.energy_rounding + old_value.energy_rounding + start_value.energy_rounding) +
+      8 * unit * (b.start_value + b.end_value + b.energy_before) +
+      8 * unit * std::sqrt(squared(reach, masses_) * squared(after.x.cast<Real>() - y, masses_)) / (h * h);
   return b;
 }
 
@@ -111,8 +113,6 @@ Eigen::Matrix<Real, 1, 3> StepLedger::momentum(const State& state) const {
   return masses_.transpose() * state.v.cast<Real>();
 }
 
-Real StepLedger::momentum_scale(const State& state) const {
-  return masses_.dot(state.v.cast<Real>().rowwise().norm());
-}
+Real StepLedger::momentum_scale(const State& state) const { return masses_.dot(state.v.cast<Real>().rowwise().norm()); }
 
 }  // namespace drape::test

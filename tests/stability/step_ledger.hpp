@@ -18,7 +18,7 @@ using RealVertices = Eigen::Matrix<Real, Eigen::Dynamic, 3>;
 struct StepBalance {
   Real kinetic_before = 0, kinetic_after = 0;  ///< K, of v and w [J]
   Real energy_before = 0, energy_after = 0;    ///< E [J]
-  Real elastic_after = 0;                      ///< of the springs alone [J]
+  Real elastic_before = 0, elastic_after = 0;  ///< of the springs alone [J]
   Real work = 0;                               ///< W_ext = f·Δx [J]
   Real inertial_loss = 0;                      ///< ½‖Δv‖²_M [J]
   Real convexity_loss = 0;                     ///< B, negative where E is concave [J]
@@ -29,9 +29,7 @@ struct StepBalance {
   Real gradient_rounding = 0, energy_rounding = 0;
 
   /// ΔK + ΔE − W_ext [J].
-  [[nodiscard]] Real gain() const {
-    return kinetic_after - kinetic_before + energy_after - energy_before - work;
-  }
+  [[nodiscard]] Real gain() const { return kinetic_after - kinetic_before + energy_after - energy_before - work; }
 };
 
 /// Keeps books of the steps of a simulation, from its own knowledge of what acts on the cloth.
