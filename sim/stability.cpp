@@ -76,7 +76,8 @@ double safe_step(const System& system) {
   for (const PinRelease& release : system.pin_releases) {
     for (const int vertex : release.vertices) scale[vertex] = 1 / std::sqrt(system.cloth.masses[vertex]);
   }
-  const double largest = largest_eigenvalue(system, scale);
+  double largest = largest_eigenvalue(system, scale);
+  for (const auto& force : system.forces) largest += force->stiffness_bound();
   return largest > 0 ? 2 / std::sqrt(largest) : std::numeric_limits<double>::infinity();
 }
 

@@ -68,10 +68,14 @@ RealVertices StepLedger::aim(const State& before) const {
   return y;
 }
 
-Real StepLedger::objective(const State& before, const Vertices& x) const {
-  const Real h = settings_.step;
-  const double end = static_cast<double>(before.step + 1) * settings_.step;
-  return squared(x.cast<Real>() - aim(before), masses_) / (2 * h * h) + value_of(x, end).energy;
+Real StepLedger::work_at_start(const State& before, const State& after) const {
+  return std::abs(force(before).cwiseProduct(after.x.cast<Real>() - before.x.cast<Real>()).sum());
+}
+
+Real StepLedger::resting_energy() const {
+  Real scale = 0;
+  for (const Spring& s : system_.springs) scale += Real(s.stiffness) * s.rest_length * s.rest_length;
+  return unit * scale;
 }
 
 StepBalance StepLedger::balance(const State& before, const State& after) const {

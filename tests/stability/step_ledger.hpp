@@ -43,8 +43,10 @@ class StepLedger {
   [[nodiscard]] Eigen::Matrix<Real, 1, 3> momentum(const State& state) const;
   [[nodiscard]] Real momentum_scale(const State& state) const;
 
-  /// g of the step that begins at `before`, at any x.
-  [[nodiscard]] Real objective(const State& before, const Vertices& x) const;
+  /// |f·Δx|, what the forces at its start did in a step [J].
+  [[nodiscard]] Real work_at_start(const State& before, const State& after) const;
+  /// What rounding leaves of the energy of a cloth at rest, ε Σ k L² [J].
+  [[nodiscard]] Real resting_energy() const;
 
  private:
   struct Value {
