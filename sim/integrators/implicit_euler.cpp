@@ -29,8 +29,8 @@ StepReport ImplicitEuler::advance(State& state, const Vertices& force) {
   point_.value = objective_.evaluate(point_.x, point_.gradient);
   start();
   start_known_ = false;
-  const StepReport report = minimise(state);
-  if (!report.converged && gains_energy(state, 0)) shed_energy(state);
+  StepReport report = minimise(state);
+  if (!report.converged && gains_energy(state, 0)) report.kept = shed_energy(state);
   if (free_) balance_momentum();
   state.v = (point_.x - state.x) / system_.step;
   if (system_.filters.empty()) {
@@ -119,18 +119,19 @@ double ImplicitEuler::gain(const State& state, const Point& point) {
   return point.value - start_.value - kinetic + along;
 }
 
-void ImplicitEuler::shed_energy(const State& state) {
+double ImplicitEuler::shed_energy(const State& state) {
   // A cloth that nothing holds keeps its motion as a whole.
   Vertices back = start_.x;
   if (free_) back.rowwise() += mean(objective_.y()) - mean(start_.x);
   const Vertices way = point_.x - back;
-  for (double length = 0.5; length > 0; length /= 2) {
-    if (length < smallest_length) length = 0;
+  double length = 1;
+  do {
+    length = length > smallest_length ? length / 2 : 0;
     trial_.x = back + length * way;
     trial_.value = objective_.evaluate(trial_.x, trial_.gradient);
-    if (gain(state, trial_) <= 0) break;
-  }
+  } while (length > 0 && !(gain(state, trial_) <= 0));
   std::swap(point_, trial_);
+  return length;
 }
 
 Eigen::RowVector3d ImplicitEuler::mean(const Vertices& v) const {

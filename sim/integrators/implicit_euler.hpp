@@ -53,8 +53,8 @@ class ImplicitEuler : public Integrator {
   [[nodiscard]] bool gains_energy(const State& state, double share);
   /// ΔK + ΔE − W of a point [J].
   [[nodiscard]] double gain(const State& state, const Point& point);
-  /// Goes back towards where the step started until it has gained no energy.
-  void shed_energy(const State& state);
+  /// Goes back towards where the step started until it has gained no energy; returns the part of the way that is left.
+  double shed_energy(const State& state);
   /// Moves the cloth as a whole to where Σ∇g = 0.
   void balance_momentum();
   /// The mean of n×3 numbers, weighted by mass.

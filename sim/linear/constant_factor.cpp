@@ -23,7 +23,7 @@ Matrix assemble(const System& system, const FreeVertices& free) {
   const std::vector<Spring> springs = system.stiffness_bound();
   Matrix matrix{.pattern = spring_pattern(springs, free), .values = {}};
   matrix.values.assign(static_cast<std::size_t>(matrix.pattern.entries()), 0.0);
-  auto& [starts, rows] = matrix.pattern;
+  const std::vector<int>&starts = matrix.pattern.starts, &rows = matrix.pattern.rows;
   const auto at = [&](int row, int column) -> double& {
     const auto begin = rows.begin() + starts[static_cast<std::size_t>(column)];
     const auto end = rows.begin() + starts[static_cast<std::size_t>(column) + 1];
