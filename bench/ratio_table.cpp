@@ -30,12 +30,12 @@ std::string time_cell(std::vector<double> samples) {
 
 }  // namespace
 
-bool RatioTable::ReportContext(const Context& context) {
+bool RatioReporter::ReportContext(const Context& context) {
   PrintBasicContext(&GetErrorStream(), context);
   return true;
 }
 
-void RatioTable::ReportRuns(const std::vector<Run>& runs) {
+void RatioReporter::ReportRuns(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     if (run.run_type != Run::RT_Iteration) continue;
     const std::string& name = run.run_name.function_name;
@@ -48,22 +48,29 @@ void RatioTable::ReportRuns(const std::vector<Run>& runs) {
   }
 }
 
-void RatioTable::Finalize() {
+void RatioReporter::print(const RatioTable& table) {
+  const auto measured = [&](const std::string& name) { return samples_.contains(name); };
+  if (std::none_of(table.cases.begin(), table.cases.end(), measured)) return;
   std::ostream& out = GetOutputStream();
-  out << "| case | drape | textbook | drape ÷ textbook |\n|---|---|---|---|\n";
-  for (const std::string& name : cases_) {
-    if (!samples_.contains(name)) continue;
-    const Samples& drape = samples_[name]["drape"];
-    const Samples& textbook = samples_[name]["textbook"];
+  out << fmt::format("| case | {0} | {1} | {0} ÷ {1} |\n|---|---|---|---|\n", table.first, table.second);
+  for (const std::string& name : table.cases) {
+    if (!measured(name)) continue;
+    const Samples& first = samples_[name][table.first];
+    const Samples& second = samples_[name][table.second];
     const std::string ratio =
-        drape.empty() || textbook.empty() ? "–" : fmt::format("{:.3f}", median(drape) / median(textbook));
-    out << fmt::format("| {} | {} | {} | {} |\n", name, time_cell(drape), time_cell(textbook), ratio);
+        first.empty() || second.empty() ? "–" : fmt::format("{:.3f}", median(first) / median(second));
+    out << fmt::format("| {} | {} | {} | {} |\n", name, time_cell(first), time_cell(second), ratio);
   }
+  out << '\n';
+}
+
+void RatioReporter::Finalize() {
+  std::ostream& out = GetOutputStream();
+  for (const RatioTable& table : tables_) print(table);
   out << fmt::format(
-      "\nMedians of CPU time ± half the interquartile range of repetitions in random order, in one process. {} logical "
-      "CPUs at "
-      "{:.2f} "
-      "GHz; compiler {}; Eigen {}.{}.{}.\n",
+      "Medians of CPU time ± half the interquartile range of repetitions in random order, in one process. {} logical "
+      "CPUs "
+      "at {:.2f} GHz; compiler {}; Eigen {}.{}.{}.\n",
       benchmark::CPUInfo::Get().num_cpus, benchmark::CPUInfo::Get().cycles_per_second / 1e9, __VERSION__,
       EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
 }

@@ -9,12 +9,17 @@
 
 namespace drape {
 
-/// Prints one Markdown row for each case that was measured by drape and by the textbook: the medians over the
-/// repetitions and their ratio. Reads benchmarks named "CASE/drape" and "CASE/textbook" whose unit is the microsecond.
-class RatioTable final : public benchmark::BenchmarkReporter {
+/// Cases that are each measured by the same two, in the order of the rows.
+struct RatioTable {
+  std::string first, second;
+  std::vector<std::string> cases;  ///< those that were not measured are left out
+};
+
+/// Prints tables in Markdown: for each case the medians over the repetitions of both, and their ratio. Reads benchmarks
+/// named "CASE/FIRST" and "CASE/SECOND" whose unit is the microsecond.
+class RatioReporter final : public benchmark::BenchmarkReporter {
  public:
-  /// @param cases in the order of the rows; those that were not measured are left out
-  explicit RatioTable(std::vector<std::string> cases) : cases_(std::move(cases)) {}
+  explicit RatioReporter(std::vector<RatioTable> tables) : tables_(std::move(tables)) {}
 
   bool ReportContext(const Context& context) override;
   void ReportRuns(const std::vector<Run>& runs) override;
@@ -22,7 +27,9 @@ class RatioTable final : public benchmark::BenchmarkReporter {
 
  private:
   using Samples = std::vector<double>;  ///< [µs]
-  std::vector<std::string> cases_;
+  void print(const RatioTable& table);
+
+  std::vector<RatioTable> tables_;
   std::map<std::string, std::map<std::string, Samples>> samples_;  ///< of a case, by who ran it
 };
 

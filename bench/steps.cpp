@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/effect_costs.hpp"
 #include "bench/equal_accuracy.hpp"
 #include "bench/moving_cloth.hpp"
 #include "bench/ratio_table.hpp"
@@ -109,6 +110,8 @@ int main(int argc, char** argv) {
   }
   for (std::string& name : drape::register_equal_accuracy()) names.push_back(std::move(name));
 
+  std::vector<std::string> effects = drape::register_effect_costs();
+
   // Ours first, so that the caller's own flags win.
   std::vector<std::string> defaults{"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=11"};
   std::vector<char*> arguments{argv[0]};
@@ -119,7 +122,8 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 1;
 
-  drape::RatioTable table(std::move(names));
-  benchmark::RunSpecifiedBenchmarks(&table);
+  drape::RatioReporter reporter({{.first = "drape", .second = "textbook", .cases = std::move(names)},
+                                 {.first = "with", .second = "without", .cases = std::move(effects)}});
+  benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <new>
+#include <system_error>
 
 #include "core/build_info.hpp"
 #include "core/nearest.hpp"
@@ -113,6 +114,9 @@ ExitCode run_command_line(int argc, const char* const* argv) {
     return report(error);
   } catch (const std::bad_alloc&) {
     spdlog::error("there is not enough memory for this");
+    return ExitCode::usage;
+  } catch (const std::system_error& error) {
+    spdlog::error("the system does not give what this needs: {}", error.code().message());
     return ExitCode::usage;
   }
 }

@@ -77,10 +77,15 @@ class Pipeline {
   RunResult run(const std::atomic<bool>& stop, const std::function<void()>& watch) {
     const auto begin = Clock::now();
     std::vector<std::jthread> threads;
-    threads.emplace_back([this] { guarded([this] { simulate(); }); });
-    if (!encoders_.empty()) {
-      threads.emplace_back([this] { guarded([this] { draw(); }); });
-      threads.emplace_back([this] { guarded([this] { encode(); }); });
+    try {
+      // The consumers first: where a thread cannot be had, those that run already end when their queues close.
+      if (!encoders_.empty()) {
+        threads.emplace_back([this] { guarded([this] { encode(); }); });
+        threads.emplace_back([this] { guarded([this] { draw(); }); });
+      }
+      threads.emplace_back([this] { guarded([this] { simulate(); }); });
+    } catch (...) {
+      fail();
     }
     wait(threads.size(), stop, watch);
     threads.clear();
@@ -99,16 +104,21 @@ class Pipeline {
     try {
       work();
     } catch (...) {
-      const std::scoped_lock lock(mutex_);
-      if (!error_) error_ = std::current_exception();
-      stop_.request_stop();
-      view_.close();
-      frames_.close();
-      images_.close();
+      fail();
     }
     const std::scoped_lock lock(mutex_);
     ++finished_;
     changed_.notify_all();
+  }
+
+  /// Ends the run with the exception that is being handled, unless there is one already.
+  void fail() {
+    const std::scoped_lock lock(mutex_);
+    if (!error_) error_ = std::current_exception();
+    stop_.request_stop();
+    view_.close();
+    frames_.close();
+    images_.close();
   }
 
   void wait(std::size_t threads, const std::atomic<bool>& stop, const std::function<void()>& watch) {

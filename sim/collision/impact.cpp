@@ -6,8 +6,8 @@
 namespace drape {
 namespace {
 
-// Of the step that would close the gap at full speed: less, so that rounding never takes it too far.
-constexpr double stride = 0.9;
+// How many times the gap that must be kept is near enough to count as colliding: it is only approached.
+constexpr double near_enough = 1.2;
 // Features that slide along each other at a small distance need many steps. Then they count as colliding.
 constexpr int max_steps = 200;
 
@@ -31,12 +31,12 @@ std::optional<double> time_of_impact(Feature feature, FourPoints p, FourPoints m
   for (Point& m : move) m -= together;
   double time = 0;
   for (int step = 0; step < max_steps; ++step) {
-    const double forward = stride * distance / speed;
+    const double forward = (distance - gap) / speed;
     if (time + forward > 1) return std::nullopt;
     time += forward;
     for (std::size_t i = 0; i < 4; ++i) p[i] += forward * move[i];
     distance = std::sqrt(nearest(feature, p).squared);
-    if (distance <= gap) return time;
+    if (distance <= near_enough * gap) return time;
   }
   return time;
 }

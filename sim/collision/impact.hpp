@@ -13,10 +13,10 @@ inline constexpr double kept_gap = 0.1;
 /// does not count.
 double largest_change(Feature feature, const FourPoints& move);
 
-/// When two features that move on straight lines, p + t·move for t in [0, 1], come nearer than `kept_gap` times their
-/// distance at t = 0: a time at which they are about that near and before which they never touched, or nothing if they
-/// stay further apart. Never misses a collision, whatever the motion: it goes from time to time by steps that are too
-/// short for anything to happen within them (Li, Kaufman and Jiang 2021, "Codimensional incremental potential
+/// When two features that move on straight lines, p + t·move for t in [0, 1], come as near as `kept_gap` times their
+/// distance at t = 0: a time at which they are about that near and before which they were never nearer, or nothing if
+/// they stay further apart. Never misses a collision, whatever the motion: it goes from time to time by steps that are
+/// too short for anything to happen within them (Li, Kaufman and Jiang 2021, "Codimensional incremental potential
 /// contact", section 5.2), so coplanar, parallel and degenerate features need no cases of their own, as they do where
 /// the times are roots of a cubic. Features that touch at t = 0 do not collide: there is no side to keep them on.
 std::optional<double> time_of_impact(Feature feature, FourPoints p, FourPoints move);

@@ -12,6 +12,7 @@ constexpr double most_cells_per_box = 12;
 
 void SpatialHash::build(std::span<const Box> boxes) {
   boxes_ = boxes;
+  starts_.clear();
   if (boxes.empty()) return;
   const std::size_t wanted = choose_cells();
   std::size_t slots = 2;

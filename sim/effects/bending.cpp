@@ -33,7 +33,8 @@ class Bending final : public Effect {
     }
     if (rigidity_) {
       const auto elements = curvature_elements(system.cloth, *rigidity_);
-      if (!elements.empty()) system.coupled_energies.push_back(std::make_unique<BendingEnergy>(elements, system.cloth.vertex_count()));
+      if (!elements.empty())
+        system.coupled_energies.push_back(std::make_unique<BendingEnergy>(elements, system.cloth.vertex_count()));
     }
   }
 

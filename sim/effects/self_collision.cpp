@@ -1,5 +1,8 @@
 #include "sim/effects/self_collision.hpp"
 
+#include <fmt/format.h>
+
+#include "sim/collision/intersection.hpp"
 #include "sim/collision/self_contact.hpp"
 
 namespace drape {
@@ -17,6 +20,15 @@ class SelfCollision final : public Effect {
             "iterations", &values_.iterations, "",
             "Passes over the contacts in a step, and over the collisions before what is left becomes rigid for a step.")
         .at_least(1);
+  }
+  void check(const SimulationSettings& settings, const ProblemSink& problem) const override {
+    const auto found = find_intersection(settings.cloth.triangles, settings.cloth.positions);
+    if (!found) return;
+    const auto& [edge, triangle] = *found;
+    problem("",
+            fmt::format("the cloth starts through itself, where neither side is the right one: the edge between the "
+                        "vertices {} and {} passes through the triangle {}, {}, {}",
+                        edge[0], edge[1], triangle[0], triangle[1], triangle[2]));
   }
   void install(System& system) const override {
     system.filters.push_back(std::make_unique<SelfContact>(values_, system.cloth));

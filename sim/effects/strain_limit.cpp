@@ -17,21 +17,22 @@ struct Limits {
   double tolerance = 1e-3;
 };
 
-// How far a sweep goes beyond what each spring alone would need: far at first, which carries a load across the cloth in
-// few sweeps, and later less, as springs that turn meanwhile would never come to rest.
-constexpr double over_relaxation = 1.8, late_over_relaxation = 1.0;
-constexpr int early_sweeps = 200;
-// A spring that turns in one step by more than 25°, by the cosine of this, is pulled along its new direction.
+// How far a sweep goes beyond what each spring alone would need, which carries a load across the cloth in few sweeps.
+constexpr double over_relaxation = 1.8;
+constexpr int early_sweeps = 100;
+// A spring that turns in one step by more than 25°, by the cosine of this, is pulled along where it ends.
 constexpr double least_cosine = 0.9;
 
 /// Changes the velocities by impulses along the springs until no spring ends the step outside its limits (Provot 1995,
 /// "Deformation constraints in a mass-spring model", on velocities as in Bridson, Fedkiw and Anderson 2002, section
-/// 4.2): successive over-relaxation on the impulses, which are kept from changing sign, so that a spring is only ever
-/// pulled to its upper limit or pushed to its lower one and what its neighbours do can take an impulse back.
+/// 4.2). What ends the step within all upper limits is a convex set, with a cloth that stays where it is in it, and
+/// what is looked for is its nearest point, by mass: Dykstra's method (Boyle and Dykstra 1986), successive
+/// over-relaxation on the springs' impulses, so that what its neighbours do can take an impulse back.
 ///
-/// The impulses of a spring are opposite, and point along it as it is when the step starts: Σ m x × v with that x is
-/// both angular momenta, before and after, so both momenta are kept to rounding. Only a spring that turns by more than
-/// 25° in the step is pulled along its new direction.
+/// Impulses that point along the springs as they end the step, as the nearest point has them, change the angular
+/// momentum Σ m x × v. So at first they are kept along the springs as they are when the step starts, which keeps both
+/// momenta to rounding; a spring for which that does not do, since it turns by more than 25° in the step or the others
+/// have not settled after the early sweeps, gives up this restriction, and nothing else, for the rest of the step.
 class StrainLimit final : public MotionFilter {
  public:
   StrainLimit(const Limits& limits, const Cloth& cloth) : limits_(limits), weight_(cloth.masses.cwiseInverse()) {
@@ -49,12 +50,11 @@ class StrainLimit final : public MotionFilter {
 
   void apply(const Vertices& x, double, double h, Vertices& v) override {
     target_ = x + h * v;
-    for (Limited& spring : limited_) spring.impulse = 0;
+    for (Limited& spring : limited_) spring.begin();
     converged_ = false;
     for (int sweep = 0; sweep < limits_.iterations && !converged_; ++sweep) {
-      const double relaxation = sweep < early_sweeps ? over_relaxation : late_over_relaxation;
       bool any = false;
-      for (Limited& spring : limited_) any |= relax(spring, relaxation, x, h, v);
+      for (Limited& spring : limited_) any |= relax(spring, sweep < early_sweeps, x, h, v);
       converged_ = !any || holds();
     }
   }
@@ -66,34 +66,53 @@ class StrainLimit final : public MotionFilter {
     int i, j;
     double weight;                                              // 1/m of both [1/kg]
     double longest, shortest;                                   // [m]
-    double impulse = 0;                                         // so far, times h; positive pushes apart [kg·m]
-    Eigen::RowVector3d direction = Eigen::RowVector3d::Zero();  // from j to i, set by the first impulse
+    bool active = false;                                        // has had an impulse in this step
+    bool straight = true;                                       // these are along its direction at the start
+    Eigen::RowVector3d direction = Eigen::RowVector3d::Zero();  // from j to i at the start, once it is active
+    Eigen::RowVector3d impulse = Eigen::RowVector3d::Zero();    // on i so far, times h [kg·m]
+
+    void begin() {
+      active = false;
+      straight = true;
+      impulse.setZero();
+    }
+
+    /// The impulse after a sweep that goes further than the others' impulses so far ask for, but not to the other side;
+    /// d from j to i as they would end.
+    [[nodiscard]] Eigen::RowVector3d next(const Eigen::RowVector3d& d) const {
+      const Eigen::RowVector3d free = d - weight * impulse;
+      Eigen::RowVector3d along = direction;
+      double across = 0;  // [m²]
+      if (straight) {
+        across = std::max(0.0, free.squaredNorm() - std::pow(free.dot(direction), 2));
+      } else {
+        const double length = free.norm();
+        if (length == 0) return impulse;
+        along = free / length;
+      }
+      const double length = free.dot(along);
+      const double most = std::sqrt(std::max(0.0, longest * longest - across));
+      const double least = std::sqrt(std::max(0.0, shortest * shortest - across));
+      const double wanted = (std::clamp(length, least, most) - length) / weight;
+      const double so_far = std::copysign(impulse.norm(), impulse.dot(along));
+      const double relaxed = so_far + over_relaxation * (wanted - so_far);
+      return (relaxed * wanted > 0 ? relaxed : 0) * along;
+    }
   };
 
   /// Gives a spring the impulse it needs now; false if it needs none.
-  bool relax(Limited& s, double relaxation, const Vertices& x, double h, Vertices& v) {
+  bool relax(Limited& s, bool early, const Vertices& x, double h, Vertices& v) {
     const Eigen::RowVector3d d = target_.row(s.i) - target_.row(s.j);
     const double squared = d.squaredNorm();
     const bool within = squared <= s.longest * s.longest && squared >= s.shortest * s.shortest;
-    if (within && s.impulse == 0) return false;
-    if (s.impulse == 0) s.direction = (x.row(s.i) - x.row(s.j)).normalized();
-    double along = d.dot(s.direction);
-    if (along < least_cosine * std::sqrt(squared)) {
+    if (!s.active) {
       if (within) return false;
-      s.impulse = 0;  // what it was so far stays, but can no longer be taken back
-      s.direction = d.normalized();
-      along = d.dot(s.direction);
+      s.active = true;
+      s.direction = (x.row(s.i) - x.row(s.j)).normalized();
     }
-    // Of the length along the direction, what would be without the impulse so far, and what the limits leave.
-    const double across = squared - along * along;
-    const double free = along - s.weight * s.impulse;
-    const double most = std::sqrt(std::max(0.0, s.longest * s.longest - across));
-    const double least = std::sqrt(std::max(0.0, s.shortest * s.shortest - across));
-    const double wanted = (std::clamp(free, least, most) - free) / s.weight;
-    double impulse = s.impulse + relaxation * (wanted - s.impulse);
-    if (wanted <= 0) impulse = std::min(impulse, 0.0);
-    if (wanted >= 0) impulse = std::max(impulse, 0.0);
-    const Eigen::RowVector3d change = (impulse - s.impulse) * s.direction;
+    s.straight = s.straight && early && d.dot(s.direction) >= least_cosine * std::sqrt(squared);
+    const Eigen::RowVector3d impulse = s.next(d);
+    const Eigen::RowVector3d change = impulse - s.impulse;
     s.impulse = impulse;
     target_.row(s.i) += weight_[s.i] * change;
     target_.row(s.j) -= weight_[s.j] * change;

@@ -13,33 +13,34 @@
 namespace drape {
 namespace {
 
-double page_size() { return static_cast<double>(sysconf(_SC_PAGESIZE)); }
-
 /// What this process holds already [bytes]; 0 where the system does not say.
-double resident() {
-  double total = 0, pages = 0;
-  std::ifstream("/proc/self/statm") >> total >> pages;
-  return pages * page_size();
+struct Held {
+  double mapped = 0, resident = 0;
+};
+
+Held held(double page_size) {
+  Held pages;
+  std::ifstream("/proc/self/statm") >> pages.mapped >> pages.resident;
+  return {.mapped = pages.mapped * page_size, .resident = pages.resident * page_size};
 }
 
 }  // namespace
 
-double memory_limit() {
-  double limit = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * page_size();
+double memory_left() {
+  const auto page_size = static_cast<double>(sysconf(_SC_PAGESIZE));
+  const Held taken = held(page_size);
+  const double physical = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * page_size - taken.resident;
   rlimit address_space{};
-  if (getrlimit(RLIMIT_AS, &address_space) == 0 && address_space.rlim_cur != RLIM_INFINITY) {
-    limit = std::min(limit, static_cast<double>(address_space.rlim_cur));
-  }
-  return limit;
+  if (getrlimit(RLIMIT_AS, &address_space) != 0 || address_space.rlim_cur == RLIM_INFINITY) return physical;
+  return std::max(0.0, std::min(physical, static_cast<double>(address_space.rlim_cur) - taken.mapped));
 }
 
 void require_memory(const std::string& what, double bytes) {
-  const double limit = memory_limit(), taken = resident();
-  if (taken + bytes <= limit) return;
+  const double left = memory_left();
+  if (bytes <= left) return;
   throw UsageError(
-      fmt::format("{} would take {:.1f} GB of memory beside the {:.1f} GB in use, and there are {:.1f} GB: take a coarser "
-                  "cloth or another method",
-                  what, bytes / 1e9, taken / 1e9, limit / 1e9));
+      fmt::format("{} would take {:.2f} GB of memory, and {:.2f} GB are left: take a coarser cloth or another method",
+                  what, bytes / 1e9, left / 1e9));
 }
 
 }  // namespace drape

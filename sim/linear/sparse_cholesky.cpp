@@ -70,8 +70,11 @@ SparseCholesky::SparseCholesky(const LowerPattern& pattern, FactorKind kind, boo
   constexpr double largest = 2147483647.0;
   const double entry = sizeof(double) + (kind == FactorKind::simplicial ? sizeof(int) : 0);
   const bool too_large = i.common.status == CHOLMOD_TOO_LARGE || i.common.lnz > largest;
+  // OpenBLAS, on which a supernodal factor runs, maps work space of its own, and waits for ever where it gets none.
+  constexpr double blas_work = 256e6;
   require_memory("a sparse factor of " + std::to_string(pattern.size()) + " rows",
-                 too_large ? std::max(i.common.lnz, largest) * entry : i.common.lnz * (entry + caller_bytes));
+                 (too_large ? std::max(i.common.lnz, largest) * entry : i.common.lnz * (entry + caller_bytes)) +
+                     (kind == FactorKind::supernodal ? blas_work : 0));
   if (too_large) throw UsageError("a sparse factor of this cloth has more than 2³¹ entries: take conjugate gradients");
   i.require(i.factor != nullptr);
   i.matrix.xtype = CHOLMOD_REAL;

@@ -87,7 +87,9 @@ SimulationSettings eventful(Solver solver) {
        effect("air", {{"velocity", Vector3d(1, 2, 0)}, {"gust", 1.0}}),
        effect("moving_pins", {{"pins", std::vector{0, 10}}, {"keyframes", path}, {"interpolation", "smooth"}}),
        effect("sphere", {{"center", Vector3d(0, 0, -0.3)}, {"radius", 0.3}, {"response", response}, {"friction", 0.3}}),
-       effect("ground", {{"height", -0.05}, {"response", response}}), effect("damping", {{"factor", 0.5}})});
+       effect("ground", {{"height", -0.05}, {"response", response}}), effect("damping", {{"factor", 0.5}}),
+       effect("bending", {{"rigidity", 1e-4}, {"cross_stiffness", 1.0}}),
+       effect("strain_limit", {{"max_stretch", 1.1}}), effect("self_collision", {{"thickness", 0.02}})});
   return settings;
 }
 
@@ -116,8 +118,9 @@ TEST_P(Allocations, AbsentEffectsTakeNothing) {
   const System system = make_system(settings);
   EXPECT_EQ(system.forces.size(), 1U);
   EXPECT_EQ(system.forces.capacity(), 1U);
-  EXPECT_EQ(system.energies.capacity() + system.corrections.capacity() + system.filters.capacity() +
-                system.colliders.capacity() + system.pin_motions.capacity() + system.pin_releases.capacity(),
+  EXPECT_EQ(system.energies.capacity() + system.coupled_energies.capacity() + system.corrections.capacity() +
+                system.filters.capacity() + system.colliders.capacity() + system.pin_motions.capacity() +
+                system.pin_releases.capacity(),
             0U);
   // And what making one takes is the same for the same scene, however many effects there are to choose from.
   const auto made = [&] {

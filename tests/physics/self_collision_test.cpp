@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/collision/distance.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/intersections.hpp"
 #include "tests/support/meshes.hpp"
@@ -83,6 +84,117 @@ TEST_P(SelfCollision, KeepsAClothThatFoldsOnTheFloorFromGoingThroughItself) {
   const SimulationSettings settings = fold_scene(GetParam(), step(), 14);
   EXPECT_TRUE(ever_intersects(settings, 2)) << "nothing to prevent";
   expect_no_crossings(settings, 2);
+}
+
+// A curtain that is let go falls down along itself: fold on fold, in the hardest way.
+TEST_P(SelfCollision, KeepsAFallingCurtainFromGoingThroughItself) {
+  Mesh mesh = make_grid(8, 16);
+  mesh.positions.col(0) *= 0.5;
+  mesh.positions.col(2) = mesh.positions.col(1);
+  for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
+    mesh.positions(i, 1) = 0.03 * std::sin(5 * mesh.positions(i, 2) + mesh.positions(i, 0));
+  }
+  SimulationSettings settings = setup(cloth_of(mesh, 0.3, 60, {}), GetParam(), step());
+  settings.effects = {effect("gravity"), floor_at(-1.02), effect("self_collision", collision_keys(0.015))};
+  EXPECT_TRUE(ever_intersects(settings, 1.2)) << "nothing to prevent";
+  expect_no_crossings(settings, 1.2);
+}
+
+/// Two sheets of one cloth, one above the other, without a common vertex.
+Cloth two_sheets(double mass) {
+  const Mesh lower = make_grid(6, 6);
+  Mesh mesh = lower;
+  const auto count = static_cast<int>(lower.positions.rows());
+  mesh.positions.resize(2 * count, 3);
+  mesh.positions.topRows(count) = lower.positions;
+  mesh.positions.bottomRows(count) = (0.7 * lower.positions).rowwise() + Eigen::RowVector3d(0.03, 0.02, 0.3);
+  for (const Triangle& t : lower.triangles) mesh.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+  mesh.uvs.clear();
+  return cloth_of(mesh, mass, 100, {});
+}
+
+// They meet at 40 m/s: in one step of 0.01 s they would be past each other.
+TEST_P(SelfCollision, KeepsTheMomentumOfTwoSheetsThatCollide) {
+  Cloth cloth = two_sheets(1);
+  for (int i = 0; i < cloth.vertex_count(); ++i) {
+    cloth.masses[i] *= 1 + 0.5 * std::sin(i);
+    const double side = i < cloth.vertex_count() / 2 ? 1 : -1;
+    cloth.velocities.row(i) << 3, -2 * side, 20 * side;
+  }
+  SimulationSettings settings = setup(cloth, Method::semi_implicit, 0.001);
+  if (GetParam().method != Method::semi_implicit) settings = setup(cloth, GetParam(), 0.01);
+  settings.integrator.stop = StoppingRule::gradient;
+  settings.integrator.tolerance = 1e-9;
+  settings.integrator.max_iterations = 3000;
+  settings.effects = {effect("self_collision", collision_keys(0.01))};
+  Simulation simulation(settings);
+  const Eigen::RowVector3d before = cloth.masses.transpose() * simulation.state().v;
+  bool met = false;
+  for (int i = 0; i < 60; ++i) {
+    simulation.step();
+    const Vertices& x = simulation.state().x;
+    ASSERT_EQ(self_intersections(cloth.triangles, x), 0) << "at step " << i;
+    const auto half = cloth.vertex_count() / 2;
+    met |= simulation.state().v.topRows(half).col(2).mean() < 15;
+  }
+  EXPECT_TRUE(met) << "the sheets never met";
+  const Eigen::RowVector3d after = cloth.masses.transpose() * simulation.state().v;
+  EXPECT_LT((after - before).norm(), 1e-9 * cloth.masses.sum() * 20);
+}
+
+// Layers at rest on each other come to lie the thickness apart, and stay.
+TEST_P(SelfCollision, LaysLayersTheThicknessApart) {
+  constexpr double thickness = 0.04;
+  SimulationSettings settings = setup(two_sheets(0.5), GetParam(), step());
+  settings.cloth.positions.bottomRows(49).col(2).array() -= 0.25;
+  settings.effects = {effect("gravity"), floor_at(-0.01), effect("self_collision", collision_keys(thickness)),
+                      effect("damping", {{"factor", 0.1}})};
+  Simulation simulation(settings);
+  while (simulation.time() < 1.5) simulation.step();
+  const Vertices& x = simulation.state().x;
+  for (int v = 49; v < 98; ++v) {
+    double gap = 1;
+    for (const Triangle& t : settings.cloth.triangles) {
+      if (t[0] >= 49) continue;
+      const FourPoints p{x.row(v).transpose(), x.row(t[0]).transpose(), x.row(t[1]).transpose(),
+                         x.row(t[2]).transpose()};
+      gap = std::min(gap, std::sqrt(nearest(Feature::vertex_triangle, p).squared));
+    }
+    EXPECT_GT(gap, 0.9 * thickness) << "vertex " << v;
+    EXPECT_LT(gap, 1.3 * thickness) << "vertex " << v;
+  }
+}
+
+// The same start gives the same bits, also after other motions have used the same memory.
+TEST(SelfCollisionAlone, DependsOnTheStateOnly) {
+  const SimulationSettings settings = fold_scene(Method::liu13, 0.01, 12);
+  Simulation first(settings), second(settings);
+  for (int i = 0; i < 100; ++i) first.step();
+  const State middle = first.state();
+  for (int i = 0; i < 20; ++i) first.step();
+  second.restore(middle);
+  for (int i = 0; i < 20; ++i) second.step();
+  EXPECT_TRUE(same_bits(first.state().x, second.state().x));
+  EXPECT_TRUE(same_bits(first.state().v, second.state().v));
+}
+
+TEST(SelfCollisionAlone, RefusesAClothThatStartsThroughItself) {
+  SimulationSettings settings = setup(two_sheets(1), Method::liu13, 0.01);
+  EXPECT_TRUE(problems(effect("self_collision"), settings).empty());
+  settings.cloth.positions.bottomRows(49).col(2).array() -= 0.3;
+  settings.cloth.positions.bottomRows(49).col(2) += settings.cloth.positions.bottomRows(49).col(0);
+  const auto found = problems(effect("self_collision"), settings);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_TRUE(found[0].starts_with(": the cloth starts through itself")) << found[0];
+}
+
+// A mesh finer than the thickness is not pushed apart at rest.
+TEST(SelfCollisionAlone, LeavesAFlatClothAlone) {
+  SimulationSettings settings = setup(cloth_of(make_grid(30, 30), 1, 100, {}), Method::liu13, 0.01);
+  settings.effects = {effect("self_collision", collision_keys(0.2))};
+  Simulation simulation(settings);
+  for (int i = 0; i < 5; ++i) simulation.step();
+  EXPECT_LT((simulation.state().x - settings.cloth.positions).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 }  // namespace

@@ -1,0 +1,95 @@
+#include "bench/effect_costs.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+#include "bench/moving_cloth.hpp"
+#include "bench/subject.hpp"
+#include "sim/simulation.hpp"
+#include "tests/support/effects.hpp"
+
+namespace drape {
+namespace {
+
+using test::effect;
+using test::KeyValues;
+
+constexpr int steps = 10;
+constexpr double step = 0.01;  // [s]
+
+/// An effect with its keys, on a cloth of so many cells along each side.
+struct Case {
+  std::string name, effect;
+  KeyValues keys;
+  Cloth (*cloth)(int cells);
+};
+
+/// The same cloth laid down in four layers a thickness of 12 mm apart, as many contacts as there can be.
+Cloth make_folded_cloth(int cells) {
+  Cloth cloth = make_moving_cloth(cells);
+  cloth.positions = cloth.rest;
+  cloth.velocities.setZero();
+  constexpr double layer = 0.5, gap = 0.012;  // [m]
+  for (Eigen::Index i = 0; i < cloth.positions.rows(); ++i) {
+    const double along = cloth.positions(i, 0) + 1;
+    const int number = std::min(3, static_cast<int>(along / layer));
+    const double within = along - number * layer;
+    cloth.positions(i, 0) = number % 2 == 0 ? within : layer - within;
+    cloth.positions(i, 2) = gap * (number + within / layer);
+  }
+  return cloth;
+}
+
+std::vector<Case> cases() {
+  const Eigen::Vector3d below(0, 0, -0.5);
+  return {
+      {"bending_rigidity", "bending", {{"rigidity", 1e-3}}, make_moving_cloth},
+      {"bending_cross", "bending", {{"cross_stiffness", 10.0}}, make_moving_cloth},
+      {"sphere", "sphere", {{"center", below}, {"radius", 0.4}}, make_moving_cloth},
+      {"sphere_implicit",
+       "sphere",
+       {{"center", below}, {"radius", 0.4}, {"response", std::string("implicit")}},
+       make_moving_cloth},
+      {"wind", "wind", {{"acceleration", Eigen::Vector3d(1, 0, 0)}}, make_moving_cloth},
+      {"air", "air", {}, make_moving_cloth},
+      {"ground", "ground", {{"height", -1.0}}, make_moving_cloth},
+      {"strain_limit", "strain_limit", {{"max_stretch", 1.1}}, make_moving_cloth},
+      {"self_collision", "self_collision", {{"thickness", 0.012}}, make_moving_cloth},
+      {"self_collision_folded", "self_collision", {{"thickness", 0.012}}, make_folded_cloth},
+  };
+}
+
+Subject make(const Case& c, int cells, bool with) {
+  SimulationSettings settings;
+  settings.cloth = c.cloth(cells);
+  settings.step = step;
+  settings.effects.push_back(effect("gravity"));
+  if (with) settings.effects.push_back(effect(c.effect, c.keys));
+  const auto simulation = std::make_shared<Simulation>(std::move(settings));
+  return {.restore = [simulation, start = simulation->state()] { simulation->restore(start); },
+          .run =
+              [simulation] {
+                for (int i = 0; i < steps; ++i) simulation->step();
+                return steps;
+              }};
+}
+
+}  // namespace
+
+std::vector<std::string> register_effect_costs() {
+  std::vector<std::string> names;
+  for (const Case& c : cases()) {
+    for (const int cells : {20, 60}) {
+      names.push_back(fmt::format("effect_{}/{}", c.name, cells));
+      for (const bool with : {true, false}) {
+        register_subject(names.back(), with ? "with" : "without", steps,
+                         [c, cells, with] { return make(c, cells, with); });
+      }
+    }
+  }
+  return names;
+}
+
+}  // namespace drape

@@ -1,0 +1,304 @@
+// The pieces of self-collision: distances, times of impact, the spatial hash, rigid zones.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "sim/collision/candidates.hpp"
+#include "sim/collision/impact.hpp"
+#include "sim/collision/rigid_zones.hpp"
+#include "sim/collision/spatial_hash.hpp"
+#include "tests/support/meshes.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+constexpr Feature both[] = {Feature::vertex_triangle, Feature::edge_edge};
+
+Point random_point(Random& random) { return {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)}; }
+FourPoints random_points(Random& random) {
+  return {random_point(random), random_point(random), random_point(random), random_point(random)};
+}
+
+/// The least distance of n² points of each feature, found by trying.
+double sampled_distance(Feature feature, const FourPoints& p, int n) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      const double s = static_cast<double>(i) / n, t = static_cast<double>(j) / n;
+      const Point d = feature == Feature::edge_edge
+                          ? Point((1 - s) * p[0] + s * p[1] - (1 - t) * p[2] - t * p[3])
+                          : Point(p[0] - p[1] - s * (p[2] - p[1]) - (1 - s) * t * (p[3] - p[1]));
+      least = std::min(least, d.norm());
+    }
+  }
+  return least;
+}
+
+void expect_nearest(Feature feature, const FourPoints& p) {
+  const Nearest found = nearest(feature, p);
+  constexpr int n = 100;
+  double size = 0;
+  for (const Point& q : p) size = std::max(size, (q - p[2]).norm());
+  const double distance = std::sqrt(found.squared), sampled = sampled_distance(feature, p, n);
+  EXPECT_LE(distance, sampled + 1e-12 * size);
+  EXPECT_GE(distance, sampled - 3 * size / n);  // no sample is further from the nearest point than that
+  EXPECT_NEAR(found.difference(p).norm(), distance, 1e-12 * (size + p[0].norm()));
+  const auto& w = found.weights;
+  const double first = feature == Feature::edge_edge ? w[0] + w[1] : w[0];
+  EXPECT_NEAR(first, 1, 1e-12);
+  EXPECT_NEAR(w[0] + w[1] + w[2] + w[3], 0, 1e-12);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(std::isfinite(w[i]));
+}
+
+TEST(Nearest, IsNoFurtherThanAnyOtherPoints) {
+  Random random;
+  for (const Feature feature : both) {
+    for (int i = 0; i < 200; ++i) expect_nearest(feature, random_points(random));
+  }
+}
+
+TEST(Nearest, KnowsDegenerateAndParallelFeatures) {
+  const Point o(0, 0, 0), x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  for (const Feature feature : both) {
+    expect_nearest(feature, {z, o, x, 2 * x});  // a triangle without an area; edges that share a line's plane
+    expect_nearest(feature, {z, o, o, o});      // a triangle or an edge that is a point
+    expect_nearest(feature, {o, x, y, x + y});  // parallel
+    expect_nearest(feature, {o, x, y + 2 * x, y + 3 * x});  // parallel, one behind the other
+    expect_nearest(feature, {o, 2 * x, x, 3 * x});          // on one line
+    expect_nearest(feature, {o, x, o, y});                  // touching
+    expect_nearest(feature, {y, y, o, x});
+    expect_nearest(feature, {o, x, 1e-9 * y, x + 1e-9 * z});
+  }
+}
+
+FourPoints moved(const FourPoints& p, const FourPoints& move, double t) {
+  FourPoints result = p;
+  for (std::size_t i = 0; i < 4; ++i) result[i] += t * move[i];
+  return result;
+}
+
+double distance(Feature feature, const FourPoints& p) { return std::sqrt(nearest(feature, p).squared); }
+
+// A vertex one above a triangle that comes down by `way` touches at 1/way. It counts when a tenth of the gap is left.
+TEST(TimeOfImpact, OfAFallingVertexIsKnown) {
+  const Point o(0, 0, 0), down(0, 0, -1);
+  const FourPoints p{Point(0.2, 0.2, 1), o, Point(1, 0, 0), Point(0, 1, 0)};
+  for (const double way : {0.95, 1.0, 1.5, 2.0, 100.0}) {
+    const auto time = time_of_impact(Feature::vertex_triangle, p, {way * down, o, o, o});
+    ASSERT_TRUE(time) << way;
+    EXPECT_LT(*time, 1 / way);
+    EXPECT_LE(distance(Feature::vertex_triangle, moved(p, {way * down, o, o, o}, *time)), kept_gap * (1 + 1e-9));
+  }
+  EXPECT_FALSE(time_of_impact(Feature::vertex_triangle, p, {0.85 * down, o, o, o}));
+  EXPECT_FALSE(time_of_impact(Feature::vertex_triangle, p, {-100 * down, o, o, o}));
+  EXPECT_FALSE(time_of_impact(Feature::vertex_triangle, p, {9 * down, 9 * down, 9 * down, 9 * down}));
+  EXPECT_FALSE(time_of_impact(Feature::vertex_triangle, p, {Point(5, 0, -1), o, o, o})) << "passes beside it";
+}
+
+TEST(TimeOfImpact, OfCrossingEdgesIsKnown) {
+  const Point o(0, 0, 0), down(0, 0, -3);
+  const FourPoints p{Point(-1, 0, 1), Point(1, 0, 1), Point(0, -1, 0), Point(0, 1, 0)};
+  const auto time = time_of_impact(Feature::edge_edge, p, {down, down, o, o});
+  ASSERT_TRUE(time);
+  EXPECT_NEAR(*time, 0.3, 0.03);
+  EXPECT_FALSE(time_of_impact(Feature::edge_edge, p, {o, o, down, down}));
+}
+
+// The cubic of four points that stay in one plane is zero at all times: what has no meaning there has one for
+// distances.
+TEST(TimeOfImpact, KnowsMotionsWithinAPlane) {
+  const Point o(0, 0, 0), right(4, 0, 0);
+  const FourPoints vertex{Point(-1, 0.2, 0), o, Point(1, 0, 0), Point(0, 1, 0)};
+  EXPECT_TRUE(time_of_impact(Feature::vertex_triangle, vertex, {right, o, o, o})) << "through the whole triangle";
+  const FourPoints parallel{Point(-1, 0, 0), Point(-1, 1, 0), Point(1, 0, 0), Point(1, 1, 0)};
+  EXPECT_TRUE(time_of_impact(Feature::edge_edge, parallel, {right, right, o, o}));
+  EXPECT_FALSE(time_of_impact(Feature::edge_edge, parallel, {o, o, right, right}));
+  const FourPoints line{Point(-2, 0, 0), Point(-1, 0, 0), Point(1, 0, 0), Point(2, 0, 0)};
+  EXPECT_TRUE(time_of_impact(Feature::edge_edge, line, {right, right, o, o}));
+}
+
+TEST(TimeOfImpact, KnowsDegenerateFeatures) {
+  const Point o(0, 0, 0), down(0, 0, -2), a(0, 0, 1);
+  EXPECT_TRUE(time_of_impact(Feature::edge_edge, {a, a, o, o}, {down, down, o, o})) << "two points";
+  EXPECT_TRUE(time_of_impact(Feature::vertex_triangle, {a, o, o, o}, {down, o, o, o}));
+  EXPECT_FALSE(time_of_impact(Feature::edge_edge, {a, a, o, o}, {o, o, o, o})) << "nothing moves";
+  EXPECT_FALSE(time_of_impact(Feature::edge_edge, {o, a, o, a}, {down, o, o, o})) << "touch from the start";
+}
+
+// Between the times it looks at, nothing is missed: at a thousand times of random motions, however far.
+TEST(TimeOfImpact, MissesNothing) {
+  Random random;
+  int impacts = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Feature feature = both[i % 2];
+    const FourPoints p = random_points(random);
+    FourPoints move = random_points(random);
+    for (Point& m : move) m *= i % 7 == 0 ? 20 : 1.5;
+    const double gap = kept_gap * distance(feature, p);
+    const auto time = time_of_impact(feature, p, move);
+    impacts += time ? 1 : 0;
+    const double until = time.value_or(1);
+    for (int k = 0; k <= 1000; ++k) {
+      const double t = k / 1000.0 * until;
+      if (t >= 0.999 * until) continue;
+      ASSERT_GT(distance(feature, moved(p, move, t)), gap * (1 - 1e-9)) << "case " << i << ", t = " << t;
+    }
+  }
+  EXPECT_GT(impacts, 100);
+}
+
+TEST(SpatialHash, FindsEveryOverlapOnce) {
+  Random random;
+  for (const double huge : {0.0, 50.0}) {
+    std::vector<Box> boxes;
+    for (int i = 0; i < 300; ++i) {
+      const Point low = random_point(random);
+      const Point size = 0.15 * (random_point(random) + Point::Ones());
+      boxes.push_back({low, low + size});
+      if (i % 100 == 0) boxes.back().high += huge * Point(1, 0.5, 1);  // one that reaches far beyond the others
+    }
+    SpatialHash hash;
+    hash.build(boxes);
+    std::vector<std::pair<int, int>> expected, pairs, queried;
+    for (int k = 0; k < 300; ++k) {
+      for (int l = k + 1; l < 300; ++l) {
+        if (boxes[static_cast<std::size_t>(k)].overlaps(boxes[static_cast<std::size_t>(l)]))
+          expected.emplace_back(k, l);
+      }
+    }
+    hash.for_pairs([&](int k, int l) { pairs.emplace_back(k, l); });
+    for (int k = 0; k < 300; ++k) {
+      hash.for_overlapping(boxes[static_cast<std::size_t>(k)], [&](int l) {
+        if (k < l) queried.emplace_back(k, l);
+      });
+    }
+    std::sort(pairs.begin(), pairs.end());
+    std::sort(queried.begin(), queried.end());
+    ASSERT_GT(expected.size(), 100U);
+    EXPECT_EQ(pairs, expected);
+    EXPECT_EQ(queried, expected);
+  }
+}
+
+TEST(SpatialHash, TakesBoxesInOnePlaceAndFarApart) {
+  SpatialHash hash;
+  int found = 0;
+  const auto count = [&](int, int) { ++found; };
+  const std::vector<Box> same(5, Box{Point(1, 2, 3), Point(1, 2, 3)});
+  hash.build(same);
+  hash.for_pairs(count);
+  EXPECT_EQ(found, 10);
+  found = 0;
+  const std::vector<Box> far{{Point(0, 0, 0), Point(1, 1, 1)},
+                             {Point::Constant(1e200), Point::Constant(1e201)},
+                             {Point(0.5, 0.5, 0.5), Point(2, 2, 2)}};
+  hash.build(far);
+  hash.for_pairs(count);
+  EXPECT_EQ(found, 1);
+  found = 0;
+  hash.build({});
+  hash.for_pairs(count);
+  EXPECT_EQ(found, 0);
+}
+
+// Whatever comes near is among the candidates.
+TEST(CollisionCandidates, ContainEveryPairThatComesNear) {
+  constexpr double reach = 0.08;
+  const Cloth cloth = cloth_of(irregular_mesh(7), 1, 1, {3, 4, 5, 6});
+  std::vector<Point> from, to;
+  const Vertices crumple = random_vertices(cloth.vertex_count(), 3), way = random_vertices(cloth.vertex_count(), 4);
+  for (int i = 0; i < cloth.vertex_count(); ++i) {
+    from.push_back((cloth.positions.row(i) + 0.2 * crumple.row(i)).transpose());
+    to.push_back(from.back() + 0.2 * way.row(i).transpose());
+  }
+  CollisionCandidates candidates(cloth);
+  candidates.find(from, to, reach);
+  const std::vector<FeaturePair>& pairs = candidates.pairs();
+  EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
+  int near = 0;
+  const auto expect = [&](const FeaturePair& pair) {
+    FourPoints p, move;
+    for (std::size_t i = 0; i < 4; ++i) {
+      p[i] = from[static_cast<std::size_t>(pair.vertices[i])];
+      move[i] = to[static_cast<std::size_t>(pair.vertices[i])] - p[i];
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k <= 10; ++k) least = std::min(least, distance(pair.feature, moved(p, move, k / 10.0)));
+    if (least > reach) return;
+    ++near;
+    EXPECT_EQ(std::count(pairs.begin(), pairs.end(), pair), 1);
+  };
+  const std::vector<Edge> edges = unique_edges(cloth.triangles);
+  for (const Edge& e : edges) {
+    for (const Triangle& t : cloth.triangles) {
+      const int v = e[0];
+      if (v != t[0] && v != t[1] && v != t[2]) expect({Feature::vertex_triangle, {v, t[0], t[1], t[2]}});
+    }
+    for (const Edge& f : edges) {
+      if (e < f && e[0] != f[0] && e[0] != f[1] && e[1] != f[0] && e[1] != f[1]) {
+        expect({Feature::edge_edge, {e[0], e[1], f[0], f[1]}});
+      }
+    }
+  }
+  EXPECT_GT(near, 100);
+  EXPECT_LT(pairs.size(), edges.size() * cloth.triangles.size() / 4) << "nothing was left out";
+}
+
+TEST(RigidZones, KeepBothMomentaAndBringNoPointsNearer) {
+  constexpr int count = 12;
+  Random random;
+  MovingVertices moving;
+  std::vector<Point> x;
+  for (int i = 0; i < count; ++i) {
+    x.push_back(random_point(random));
+    moving.velocities.push_back(10 * random_point(random));
+    moving.inverse_masses.push_back(1 + random.number());
+  }
+  const std::vector<Point> before = moving.velocities;
+  RigidZones zones;
+  zones.begin(moving.velocities);
+  zones.join({0, 1, 2, 3});
+  zones.join({3, 4, 5, 6});
+  EXPECT_TRUE(zones.together({0, 6, 2, 4}));
+  EXPECT_FALSE(zones.together({0, 7, 2, 4}));
+  EXPECT_TRUE(zones.apply(x, moving));
+  Point p = Point::Zero(), l = p;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point change = (moving.velocities[i] - before[i]) / moving.inverse_masses[i];
+    if (i > 6) {
+      EXPECT_EQ(change, Point::Zero());
+    }
+    p += change;
+    l += x[i].cross(change);
+  }
+  EXPECT_LT(p.norm(), 1e-12);
+  EXPECT_LT(l.norm(), 1e-12);
+  for (std::size_t i = 0; i < 7; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Point d = x[i] - x[j], way = moving.velocities[i] - moving.velocities[j];
+      for (const double t : {0.01, 0.1, 1.0}) EXPECT_GE((d + t * way).norm(), d.norm() * (1 - 1e-12));
+    }
+  }
+}
+
+TEST(RigidZones, MoveWithTheirPin) {
+  MovingVertices moving{.velocities = {Point(1, 0, 0), Point(0, 5, 0), Point(0, 0, 7), Point(3, 3, 3)},
+                        .inverse_masses = {0, 1, 1, 1}};
+  const std::vector<Point> x{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1)};
+  RigidZones zones;
+  zones.begin(moving.velocities);
+  zones.join({0, 1, 2, 3});
+  EXPECT_TRUE(zones.apply(x, moving));
+  for (const Point& v : moving.velocities) EXPECT_EQ(v, Point(1, 0, 0));
+}
+
+}  // namespace
+}  // namespace drape::test
