@@ -6,7 +6,7 @@
 #include <limits>
 #include <thread>
 
-#include "check/parallel.hpp"
+#include "core/parallel.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/effects/sphere.hpp"
 #include "sim/simulation.hpp"
