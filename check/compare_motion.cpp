@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "check/parallel.hpp"
+#include "core/parallel.hpp"
 
 namespace drape {
 namespace {

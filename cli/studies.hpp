@@ -13,5 +13,6 @@ ExitCode hand_out(const StudyReport& report, const std::filesystem::path& folder
 /// Each adds a subcommand of study.
 void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& command);
 void add_scaling_study(CLI::App& study, const CommonOptions& common, Command& command);
+void add_stability_study(CLI::App& study, const CommonOptions& common, Command& command);
 
 }  // namespace drape

@@ -52,6 +52,7 @@ void add_study_command(CLI::App& app, const CommonOptions& common, Command& comm
   add_homework_study(*study, common, command);
   add_accuracy_study(*study, common, command);
   add_scaling_study(*study, common, command);
+  add_stability_study(*study, common, command);
 }
 
 }  // namespace drape

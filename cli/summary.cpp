@@ -43,7 +43,9 @@ std::string summarize(const RunResult& result) {
   std::string text = fmt::format("{} steps", s.steps());
   if (s.mean_iterations() > 0) {
     text += fmt::format(", {:.2f} iterations each (at most {})", s.mean_iterations(), s.max_iterations());
-    if (s.not_converged() > 0) text += fmt::format(", {} steps not converged", s.not_converged());
+    if (s.not_converged() > 0) {
+      text += fmt::format(", {} steps not converged (worst residual {:.2g} N)", s.not_converged(), s.worst_residual());
+    }
   }
   text += fmt::format(", {} a step (median {})\n", duration(1e-6 * s.mean_microseconds()),
                       duration(1e-6 * s.median_microseconds()));

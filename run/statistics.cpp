@@ -19,7 +19,9 @@ void Statistics::after_step(const Simulation& simulation, const StepReport& repo
   microseconds_.push_back(static_cast<float>(1e6 * seconds));
   iterations_ += report.iterations;
   max_iterations_ = std::max(max_iterations_, report.iterations);
-  if (!report.converged) ++not_converged_;
+  if (report.converged) return;
+  ++not_converged_;
+  worst_residual_ = std::max(worst_residual_, simulation.residual());
 }
 
 double Statistics::mean_iterations() const {
@@ -60,17 +62,20 @@ std::string Statistics::to_json(const std::string& outcome) const {
     if (std::find(names.begin(), names.end(), effect.name) == names.end()) names.push_back(effect.name);
     if (effect.share) shares[effect.name] = shares.value(effect.name, 0.0) + *effect.share;
   }
-  const nlohmann::ordered_json json = {
-      {"method", method_},
-      {"vertices", vertices_},
-      {"springs", springs_},
-      {"step", h_},
-      {"steps", steps()},
-      {"iterations", {{"mean", mean_iterations()}, {"max", max_iterations_}, {"steps_not_converged", not_converged_}}},
-      {"step_us", {{"mean", mean_microseconds()}, {"median", median_microseconds()}}},
-      {"effects", names},
-      {"effect_shares", shares},
-      {"outcome", outcome}};
+  const nlohmann::ordered_json json = {{"method", method_},
+                                       {"vertices", vertices_},
+                                       {"springs", springs_},
+                                       {"step", h_},
+                                       {"steps", steps()},
+                                       {"iterations",
+                                        {{"mean", mean_iterations()},
+                                         {"max", max_iterations_},
+                                         {"steps_not_converged", not_converged_},
+                                         {"worst_residual", worst_residual_}}},
+                                       {"step_us", {{"mean", mean_microseconds()}, {"median", median_microseconds()}}},
+                                       {"effects", names},
+                                       {"effect_shares", shares},
+                                       {"outcome", outcome}};
   return json.dump(2) + "\n";
 }
 

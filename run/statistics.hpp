@@ -20,6 +20,8 @@ class Statistics final : public StepObserver {
   [[nodiscard]] int max_iterations() const { return max_iterations_; }
   /// Steps that ended at the cap without meeting the stopping rule.
   [[nodiscard]] std::int64_t not_converged() const { return not_converged_; }
+  /// The largest ‖∇g‖ that such a step was left with [N].
+  [[nodiscard]] double worst_residual() const { return worst_residual_; }
   [[nodiscard]] double mean_microseconds() const;
   [[nodiscard]] double median_microseconds() const;
   [[nodiscard]] double total_seconds() const;
@@ -45,6 +47,7 @@ class Statistics final : public StepObserver {
   std::vector<float> microseconds_;
   std::int64_t iterations_ = 0, not_converged_ = 0;
   int max_iterations_ = 0;
+  double worst_residual_ = 0;
 };
 
 }  // namespace drape

@@ -52,11 +52,11 @@ std::vector<ReadEffect> read_effects(const TomlValue& document, TableReader& rea
 }
 
 void check_effects(const std::vector<ReadEffect>& effects, const SimulationSettings& settings, Problems& problems) {
-  for (const auto& [active, table, good] : effects) {
-    if (!good) continue;
-    active.effect->check(settings, [&](std::string_view key, const std::string& sentence) {
-      problems.add(place_of(*table, key), key.empty() ? fmt::format("[effects.{}]: {}", active.name, sentence)
-                                                      : fmt::format("{}: {}", key, sentence));
+  for (const ReadEffect& read : effects) {
+    if (!read.good) continue;
+    read.active.effect->check(settings, [&](std::string_view key, const std::string& sentence) {
+      problems.add(place_of(*read.table, key), key.empty() ? fmt::format("[effects.{}]: {}", read.active.name, sentence)
+                                                           : fmt::format("{}: {}", key, sentence));
     });
   }
 }

@@ -51,7 +51,9 @@ Keys integrator_keys(IntegratorSettings& integrator) {
       "How the implicit method solves Newton's equations: by a sparse factor, or by conjugate gradients that are "
       "preconditioned with liu13's matrix.");
   keys.add("allow_unstable", &integrator.allow_unstable, "",
-           "Run semi-implicit with a step beyond its largest safe one, which is refused otherwise.");
+           "Run what is refused otherwise: semi-implicit with a step beyond its largest safe one, or an implicit "
+           "method where "
+           "double precision cannot hold the inertia beside the springs.");
   return keys;
 }
 

@@ -24,7 +24,7 @@ std::vector<PinPhase> pin_phases(const std::vector<int>& pins, const std::vector
   std::vector<PinPhase> phases;
   std::vector<int> left = pins;
   for (const auto& [step, vertices] : released) {
-    std::erase_if(left, [&](int pin) { return std::ranges::find(vertices, pin) != vertices.end(); });
+    std::erase_if(left, [&gone = vertices](int pin) { return std::ranges::find(gone, pin) != gone.end(); });
     phases.push_back({step, left});
   }
   return phases;

@@ -46,13 +46,6 @@ System make_system(const SimulationSettings& settings, std::vector<double>* effe
   return system;
 }
 
-DivergedError::DivergedError(std::int64_t step, double time, int vertex)
-    : Error(ExitCode::diverged,
-            fmt::format(
-                "the simulation diverged at step {} (t = {:g} s), first seen at vertex {}: a smaller [time] step, "
-                "or an implicit method, keeps it stable",
-                step, time, vertex)) {}
-
 Simulation::Simulation(SimulationSettings settings, Timing timing)
     : settings_(std::move(settings)),
       effect_seconds_(timing == Timing::effects ? settings_.effects.size() : 0, 0.0),
@@ -62,7 +55,14 @@ Simulation::Simulation(SimulationSettings settings, Timing timing)
       constant_force_(constant_force(*system_, state_)),
       force_(constant_force_),
       integrator_(make_stable_integrator(settings_, *system_)),
-      springs_(system_->springs, settings_.cloth.vertex_count()) {}
+      springs_(system_->springs, settings_.cloth.vertex_count()) {
+  // Where the step is safe nothing blows up, and nothing is spent on looking.
+  const bool explicit_method = settings_.integrator.method == Method::semi_implicit;
+  if (explicit_method && settings_.integrator.allow_unstable && stability_problem(settings_, *system_)) {
+    watch_.emplace(*system_);
+    restore(state_);
+  }
+}
 
 Simulation::~Simulation() = default;
 
@@ -79,12 +79,27 @@ void Simulation::enter_phase() {
 
 StepReport Simulation::step() {
   if (phases_.size() > 1) enter_phase();
-  StepReport report = integrator_->advance(state_, force());
+  const Vertices& push = force();
+  Vertices before;
+  if (watch_) before = state_.x;
+  StepReport report = integrator_->advance(state_, push);
   for (const auto& filter : system_->filters) report.converged = report.converged && filter->converged();
   ++state_.step;
   // What is not finite makes the sum of its squares so, and any velocity that is not moves its vertex there.
-  if (!std::isfinite(norm(state_.x))) throw_diverged();
+  if (!std::isfinite(norm(state_.x))) throw diverged_with(std::nullopt);
+  if (watch_) check_for_blow_up(std::abs(push.cwiseProduct(state_.x - before).sum()));
   return report;
+}
+
+void Simulation::check_for_blow_up(double work) {
+  const Energies now = energies();
+  if (const auto growth = watch_->after_step(work, now.kinetic + now.elastic)) throw diverged_with(growth);
+}
+
+DivergedError Simulation::diverged_with(std::optional<double> growth) const {
+  BlowUp what{.growth = growth, .safe_step = {}};
+  if (settings_.integrator.method == Method::semi_implicit) what.safe_step = safe_step(*system_);
+  return diverged(state_, time(), what);
 }
 
 const Vertices& Simulation::force() {
@@ -99,7 +114,12 @@ const Vertices& Simulation::force() {
   return force_;
 }
 
-void Simulation::restore(const State& state) { state_ = state; }
+void Simulation::restore(const State& state) {
+  state_ = state;
+  if (!watch_) return;
+  const Energies now = energies();
+  watch_->begin(now.kinetic + now.elastic);
+}
 
 Energies Simulation::energies() const {
   const Eigen::VectorXd& m = settings_.cloth.masses;
@@ -115,23 +135,6 @@ std::vector<Collider> Simulation::colliders(double time) const {
   std::vector<Collider> shapes;
   for (const auto& motion : system_->colliders) shapes.push_back(motion->at(time));
   return shapes;
-}
-
-void Simulation::throw_diverged() const {
-  Eigen::Index worst = 0;
-  double fastest = -1;
-  for (Eigen::Index i = 0; i < state_.v.rows(); ++i) {
-    const double speed = state_.v.row(i).norm();
-    if (!std::isfinite(speed) || !state_.x.row(i).allFinite()) {
-      worst = i;
-      break;
-    }
-    if (speed > fastest) {
-      fastest = speed;
-      worst = i;
-    }
-  }
-  throw DivergedError(state_.step, time(), static_cast<int>(worst));
 }
 
 }  // namespace drape

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "sim/blow_up.hpp"
 #include "sim/integrators/integrator.hpp"
 #include "sim/settings.hpp"
 #include "sim/spring_network.hpp"
@@ -21,12 +22,6 @@ struct Energies {
   [[nodiscard]] double total() const { return kinetic + gravity + elastic; }
 };
 
-/// The motion left the range of finite numbers.
-class DivergedError : public Error {
- public:
-  DivergedError(std::int64_t step, double time, int vertex);
-};
-
 /// What acts on the cloth with the settings' effects. Refers to the settings, which must outlive it.
 /// @param effect_seconds if given, one number for each effect, to which the time that it takes is added from then on
 System make_system(const SimulationSettings& settings, std::vector<double>* effect_seconds = nullptr);
@@ -38,16 +33,16 @@ enum class Timing { none, effects };
 /// the same bits.
 class Simulation {
  public:
-  /// @throws UsageError if the step is larger than semi-implicit Euler's safe one, see safe_step(), or a matrix of the
-  ///         integrator would not fit into memory
-  /// @throws std::domain_error if a matrix of the integrator cannot be factored to working precision
+  /// @throws UsageError if the motion cannot be computed, see stability_problem(), or a matrix of the integrator would
+  ///         not fit into memory or cannot be factored to working precision
   explicit Simulation(SimulationSettings settings, Timing timing = Timing::none);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
   /// Advances the cloth by one step.
-  /// @throws DivergedError if a position or velocity is no longer finite
+  /// @throws DivergedError if a position or velocity is no longer finite, or semi-implicit Euler runs beyond its safe
+  ///         step and the energy blows up
   StepReport step();
 
   /// Goes on from another state of the same cloth, at any step.
@@ -75,7 +70,9 @@ class Simulation {
   void enter_phase();
   /// The sum of all forces now.
   [[nodiscard]] const Vertices& force();
-  [[noreturn]] void throw_diverged() const;
+  /// Ends the simulation if its last step, in which the forces at its start did this work [J], was none.
+  void check_for_blow_up(double work);
+  [[nodiscard]] DivergedError diverged_with(std::optional<double> growth) const;
   [[nodiscard]] double time_of(std::int64_t step) const { return static_cast<double>(step) * settings_.step; }
 
   SimulationSettings settings_;
@@ -87,6 +84,7 @@ class Simulation {
   Vertices constant_force_, force_;
   std::unique_ptr<Integrator> integrator_;
   SpringNetwork springs_;
+  std::optional<BlowUpWatch> watch_;  // of a step that is not safe
 };
 
 }  // namespace drape

@@ -9,9 +9,10 @@ StepObjective::StepObjective(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count()),
       inertia_(system.cloth.masses / (system.step * system.step)),
+      free_inertia_(inertia_),
       push_(inertia_.cwiseInverse()),
       y_(system.cloth.vertex_count(), 3) {
-  for (const int pin : system.cloth.pins) push_[pin] = 0;
+  for (const int pin : system.cloth.pins) free_inertia_[pin] = push_[pin] = 0;
   for (const Spring& s : system.springs) elastic_scale_ += s.stiffness * s.rest_length * s.rest_length;
   for (const auto& energy : system.coupled_energies) {
     for (const Spring& s : energy->bound()) {

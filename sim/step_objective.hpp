@@ -32,13 +32,15 @@ class StepObjective {
   [[nodiscard]] const SpringNetwork& springs() const { return springs_; }
   /// m/h² of every vertex [N/m].
   [[nodiscard]] const Eigen::VectorXd& inertia() const { return inertia_; }
+  /// The same, but 0 at pins.
+  [[nodiscard]] const Eigen::VectorXd& free_inertia() const { return free_inertia_; }
   /// The time at the end of the step [s].
   [[nodiscard]] double time() const { return time_; }
 
  private:
   const System& system_;
   SpringNetwork springs_;
-  Eigen::VectorXd inertia_;
+  Eigen::VectorXd inertia_, free_inertia_;
   Eigen::VectorXd push_;  // h²/m, 0 on pins [m/N]
   Vertices y_;
   double time_ = 0;

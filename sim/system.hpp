@@ -24,6 +24,9 @@ struct Force {
   [[nodiscard]] virtual bool constant() const { return false; }
   /// Adds the force on every vertex [N] at the given time [s].
   virtual void add(const State& state, double time, Vertices& force) const = 0;
+  /// By how much the acceleration of a vertex changes at most with its place, as if it hung on a spring of this
+  /// stiffness for each kilogram [1/s²].
+  [[nodiscard]] virtual double stiffness_bound() const { return 0; }
 };
 
 /// Symmetric 3×3 blocks on the diagonal of a Hessian, one for each vertex: xx, xy, xz, yy, yz, zz. n×6 [N/m]

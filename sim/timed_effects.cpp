@@ -34,6 +34,7 @@ struct TimedForce final : Timed<Force> {
     const Stopwatch watch(seconds);
     inner->add(state, time, force);
   }
+  [[nodiscard]] double stiffness_bound() const override { return inner->stiffness_bound(); }
 };
 
 struct TimedEnergy final : Timed<Energy> {

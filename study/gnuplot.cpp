@@ -99,6 +99,10 @@ std::string script(const html::Chart& chart, const std::string& name) {
 std::string write_plot(const html::Chart& chart, const std::filesystem::path& folder, const std::string& name) {
   write_file_atomically(folder / (name + ".csv"), points_csv(chart));
   write_file_atomically(folder / (name + ".gp"), script(chart, name));
+  return draw_with_gnuplot(folder, name);
+}
+
+std::string draw_with_gnuplot(const std::filesystem::path& folder, const std::string& name) {
   const int status = std::system(
       fmt::format("cd {} && gnuplot {} >/dev/null 2>&1", shell_word(folder.string()), shell_word(name + ".gp"))
           .c_str());

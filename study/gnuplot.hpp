@@ -14,4 +14,8 @@ namespace drape {
 /// @throws OutputError if a file cannot be written
 std::string write_plot(const html::Chart& chart, const std::filesystem::path& folder, const std::string& name);
 
+/// Lets gnuplot run a folder's NAME.gp.
+/// @returns what could not be done, as a sentence; empty if it was
+std::string draw_with_gnuplot(const std::filesystem::path& folder, const std::string& name);
+
 }  // namespace drape

@@ -51,6 +51,8 @@ struct PenaltyForce final : Force {
 
   PenaltyForce(Surface s, double k, const Eigen::VectorXd& m) : surface(std::move(s)), stiffness(k), masses(m) {}
 
+  [[nodiscard]] double stiffness_bound() const override { return stiffness; }
+
   void add(const State& state, double time, Vertices& force) const override {
     const auto now = surface.at(time);
     Touch touch;

@@ -11,6 +11,8 @@ namespace drape {
 struct StepReport {
   int iterations = 0;     ///< linear solves; 0 for a method that has none
   bool converged = true;  ///< whether the stopping rule was met within max_iterations, and every motion filter's too
+  double kept = 1;        ///< the part of the way to the last iterate that the step went, see ImplicitEuler
+  double rise = 0;        ///< the most by which an iteration raised g beyond what rounding explains [J]: a fault
 };
 
 /// Advances a cloth by one step of the system's h.

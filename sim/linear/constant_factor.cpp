@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "core/error.hpp"
 #include "sim/kernels/vertices.hpp"
 #include "sim/linear/free_vertices.hpp"
 
@@ -23,7 +23,7 @@ Matrix assemble(const System& system, const FreeVertices& free) {
   const std::vector<Spring> springs = system.stiffness_bound();
   Matrix matrix{.pattern = spring_pattern(springs, free), .values = {}};
   matrix.values.assign(static_cast<std::size_t>(matrix.pattern.entries()), 0.0);
-  auto& [starts, rows] = matrix.pattern;
+  const std::vector<int>&starts = matrix.pattern.starts, &rows = matrix.pattern.rows;
   const auto at = [&](int row, int column) -> double& {
     const auto begin = rows.begin() + starts[static_cast<std::size_t>(column)];
     const auto end = rows.begin() + starts[static_cast<std::size_t>(column) + 1];
@@ -70,7 +70,9 @@ ConstantFactor::ConstantFactor(const System& system, Precision precision) : vert
   SparseCholesky factor(matrix.pattern, FactorKind::simplicial, false,
                         tolerated_zeros * (sizeof(double) + sizeof(float)));
   if (!factor.factorize(matrix.values.data())) {
-    throw std::domain_error("the cloth's constant matrix is not positive definite to working precision");
+    throw UsageError(
+        "the cloth's matrix is not positive definite to working precision: take a shorter step, softer springs or more "
+        "mass");
   }
 
   for (int row = 0; row < row_count_; ++row) {

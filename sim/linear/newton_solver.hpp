@@ -11,7 +11,7 @@ class NewtonSolver {
   virtual ~NewtonSolver() = default;
 
   /// direction = H(x)⁻¹ gradient, n×3 and zero on pins. [N] → [m]
-  /// @throws std::domain_error if H is not positive definite to working precision
+  /// Zero everywhere if H is not finite.
   virtual void solve(const Vertices& x, const Vertices& gradient, Vertices& direction) = 0;
 };
 

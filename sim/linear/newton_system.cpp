@@ -1,13 +1,15 @@
 #include "sim/linear/newton_system.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace drape {
 namespace {
 
 // Beyond this many free vertices a supernodal factor is faster, at the price of bits that depend on the machine's BLAS.
 constexpr int largest_simplicial = 2000;
+
+// Of the largest entry of the diagonal: what is added to it where the matrix is indefinite by rounding.
+constexpr double first_shift = 1e-14;
 
 using Index = std::size_t;
 
@@ -116,7 +118,7 @@ void NewtonSystem::add_below(int column_block, int rank, const Eigen::Matrix3d& 
   }
 }
 
-void NewtonSystem::factorize(const Vertices& x) {
+bool NewtonSystem::factorize(const Vertices& x) {
   std::fill(values_.begin(), values_.end(), 0.0);
   for (Index row = 0; row < inertia_.size(); ++row) {
     add_diagonal(static_cast<int>(row), inertia_[row] * Eigen::Matrix3d::Identity());
@@ -126,9 +128,15 @@ void NewtonSystem::factorize(const Vertices& x) {
   }
   add_coupled_energies(x);
   add_energies(x);
-  if (!factor_.front().factorize(values_.data())) {
-    throw std::domain_error("Newton's matrix is not positive definite to working precision");
+  // Positive definite in exact arithmetic; what rounding has spoilt, a multiple of the identity mends (Nocedal and
+  // Wright 2006, algorithm 3.3).
+  double largest = 0;
+  for (const int start : column_starts_) largest = std::max(largest, values_[Index(start)]);
+  for (double shift = first_shift * largest; !factor_.front().factorize(values_.data()); shift *= 10) {
+    if (!(shift <= largest)) return false;
+    for (const int start : column_starts_) values_[Index(start)] += shift;
   }
+  return true;
 }
 
 void NewtonSystem::add_coupled_energies(const Vertices& x) {
@@ -155,8 +163,7 @@ void NewtonSystem::add_energies(const Vertices& x) {
 
 void NewtonSystem::solve(const Vertices& x, const Vertices& gradient, Vertices& direction) {
   direction.setZero();
-  if (factor_.empty()) return;
-  factorize(x);
+  if (factor_.empty() || !factorize(x)) return;
   for (Index row = 0; row < vertices_.size(); ++row) {
     for (int axis = 0; axis < 3; ++axis) right_hand_side_[3 * row + Index(axis)] = gradient(vertices_[row], axis);
   }

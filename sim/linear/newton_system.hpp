@@ -18,7 +18,8 @@ class NewtonSystem final : public NewtonSolver {
   void solve(const Vertices& x, const Vertices& gradient, Vertices& direction) override;
 
  private:
-  void factorize(const Vertices& x);
+  /// Returns false where the matrix is not finite.
+  [[nodiscard]] bool factorize(const Vertices& x);
   void add_coupled_energies(const Vertices& x);
   void add_energies(const Vertices& x);
 

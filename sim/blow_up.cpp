@@ -1,0 +1,59 @@
+#include "sim/blow_up.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace drape {
+namespace {
+
+Eigen::Index worst_vertex(const State& state) {
+  Eigen::Index fastest = 0;
+  for (Eigen::Index i = 0; i < state.v.rows(); ++i) {
+    if (!state.x.row(i).allFinite() || !state.v.row(i).allFinite()) return i;
+    if (state.v.row(i).stableNorm() > state.v.row(fastest).stableNorm()) fastest = i;
+  }
+  return fastest;
+}
+
+}  // namespace
+
+BlowUpWatch::BlowUpWatch(const System& system) {
+  // Where every spring has its rest length, rounding lengths by ε leaves Σ k (εL)²/2.
+  double scale = std::numeric_limits<double>::min();
+  for (const Spring& s : system.springs) scale += s.stiffness * s.rest_length * s.rest_length;
+  rounding_ = std::numeric_limits<double>::epsilon() * scale;
+}
+
+void BlowUpWatch::begin(double energy) { explained_ = std::max(energy, rounding_); }
+
+std::optional<double> BlowUpWatch::after_step(double work, double energy) {
+  explained_ += work;
+  if (!(energy > limit * explained_)) return std::nullopt;
+  return energy / explained_;
+}
+
+DivergedError diverged(const State& state, double time, const BlowUp& what) {
+  const Eigen::Index worst = worst_vertex(state);
+  const double speed = state.v.row(worst).stableNorm();
+  std::string text =
+      fmt::format("the simulation diverged at step {} (t = {:g} s): vertex {} ", state.step, time, worst);
+  text += std::isfinite(speed) && state.x.row(worst).allFinite() ? fmt::format("moves at {:.3g} m/s", speed)
+                                                                 : "is no longer at a finite place";
+  text += what.growth
+              ? fmt::format(" and the energy has grown to {:.2g} times what the cloth had and was given", *what.growth)
+              : " and the energy has grown without bound";
+  if (what.safe_step) {
+    text += fmt::format(
+        "; semi-implicit Euler is stable up to a step of {:.4g} s here: take a shorter one, or method = "
+        "\"liu13\", \"implicit\" or \"quasi-newton\"",
+        *what.safe_step);
+  } else {
+    text += "; take a shorter [time] step, or weaker forces";
+  }
+  return DivergedError(text);
+}
+
+}  // namespace drape

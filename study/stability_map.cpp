@@ -1,0 +1,188 @@
+#include "study/stability_map.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/atomic_file.hpp"
+#include "study/gnuplot.hpp"
+
+namespace drape {
+namespace {
+
+using html::element;
+using html::Markup;
+
+/// The bands of the energy error, each up to a limit. From light to dark, told apart also without colours.
+struct Band {
+  double below;
+  const char* color;
+  const char* label;
+};
+constexpr std::array<Band, 6> bands{{{1e-3, "#e8f1e4", "below 0.1 %"},
+                                     {1e-2, "#b9dbb4", "0.1 to 1 %"},
+                                     {1e-1, "#7fb8a4", "1 to 10 %"},
+                                     {0.5, "#4789a0", "10 to 50 %"},
+                                     {10, "#2f5a8a", "half and more: the motion is lost"},
+                                     {INFINITY, "#9c2a20", "blown up"}}};
+
+std::size_t band_of(const StabilityCell& cell) {
+  if (cell.outcome == StabilityOutcome::blown_up) return bands.size() - 1;
+  std::size_t band = 0;
+  while (band + 2 < bands.size() && !(cell.energy_error < bands[band].below)) ++band;
+  return band;
+}
+
+// Of the drawing [pixels].
+constexpr double left = 62, top = 8, bottom = 46, cell_width = 20, cell_height = 13;
+
+Markup text(double x, double y, const char* anchor, const std::string& label) {
+  return element("text", {{"x", fmt::format("{:.1f}", x)}, {"y", fmt::format("{:.1f}", y)}, {"text-anchor", anchor}},
+                 label);
+}
+
+std::string power(double value) {
+  const double exponent = std::log10(value);
+  return std::abs(exponent - std::round(exponent)) < 1e-6 ? fmt::format("1e{:.0f}", exponent) : "";
+}
+
+Markup sign(const StabilityCell& cell, double x, double y) {
+  if (cell.outcome == StabilityOutcome::blown_up) {
+    return element(
+        "path",
+        {{"d", fmt::format("M{0} {1}l6 6m0 -6l-6 6", x - 3, y - 3)}, {"stroke", "#fff"}, {"stroke-width", "1.4"}});
+  }
+  if (cell.outcome != StabilityOutcome::not_converged) return {};
+  return element("circle", {{"cx", fmt::format("{}", x)},
+                            {"cy", fmt::format("{}", y)},
+                            {"r", "2.6"},
+                            {"fill", "none"},
+                            {"stroke", band_of(cell) < 3 ? "#222" : "#fff"},
+                            {"stroke-width", "1.2"}});
+}
+
+const char* stiffness_title(StabilityAxis axis) {
+  return axis == StabilityAxis::springs ? "stiffness of the springs, N/m" : "stiffness of the push, 1/s²";
+}
+
+}  // namespace
+
+std::string map_title(const StabilityMap& map) {
+  constexpr const char* axes[] = {"step and stiffness of the springs", "step and stiffness of a sphere's explicit push",
+                                  "step and stiffness of a sphere's implicit push"};
+  return fmt::format("{}: {}", method_name(map.method), axes[static_cast<std::size_t>(map.axis)]);
+}
+
+std::string map_name(const StabilityMap& map) {
+  constexpr const char* axes[] = {"springs", "explicit-push", "implicit-push"};
+  return fmt::format("{}-{}", method_name(map.method), axes[static_cast<std::size_t>(map.axis)]);
+}
+
+Markup map_svg(const StabilityMap& map) {
+  const std::size_t columns = map.steps.size(), rows = map.stiffnesses.size();
+  const double width = left + cell_width * static_cast<double>(columns) + 12;
+  const double below = top + cell_height * static_cast<double>(rows);
+  Markup drawing;
+  for (std::size_t i = 0; i < map.cells.size(); ++i) {
+    const StabilityCell& cell = map.cells[i];
+    const double x = left + cell_width * static_cast<double>(i % columns);
+    const double y = below - cell_height * static_cast<double>(i / columns + 1);
+    const std::string says =
+        fmt::format("h = {:.2g} s, stiffness {:.2g}: {}, energy error {:.2g}, {} steps not converged", cell.step,
+                    cell.stiffness, outcome_name(cell.outcome), cell.energy_error, cell.not_converged);
+    drawing += element("g", {},
+                       element("title", says) +
+                           element("rect", {{"x", fmt::format("{}", x)},
+                                            {"y", fmt::format("{}", y)},
+                                            {"width", fmt::format("{}", cell_width - 1)},
+                                            {"height", fmt::format("{}", cell_height - 1)},
+                                            {"fill", bands[band_of(cell)].color}}) +
+                           sign(cell, x + cell_width / 2 - 0.5, y + cell_height / 2 - 0.5));
+  }
+  for (std::size_t c = 0; c < columns; ++c) {
+    drawing += text(left + cell_width * (static_cast<double>(c) + 0.5), below + 15, "middle", power(map.steps[c]));
+  }
+  for (std::size_t r = 0; r < rows; ++r) {
+    drawing +=
+        text(left - 6, below - cell_height * (static_cast<double>(r) + 0.5) + 4, "end", power(map.stiffnesses[r]));
+  }
+  drawing += text(left + cell_width * static_cast<double>(columns) / 2, below + 34, "middle", "step, s");
+  const double per_decade = static_cast<double>(columns - 1) / std::log10(map.steps.back() / map.steps.front());
+  std::string path;
+  for (std::size_t r = 0; r < rows; ++r) {
+    const double place = std::log10(map.limits[r] / map.steps.front()) * per_decade + 0.5;
+    if (!std::isfinite(place) || place < 0 || place > static_cast<double>(columns)) continue;
+    path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", left + cell_width * place,
+                        below - cell_height * (static_cast<double>(r) + 0.5));
+  }
+  drawing += element(
+      "path", {{"d", path}, {"fill", "none"}, {"stroke", "#000"}, {"stroke-width", "2"}, {"stroke-dasharray", "6 3"}});
+  const Markup svg = element(
+      "svg",
+      {{"viewBox", fmt::format("0 0 {} {}", width, below + bottom)}, {"role", "img"}, {"aria-label", map_title(map)}},
+      drawing);
+  return element("figure", {{"class", "chart"}},
+                 element("figcaption", map_title(map) + "; the dashed line: " + map.limit_name) +
+                     element("p", {{"class", "axis-title"}}, stiffness_title(map.axis)) + svg);
+}
+
+Markup map_legend() {
+  Markup entries;
+  const auto entry = [&](const char* color, const Markup& mark, const char* label) {
+    entries += element("li", element("svg", {{"class", "key"}, {"viewBox", "0 0 24 14"}, {"aria-hidden", "true"}},
+                                     element("rect", {{"width", "22"}, {"height", "13"}, {"fill", color}}) + mark) +
+                                 label);
+  };
+  for (std::size_t b = 0; b + 1 < bands.size(); ++b) entry(bands[b].color, {}, bands[b].label);
+  entry(bands[0].color, sign({.outcome = StabilityOutcome::not_converged}, 11, 6.5), "some steps did not converge");
+  entry(bands.back().color, sign({.outcome = StabilityOutcome::blown_up}, 11, 6.5), "blown up");
+  return element("p", {}, "Error of the energy, of what moved:") + element("ul", {{"class", "legend"}}, entries);
+}
+
+std::string map_csv(const StabilityMap& map) {
+  std::string table = "step,stiffness,outcome,energy_error,steps_not_converged,predicted_limit,band\n";
+  for (std::size_t i = 0; i < map.cells.size(); ++i) {
+    const StabilityCell& c = map.cells[i];
+    table += fmt::format("{:.6g},{:.6g},{},{:.6g},{},{:.6g},{}\n", c.step, c.stiffness, outcome_name(c.outcome),
+                         c.energy_error, c.not_converged, map.limits[i / map.steps.size()], band_of(c));
+  }
+  return table;
+}
+
+std::string write_map(const StabilityMap& map, const std::filesystem::path& folder) {
+  const std::string name = map_name(map);
+  write_file_atomically(folder / (name + ".csv"), map_csv(map));
+  std::string palette;
+  for (std::size_t b = 0; b < bands.size(); ++b)
+    palette += fmt::format("{}{} '{}'", b == 0 ? "" : ", ", b, bands[b].color);
+  const auto marked = [&](const char* outcome, const char* style, const char* title) {
+    return fmt::format(", \\\n     '{}.csv' skip 1 using 1:(strcol(3) eq '{}' ? $2 : 1/0) with points {} title '{}'",
+                       name, outcome, style, title);
+  };
+  const std::string script = fmt::format(
+      "# gnuplot {0}.gp draws {0}.svg and {0}.png from {0}.csv.\n"
+      "set datafile separator ','\nset encoding utf8\nset title \"{1}\" noenhanced\nset xlabel 'step, s'\nset ylabel "
+      "'{2}'\n"
+      "set logscale xy\nset format '10^{{%L}}'\nset key outside below\nset xrange [{3}:{4}]\nset yrange [{5}:{6}]\n"
+      "set palette maxcolors {7} defined ({8})\nset cbrange [-0.5:{9}.5]\nset cbtics ('< 0.1 %%' 0, '< 1 %%' 1, '< 10 "
+      "%%' 2, "
+      "'< 50 %%' 3, 'lost' 4, 'blown up' 5)\nset cblabel 'error of the energy'\n",
+      name, map_title(map), stiffness_title(map.axis), map.steps.front() / 1.8, map.steps.back() * 1.8,
+      map.stiffnesses.front() / 1.8, map.stiffnesses.back() * 1.8, bands.size(), palette, bands.size() - 1);
+  const auto plot = [&](double size) {
+    return fmt::format("plot '{}.csv' skip 1 using 1:2:7 with points pt 5 ps {} palette notitle", name, size) +
+           marked("not converged", "pt 6 ps 0.6 lw 1.2 lc rgb '#222222'", "some steps did not converge") +
+           marked("blown up", "pt 2 ps 0.6 lw 1.5 lc rgb 'white'", "blown up") +
+           fmt::format(", \\\n     '{}.csv' skip 1 using 6:2 with lines lw 2 dt 2 lc rgb 'black' title '{}'", name,
+                       map.limit_name);
+  };
+  write_file_atomically(
+      folder / (name + ".gp"),
+      script + fmt::format("set terminal svg size 800,640 font 'DejaVu Sans,13'\nset output '{0}.svg'\n{1}\n"
+                           "set terminal pngcairo size 1200,960 font 'DejaVu Sans,16'\nset output '{0}.png'\n{2}\n",
+                           name, plot(1.6), plot(2.6)));
+  return draw_with_gnuplot(folder, name);
+}
+
+}  // namespace drape

@@ -1,0 +1,153 @@
+// What goes wrong around drape: full disks, broken files, signals, crowds. Whatever it is, a film is there completely
+// or not at all, and what stood in its place before is still whole.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "tests/cli/run_drape.hpp"
+#include "tests/support/gif_file.hpp"
+#include "tests/support/random.hpp"
+
+namespace drape {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::drape;
+using testing::Finished;
+using testing::SceneFolder;
+
+const std::string scene = testing::least_scene +
+                          "duration = 2\n[effects.gravity]\n[video]\nsize = [64, 48]\n[look]\nsamples = 1\n[camera]\n"
+                          "position = [4, 4, 3]\ntarget = [0, 0, 0]\n";
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+std::vector<std::string> names(const SceneFolder& folder) {
+  std::vector<std::string> result;
+  for (const auto& entry : fs::directory_iterator(folder.path())) result.push_back(entry.path().filename());
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// Starts a long film in the folder.
+pid_t start_film(const SceneFolder& folder) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  if (chdir(folder.path().c_str()) != 0) _exit(99);
+  execl(DRAPE_EXECUTABLE, DRAPE_EXECUTABLE, "render", "scene.toml", "--quiet", "--set", "time.duration=100000", "-o",
+        "film.gif", static_cast<char*>(nullptr));
+  _exit(99);
+}
+
+/// Sends a signal after a time and returns how the process ended, as a shell says it.
+int end_with(pid_t child, int signal, double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  kill(child, signal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+TEST(Faults, AFullDiskExitsWith4AndLeavesTheOldFilm) {
+  const SceneFolder folder;
+  folder.write("scene.toml", scene);
+  for (const char* film : {"film.gif", "film.mp4", "film.png", "table.csv"}) {
+    folder.write(film, "old");
+    const std::string output =
+        std::string(film).ends_with(".csv") ? "simulate scene.toml --energies " : "render scene.toml -o ";
+    // The shell makes the system refuse to let any file grow, and drape inherits that.
+    const Finished finished = drape(folder, output + film, "trap '' XFSZ; ulimit -f 0;");
+    EXPECT_EQ(finished.code, 4) << finished.text;
+    EXPECT_NE(finished.text.find(film), std::string::npos) << finished.text;
+    EXPECT_EQ(content(folder.path() / film), "old");
+    fs::remove(folder.path() / film);
+  }
+  EXPECT_EQ(names(folder), std::vector<std::string>{"scene.toml"});
+}
+
+TEST(Faults, AFolderThatCannotBeWrittenExitsWith4BeforeAnythingIsComputed) {
+  const SceneFolder folder;
+  folder.write("scene.toml", scene);
+  for (const char* option : {"render scene.toml --set time.duration=1e6 -o /proc/film.gif",
+                             "simulate scene.toml --set time.duration=1e6 --energies /proc/table.csv"}) {
+    const Finished finished = drape(folder, option);
+    EXPECT_EQ(finished.code, 4) << finished.text;
+    EXPECT_NE(finished.text.find("/proc/"), std::string::npos) << finished.text;
+  }
+}
+
+TEST(Faults, ATextureThatIsMissingOrCutIsNamed) {
+  const SceneFolder folder;
+  const fs::path plaid = fs::path(DRAPE_SOURCE_DIR) / "textures/plaid.png";
+  folder.write("cut.png", content(plaid).substr(0, 2000));
+  folder.write("scene.toml", scene);
+  for (const char* texture : {"nowhere.png", "cut.png"}) {
+    const Finished finished = drape(folder, std::string("render scene.toml -o film.gif --set look.texture=") + texture);
+    EXPECT_EQ(finished.code, 2) << finished.text;
+    EXPECT_NE(finished.text.find(texture), std::string::npos) << finished.text;
+    EXPECT_FALSE(fs::exists(folder.path() / "film.gif"));
+  }
+}
+
+TEST(Faults, CtrlCAtAnyMomentLeavesAPlayableFilmOrNone) {
+  test::Random random(static_cast<std::uint64_t>(getpid()));
+  for (int attempt = 0; attempt < 6; ++attempt) {
+    const SceneFolder folder;
+    folder.write("scene.toml", scene);
+    const double moment = random.between(0, 1.2);
+    SCOPED_TRACE(moment);
+    EXPECT_EQ(end_with(start_film(folder), SIGINT, moment), 130);
+    std::vector<std::string> expected{"scene.toml"};
+    if (fs::exists(folder.path() / "film.gif")) {
+      EXPECT_GT(testing::read_gif(folder.path() / "film.gif").delays.size(), 0U);
+      expected.insert(expected.begin(), "film.gif");
+    }
+    EXPECT_EQ(names(folder), expected);
+  }
+}
+
+TEST(Faults, Kill9LeavesTheOldFilmWhole) {
+  test::Random random(static_cast<std::uint64_t>(getpid()));
+  const SceneFolder folder;
+  folder.write("scene.toml", scene);
+  ASSERT_EQ(drape(folder, "render scene.toml --quiet -o film.gif").code, 0);
+  const std::string old = content(folder.path() / "film.gif");
+  for (int attempt = 0; attempt < 6; ++attempt) {
+    EXPECT_EQ(end_with(start_film(folder), SIGKILL, random.between(0, 1.2)), 128 + SIGKILL);
+    EXPECT_EQ(content(folder.path() / "film.gif"), old);
+  }
+  // What is left of the killed ones does not stand in the way of the next.
+  EXPECT_EQ(drape(folder, "render scene.toml --quiet -o film.gif").code, 0);
+  EXPECT_EQ(content(folder.path() / "film.gif"), old);
+}
+
+TEST(Faults, ThirtyTwoAtOnceWriteTheSameFilm) {
+  const SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const std::string frames = "render scene.toml --quiet --frames 0..3 -o ";
+  ASSERT_EQ(drape(folder, frames + "alone.gif").code, 0);
+  std::vector<int> codes(32, -1);
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      threads.emplace_back(
+          [&, i] { codes[i] = drape(folder, frames + (i % 2 == 0 ? "shared.gif" : "own{scene}.gif")).code; });
+    }
+  }
+  EXPECT_EQ(codes, std::vector<int>(32, 0));
+  EXPECT_EQ(content(folder.path() / "shared.gif"), content(folder.path() / "alone.gif"));
+  EXPECT_EQ(names(folder), (std::vector<std::string>{"alone.gif", "ownscene.gif", "scene.toml", "shared.gif"}));
+}
+
+}  // namespace
+}  // namespace drape

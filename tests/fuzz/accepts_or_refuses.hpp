@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdlib>
+#include <string_view>
+
+#include "core/error.hpp"
+
+namespace drape {
+
+/// Calls a reader of input. It may return, or throw a UsageError with a message; anything else ends the program.
+template <class Read>
+void accepts_or_refuses(Read&& read) {
+  try {
+    read();
+  } catch (const UsageError& error) {
+    if (std::string_view(error.what()).empty()) std::abort();
+  }
+}
+
+}  // namespace drape

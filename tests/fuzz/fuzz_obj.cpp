@@ -1,0 +1,18 @@
+// Wavefront OBJ.
+
+#include "scene/obj_mesh.hpp"
+#include "tests/fuzz/accepts_or_refuses.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const drape::SourceText source("mesh.obj", std::string(data, data + size));
+  drape::accepts_or_refuses([&] {
+    const drape::Mesh mesh = drape::read_obj_mesh(source);
+    if (!mesh.positions.allFinite()) std::abort();
+    for (const drape::Triangle& triangle : mesh.triangles) {
+      for (const int vertex : triangle) {
+        if (vertex < 0 || vertex >= mesh.positions.rows()) std::abort();
+      }
+    }
+  });
+  return 0;
+}

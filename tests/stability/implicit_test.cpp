@@ -1,0 +1,110 @@
+// The implicit methods on the worst days: what every step of theirs must obey, converged or not.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/stability.hpp"
+#include "tests/stability/hard_cases.hpp"
+#include "tests/stability/step_ledger.hpp"
+#include "tests/stability/traps.hpp"
+
+namespace drape::test {
+namespace {
+
+constexpr Real unit = std::numeric_limits<double>::epsilon();
+
+/// What a run did.
+struct Record {
+  Real growth = 0;            // Σ (ΔK + ΔE − W) [J]
+  Real largest_gain = 0;      // of a single step [J]
+  Real highest = 0;           // K + E [J]
+  Real momentum_scale = 0;    // the most that Σ m ‖v‖ was [kg m/s]
+  double worst_residual = 0;  // of the steps that did not converge [N]
+  int not_converged = 0;
+};
+
+class HardCases : public testing::TestWithParam<std::tuple<HardCase, NamedMethod>> {
+ protected:
+  static void check_step(const StepBalance& b, const Simulation& simulation, const Energies& before,
+                         const StepReport& report) {
+    ASSERT_TRUE(simulation.state().x.allFinite() && simulation.state().v.allFinite());
+    // No iteration raised g, and the step ended no higher than where it began.
+    EXPECT_LE(report.rise, 0);
+    EXPECT_LE(b.end_value, b.start_value + b.energy_rounding);
+    // ∇g and the energies are what the formulas say.
+    EXPECT_NEAR(simulation.residual(), static_cast<double>(b.gradient_norm), static_cast<double>(b.gradient_rounding));
+    const Energies after = simulation.energies();
+    EXPECT_NEAR(after.elastic, static_cast<double>(b.elastic_after), static_cast<double>(b.energy_rounding));
+    // The balance: ΔK and ΔE as the simulation reports them, the other side as it follows from the states.
+    const Real others = (b.energy_after - b.elastic_after) - (b.energy_before - b.elastic_before);
+    const Real change = Real(after.kinetic) - before.kinetic + after.elastic - before.elastic + others;
+    const Real balance = b.work - b.inertial_loss - b.convexity_loss + b.imbalance;
+    const Real rounding =
+        b.energy_rounding +
+        16 * unit * (b.kinetic_before + b.kinetic_after + b.inertial_loss + std::abs(b.work) + std::abs(b.imbalance));
+    EXPECT_LE(std::abs(change - balance), rounding)
+        << static_cast<double>(change) << " J, and by the balance " << static_cast<double>(balance);
+  }
+
+  static Record run(Simulation& simulation, const StepLedger& ledger, std::int64_t steps) {
+    Record record;
+    for (std::int64_t step = 0; step < steps && !HasFatalFailure(); ++step) {
+      const State before = simulation.state();
+      const Energies energies = simulation.energies();
+      const StepReport report = simulation.step();
+      const StepBalance b = ledger.balance(before, simulation.state());
+      check_step(b, simulation, energies, report);
+      record.growth += b.gain();
+      record.largest_gain = step == 0 ? b.gain() : std::max(record.largest_gain, b.gain());
+      record.highest = std::max({record.highest, b.kinetic_before + b.energy_before, b.kinetic_after + b.energy_after});
+      record.momentum_scale = std::max(record.momentum_scale, ledger.momentum_scale(simulation.state()));
+      if (report.converged) continue;
+      ++record.not_converged;
+      record.worst_residual = std::max(record.worst_residual, simulation.residual());
+    }
+    return record;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(With, HardCases,
+                         testing::Combine(testing::ValuesIn(hard_cases()), testing::ValuesIn(implicit_methods)),
+                         case_and_method);
+
+TEST_P(HardCases, ObeyTheLawsOfAStep) {
+  const auto& [hard, method] = GetParam();
+  HardRun given;
+  try {
+    given = load(hard, method);
+  } catch (const UsageError& error) {
+    // Refused for the one reason there is.
+    const HardRun forced = load(hard, method, {"integrator.allow_unstable=true"});
+    EXPECT_GT(condition_bound(make_system(forced.settings)), largest_condition);
+    EXPECT_NE(std::string(error.what()).find("double precision"), std::string::npos) << error.what();
+    return;
+  }
+  const StepLedger ledger(given.settings);
+  const FloatingPointTraps traps;
+  Simulation simulation(given.settings);
+  const auto momentum = ledger.momentum(simulation.state());
+  const Record record = run(simulation, ledger, given.steps);
+
+  EXPECT_LE(record.growth, 1e-9 * record.highest)
+      << "the cloth ends with more energy than it had and was given; the largest gain of a step was "
+      << static_cast<double>(record.largest_gain) << " J of " << static_cast<double>(record.highest) << " J";
+  const bool pushed = !given.settings.effects.empty() || !given.settings.cloth.pins.empty();
+  if (!pushed) {
+    // Every step rounds the positions once, and a velocity is their difference over h.
+    const double reach =
+        simulation.state().x.cwiseAbs().maxCoeff() + given.settings.cloth.positions.cwiseAbs().maxCoeff();
+    const Real mass = given.settings.cloth.masses.sum(), steps = static_cast<Real>(given.steps);
+    const Real rounding = 8 * steps * unit * (record.momentum_scale + mass * reach / Real(given.settings.step));
+    EXPECT_LE((ledger.momentum(simulation.state()) - momentum).norm(), rounding);
+  }
+  RecordProperty("largest_gain_J", std::to_string(static_cast<double>(record.largest_gain)));
+  RecordProperty("steps_not_converged", record.not_converged);
+  RecordProperty("worst_residual_N", std::to_string(record.worst_residual));
+}
+
+}  // namespace
+}  // namespace drape::test

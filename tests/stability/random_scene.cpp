@@ -1,0 +1,166 @@
+#include "tests/stability/random_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "scene/tables.hpp"
+#include "tests/support/random.hpp"
+
+namespace drape::test {
+namespace {
+
+class Writer {
+ public:
+  explicit Writer(std::uint64_t seed) : random_(seed * 7919 + 17), wild_(random_.number() < 0.25 ? 0.12 : 0.0) {
+    for (int i = 0; i < 10; ++i) random_.number();  // near seeds begin alike
+  }
+
+  std::string scene() {
+    columns_ = 1 + random_.below(18);
+    rows_ = 1 + random_.below(18);
+    for (int pin = 0; pin < random_.below(4); ++pin) pins_.push_back(random_.below((columns_ + 1) * (rows_ + 1)));
+    cloth();
+    step_ = random_.number() < wild_ ? std::pow(10, random_.between(-8, 2)) : std::pow(10, random_.between(-3.5, -1.5));
+    text_ += fmt::format("[time]\nstep = {}\nduration = {}\n", number(step_), number(step_ * random_.below(51)));
+    Scene scene;
+    ClothTable cloth_table;
+    for (const TableType& table : scene_tables(cloth_table, scene)) {
+      if (table.name != "cloth" && table.name != "cloth.transform" && table.name != "time")
+        add(table, "[" + table.name);
+    }
+    for (const EffectType& type : effect_types()) {
+      if (random_.number() > 0.3) continue;
+      const int count = type.repeatable ? 1 + random_.below(2) : 1;
+      for (int i = 0; i < count; ++i) {
+        const auto effect = type.make();
+        add(effect_table(type, *effect),
+            type.repeatable ? fmt::format("[[effects.{}]", type.name) : fmt::format("[effects.{}", type.name));
+      }
+    }
+    return text_;
+  }
+
+ private:
+  void cloth() {
+    text_ += fmt::format("[cloth]\nmesh = {{ grid = [{}, {}] }}\n", columns_, rows_);
+    if (random_.number() < 0.3) text_ += fmt::format("rest = {{ grid = [{}, {}] }}\n", columns_, rows_);
+    text_ += fmt::format("mass = {}\nstiffness = {}\n", positive(1), positive(200));
+    text_ += pins_.empty() ? "" : fmt::format("pins = [{}]\n", fmt::join(pins_, ", "));
+    if (random_.number() < 0.3) text_ += "velocity = " + vector(3) + "\n";
+    if (random_.number() < 0.4) {
+      text_ += fmt::format("[cloth.transform]\nscale = {}\nrotate = {}\ntranslate = {}\n", positive(1), vector(90),
+                           vector(1));
+    }
+  }
+
+  void add(const TableType& table, const std::string& heading) {
+    text_ += heading + "]\n";
+    for (const Key& key : table.keys.all()) {
+      if (!key.required && random_.number() > 0.35) continue;
+      const std::string text = std::visit([&](const auto& target) { return value(key, target); }, key.target);
+      if (!text.empty()) text_ += fmt::format("{} = {}\n", key.name, text);
+    }
+  }
+
+  static std::string number(double value) {
+    const std::string text = fmt::format("{}", value);
+    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+  }
+  /// A number of this size, or wild.
+  double any(double size) {
+    if (random_.number() >= wild_) return size * random_.between(-1, 1);
+    constexpr double extremes[] = {0, -1, 1e-300, 1e300, -1e300, 1e-12, 1e12, 5e-324};
+    if (random_.number() < 0.4) return extremes[random_.below(8)];
+    return std::pow(10, random_.between(-12, 12)) * (random_.number() < 0.5 ? -1 : 1);
+  }
+  std::string positive(double size) {
+    if (random_.number() < 0.1 * wild_) return random_.number() < 0.5 ? "nan" : "-inf";
+    const double value = random_.number() < wild_ ? any(size) : size * std::pow(10, random_.between(-1, 1));
+    return number(random_.number() < 0.8 ? std::abs(value) : value > 0 ? value : -value * (1 - 2 * wild_));
+  }
+  std::string vector(double size) {
+    return fmt::format("[{}, {}, {}]", number(any(size)), number(any(size)), number(any(size)));
+  }
+
+  double within(const Key& key, double initial) {
+    const bool below = std::isfinite(key.minimum), above = std::isfinite(key.maximum);
+    const double size = initial != 0 ? std::abs(initial) : 1;
+    if (random_.number() < wild_) return any(size);
+    if (below && above) return key.minimum + (key.maximum - key.minimum) * random_.between(0.01, 1);
+    if (below) return key.minimum + (key.minimum == 0 ? size : 0.5) * std::pow(10, random_.between(-1, 1));
+    return any(size);
+  }
+  int whole(const Key& key, int initial) {
+    if (random_.number() < wild_ && key.name.find("iterations") == std::string::npos) {
+      constexpr int extremes[] = {0, -1, 2147483647, -2147483647 - 1, 65536};
+      return extremes[random_.below(5)];
+    }
+    const int low = std::isfinite(key.minimum) ? static_cast<int>(key.minimum) : -100;
+    const int high =
+        std::isfinite(key.maximum) ? static_cast<int>(key.maximum) : low + 2 * std::max(50, std::min(initial, 100));
+    return low + random_.below(high - low + 1);
+  }
+
+  std::string value(const Key&, const bool*) { return random_.number() < 0.5 ? "true" : "false"; }
+  std::string value(const Key& key, const int* v) { return fmt::format("{}", whole(key, *v)); }
+  std::string value(const Key& key, const std::optional<int>*) { return fmt::format("{}", whole(key, 50)); }
+  std::string value(const Key& key, const double* v) { return number(within(key, *v)); }
+  std::string value(const Key& key, const std::optional<double>* v) {
+    // A cloth bends with far less than a joule; a sphere's radius is a fraction of the cloth.
+    return number(within(key, v->value_or(key.name == "rigidity" ? 1e-4 : 0.3)));
+  }
+  std::string value(const Key&, const std::string*) { return random_.number() < wild_ ? "\"\\u0000\"" : "\"a\""; }
+  std::string value(const Key&, const std::filesystem::path*) {
+    return random_.number() < wild_ ? "\"nowhere.png\"" : "\"plaid.png\"";
+  }
+  std::string value(const Key&, const Rgb*) { return random_.number() < wild_ ? "\"#12345\"" : "\"teal\""; }
+  std::string value(const Key&, const std::optional<Rgb>*) { return "\"#123456\""; }
+  std::string value(const Key&, const Choice& choice) {
+    if (random_.number() < 0.3 * wild_) return "\"nothing\"";
+    return '"' + choice.names[static_cast<std::size_t>(random_.below(static_cast<int>(choice.names.size())))] + '"';
+  }
+  std::string value(const Key&, const OwnForm&) { return {}; }
+  std::string value(const Key&, const KeyframeList& list) {
+    std::string text;
+    double time = 0;
+    for (int i = 0; i < 1 + random_.below(4); ++i) {
+      time += random_.number() < wild_ ? any(1) : 10 * step_ * random_.number() + 1e-9;
+      text +=
+          fmt::format("{}{{ time = {}, {} = {} }}", i == 0 ? "" : ", ", number(time), list.names.front(), vector(0.3));
+    }
+    return "[" + text + "]";
+  }
+  std::string value(const Key&, const VertexSelection&) {
+    if (pins_.empty() || random_.number() < wild_) return "[0]";
+    return fmt::format("[{}]", pins_[static_cast<std::size_t>(random_.below(static_cast<int>(pins_.size())))]);
+  }
+  std::string value(const Key&, const std::shared_ptr<const SphereTrack>*) {
+    return random_.number() < wild_ ? "\"nowhere.usda\"" : "";
+  }
+  std::string value(const Key& key, const Eigen::Vector2i*) {
+    return fmt::format("[{}, {}]", whole(key, 64), whole(key, 64));
+  }
+  std::string value(const Key& key, const std::optional<Eigen::Vector2i>*) {
+    return fmt::format("[{}, {}]", whole(key, 64), whole(key, 64));
+  }
+  std::string value(const Key&, const Eigen::Vector3d* v) {
+    return vector(v->isZero(0) ? 1 : v->cwiseAbs().maxCoeff());
+  }
+  std::string value(const Key&, const std::optional<Eigen::Vector3d>*) { return vector(1); }
+  std::string value(const Key& key, const std::vector<int>*) { return fmt::format("[{}]", whole(key, 10)); }
+
+  Random random_;
+  double wild_;  // the part of the values that are not near their defaults
+  int columns_ = 1, rows_ = 1;
+  std::vector<int> pins_;
+  double step_ = 0.01;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string random_scene(std::uint64_t seed) { return Writer(seed).scene(); }
+
+}  // namespace drape::test

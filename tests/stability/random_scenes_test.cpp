@@ -1,0 +1,89 @@
+// Random scenes: each ends in "ok", "diverged" with its message, or "scene error" with its line. DRAPE_RANDOM_SCENES
+// says how many there are, DRAPE_RANDOM_SEED runs one of them alone and prints it.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include "run/run_scene.hpp"
+#include "tests/stability/random_scene.hpp"
+#include "tests/support/scene_folder.hpp"
+
+namespace drape::test {
+namespace {
+
+constexpr int shards = 4;           // so that several processors share the work
+constexpr unsigned patience = 120;  // for one scene [s]
+
+int environment(const char* name, int otherwise) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? otherwise : std::atoi(value);
+}
+
+/// Every line names a place in the file.
+void expect_places(const std::string& message) {
+  static const std::regex place(R"(.*scene\.toml:\d+:\d+: .+)");
+  std::istringstream lines(message);
+  for (std::string line; std::getline(lines, line);) EXPECT_TRUE(std::regex_match(line, place)) << line;
+}
+
+std::string outcome(const testing::SceneFolder& folder, const std::string& text) {
+  RunOptions options;
+  options.records.energies = (folder.path() / "energies.csv").string();
+  std::filesystem::remove(options.records.energies);
+  Progress progress;
+  const std::atomic<bool> stop = false;
+  std::string how = "ok";
+  try {
+    const Scene scene = folder.load(text);
+    const RunResult result = run_scene(scene, options, stop, progress, [] {});
+    if (result.outcome == Outcome::diverged) {
+      how = "diverged";
+      EXPECT_TRUE(result.divergence.starts_with("the simulation diverged at step ")) << result.divergence;
+      EXPECT_EQ(result.divergence.find('\n'), std::string::npos) << result.divergence;
+    }
+    EXPECT_TRUE(std::filesystem::exists(options.records.energies));
+  } catch (const UsageError& error) {
+    how = "scene error";
+    expect_places(error.what());
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    const std::string name = entry.path().filename();
+    EXPECT_TRUE(name == "scene.toml" || (how != "scene error" && name == "energies.csv")) << name;
+  }
+  return how;
+}
+
+class RandomScenes : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Shard, RandomScenes, ::testing::Range(0, shards));
+
+TEST_P(RandomScenes, EndWell) {
+  const testing::SceneFolder folder;
+  const int count = environment("DRAPE_RANDOM_SCENES", 200), only = environment("DRAPE_RANDOM_SEED", -1);
+  std::map<std::string, int> outcomes;
+  int scenes = 0;
+  for (int seed = GetParam(); seed < count || seed == only; seed += shards) {
+    if (only >= 0 && seed != only) continue;
+    const std::string text = random_scene(static_cast<std::uint64_t>(seed));
+    SCOPED_TRACE("DRAPE_RANDOM_SEED=" + std::to_string(seed));
+    std::printf("seed %d: ", seed);
+    std::fflush(stdout);  // the last one is that of a crash
+    if (only >= 0) std::printf("\n%s", text.c_str());
+    alarm(patience);
+    const std::string how = outcome(folder, text);
+    alarm(0);
+    std::printf("%s\n", how.c_str());
+    ++outcomes[how];
+    ++scenes;
+  }
+  if (only < 0)
+    EXPECT_GE(2 * outcomes["ok"], scenes)
+        << outcomes["diverged"] << " diverged, " << outcomes["scene error"] << " scene errors";
+}
+
+}  // namespace
+}  // namespace drape::test

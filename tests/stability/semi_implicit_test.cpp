@@ -1,0 +1,204 @@
+// Semi-implicit Euler: stable up to the step it computes, refused beyond, and found out where it blows up.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+
+#include "sim/stability.hpp"
+#include "tests/stability/hard_cases.hpp"
+#include "tests/stability/step_ledger.hpp"
+#include "tests/stability/traps.hpp"
+#include "tests/support/cloths.hpp"
+#include "tests/support/meshes.hpp"
+#include "tests/support/setups.hpp"
+#include "tests/support/usage_error.hpp"
+
+namespace drape::test {
+namespace {
+
+constexpr Solver semi_implicit{Method::semi_implicit};
+
+class HardScenes : public ::testing::TestWithParam<HardCase> {};
+INSTANTIATE_TEST_SUITE_P(SemiImplicit, HardScenes, ::testing::ValuesIn(hard_cases()),
+                         [](const auto& hard) { return hard.param.name; });
+
+/// The case with a step that semi-implicit Euler stands; nothing where its effects cannot be evaluated explicitly.
+std::optional<HardRun> safe_run(const HardCase& hard) {
+  const auto refused = [&](const std::vector<std::string>& more) {
+    return testing::usage_error([&] { static_cast<void>(load(hard, semi_implicit, more)); });
+  };
+  const std::string reason = refused({"integrator.allow_unstable=true"});
+  if (reason.find("response: semi-implicit Euler evaluates every force") != std::string::npos) return std::nullopt;
+  EXPECT_EQ(reason, "(no error)");
+  HardRun run = load(hard, semi_implicit, {"integrator.allow_unstable=true"});
+  const double largest = safe_step(make_system(run.settings));
+  if (run.settings.step > largest) {
+    if (!hard.file.empty()) {
+      const std::string message = refused({});
+      EXPECT_NE(message.find(fmt::format("it is stable up to {:.4g} s", largest)), std::string::npos) << message;
+    }
+    run.settings.step = 0.95 * largest;
+  }
+  run.settings.integrator.allow_unstable = false;
+  return run;
+}
+
+// With r = hω/2 symplectic Euler keeps K + E − (h/2) v·∇E of a linear cloth, so that K + E varies by (1 + r)/(1 − r). A
+// cloth is not linear: where springs pass through zero length their force jumps, and every passage gains a little.
+TEST_P(HardScenes, StayWithinTheirEnergyAtASafeStep) {
+  const std::optional<HardRun> given = safe_run(GetParam());
+  if (!given) return;
+  const StepLedger ledger(given->settings);
+  const FloatingPointTraps traps;
+  Simulation simulation(given->settings);
+  const Energies begin = simulation.energies();
+  constexpr Real factor = 4 * (1 + 0.95) / (1 - 0.95);
+  Real explained = begin.kinetic + begin.elastic;
+  for (std::int64_t step = 0; step < given->steps; ++step) {
+    const State before = simulation.state();
+    simulation.step();
+    ASSERT_TRUE(simulation.state().x.allFinite() && simulation.state().v.allFinite());
+    explained += ledger.work_at_start(before, simulation.state());
+    const Energies now = simulation.energies();
+    ASSERT_LE(now.kinetic + now.elastic, factor * explained + ledger.resting_energy()) << "step " << step;
+  }
+}
+
+/// The longest step, in safe ones, with which a cloth does not blow up in some thousand steps.
+double measured_border(const SimulationSettings& settings) {
+  const double safe = safe_step(make_system(settings));
+  const auto blows_up = [&](double factor) {
+    SimulationSettings s = settings;
+    s.step = factor * safe;
+    s.integrator.allow_unstable = true;
+    Simulation simulation(s);
+    try {
+      for (int step = 0; step < 2000; ++step) simulation.step();
+    } catch (const DivergedError&) {
+      return true;
+    }
+    return false;
+  };
+  double stable = 0.9, unstable = 1.5;
+  EXPECT_FALSE(blows_up(stable));
+  EXPECT_TRUE(blows_up(unstable));
+  while (unstable - stable > 0.002) {
+    const double middle = (stable + unstable) / 2;
+    (blows_up(middle) ? unstable : stable) = middle;
+  }
+  return stable;
+}
+
+/// A cloth with a little of every motion.
+SimulationSettings disturbed(const Mesh& mesh, const Mesh& rest, double stiffness) {
+  SimulationSettings settings = setup(make_cloth(mesh, rest, 1, stiffness, {0}), semi_implicit, 1);
+  settings.cloth.velocities = 1e-3 * random_vertices(settings.cloth.vertex_count(), 3);
+  return settings;
+}
+
+TEST(SafeStep, IsNearTheTrueBorder) {
+  for (const int cells : {3, 8, 20}) {
+    const Mesh mesh = make_grid(cells, cells);
+    const double border = measured_border(disturbed(mesh, mesh, 180));
+    EXPECT_GE(border, 0.98) << cells;
+    EXPECT_LE(border, 1.2) << cells;
+  }
+}
+
+// Where springs are stretched far, they resist in all directions alike, as the bound supposes.
+TEST(SafeStep, IsTheTrueBorderWhereSpringsAreStretched) {
+  const Mesh mesh = make_grid(8, 8);
+  Mesh rest = mesh;
+  rest.positions *= 1e-3;
+  SimulationSettings settings = disturbed(mesh, rest, 180);
+  for (int i = 0; i < settings.cloth.vertex_count(); ++i) {
+    const bool border = std::abs(mesh.positions(i, 0)) == 1 || std::abs(mesh.positions(i, 1)) == 1;
+    if (border && i > 0) settings.cloth.pins.push_back(i);
+  }
+  const double border = measured_border(settings);
+  EXPECT_GE(border, 0.98);
+  EXPECT_LE(border, 1.02);
+}
+
+TEST(SafeStep, CountsWhatIsPushedBesideTheSprings) {
+  SimulationSettings settings = setup(testing::grid_cloth(8), semi_implicit, 0.0055);
+  EXPECT_FALSE(stability_problem(settings, make_system(settings)));
+  // Each of them alone would be stable, (h√k)² = 3.9 and (hω)² = 3.8, but not the two together.
+  settings.effects = {
+      effect("sphere", {{"center", Eigen::Vector3d(0, 0, -0.3)}, {"radius", 0.4}, {"stiffness", 1.3e5}})};
+  EXPECT_TRUE(stability_problem(settings, make_system(settings)));
+}
+
+/// A cloth that hangs under gravity, with a step beyond the safe one.
+SimulationSettings unstable(double factor) {
+  SimulationSettings settings = setup(testing::grid_cloth(8), semi_implicit, 1);
+  settings.effects = {effect("gravity")};
+  settings.step = factor * safe_step(make_system(settings));
+  settings.integrator.allow_unstable = true;
+  return settings;
+}
+
+TEST(BlowUp, IsFoundAtTheStepInWhichTheEnergyIsNoLongerExplained) {
+  for (const double factor : {1.2, 1.5, 3.0}) {
+    const SimulationSettings settings = unstable(factor);
+    const StepLedger ledger(settings);
+    Simulation simulation(settings);
+    Real explained = 0;
+    bool ended = false;
+    for (int step = 0; step < 2000 && !ended; ++step) {
+      const State before = simulation.state();
+      try {
+        simulation.step();
+      } catch (const DivergedError&) {
+        ended = true;
+      }
+      explained += ledger.work_at_start(before, simulation.state());
+      const Energies now = simulation.energies();
+      EXPECT_EQ(ended, now.kinetic + now.elastic > BlowUpWatch::limit * explained) << "step " << step;
+    }
+    EXPECT_TRUE(ended) << factor;
+    // Long before the numbers end, while the cloth can still be drawn.
+    EXPECT_LT(simulation.state().x.cwiseAbs().maxCoeff(), 1e4) << factor;
+  }
+}
+
+TEST(BlowUp, IsReportedWithAllThatExplainsIt) {
+  Simulation simulation(unstable(1.5));
+  std::string message;
+  try {
+    for (int step = 0; step < 2000; ++step) simulation.step();
+  } catch (const DivergedError& error) {
+    EXPECT_EQ(static_cast<int>(error.code()), 3);
+    message = error.what();
+  }
+  std::smatch parts;
+  ASSERT_TRUE(
+      std::regex_search(message, parts,
+                        std::regex("step (\\d+) \\(t = (\\S+) s\\): vertex (\\d+) moves at (\\S+) m/s.* grown to "
+                                   "(\\S+) times.* stable up to a step of (\\S+) s.*\"liu13\"")))
+      << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  const State& state = simulation.state();
+  EXPECT_EQ(std::stoll(parts[1]), state.step);
+  EXPECT_NEAR(std::stod(parts[2]), simulation.time(), 1e-5 * simulation.time());
+  Eigen::Index fastest = 0;
+  const double speed = state.v.rowwise().norm().maxCoeff(&fastest);
+  EXPECT_EQ(std::stoll(parts[3]), fastest);
+  EXPECT_NEAR(std::stod(parts[4]), speed, 0.01 * speed);
+  EXPECT_GT(std::stod(parts[5]), BlowUpWatch::limit * 0.95);
+  const double safe = simulation.settings().step / 1.5;
+  EXPECT_NEAR(std::stod(parts[6]), safe, 1e-3 * safe);
+}
+
+// A step beyond the safe one that is stable all the same is not called a blow-up.
+TEST(BlowUp, IsNotSeenWhereThereIsNone) {
+  Simulation simulation(unstable(1.05));
+  EXPECT_NO_THROW({
+    for (int step = 0; step < 2000; ++step) simulation.step();
+  });
+}
+
+}  // namespace
+}  // namespace drape::test
