@@ -80,7 +80,8 @@ class MethodOnGrid {
       const ConstantFactor factor(system, Precision::automatic);
       factor_.push_back(1e6 * (thread_seconds() - begin));
     }
-    run(*simulation_);  // what is cold is warmed
+    simulation_->restore(start_);
+    simulation_->step();  // what is cold is warmed
     begin = thread_seconds();
     run(*simulation_);
     time_.push_back(1e6 * (thread_seconds() - begin) / timed_steps);

@@ -12,7 +12,7 @@
 namespace drape {
 
 struct ScalingOptions {
-  int largest = 160;  ///< cells along a side of the largest grid
+  int largest = 80;  ///< cells along a side of the largest grid
   int runs = 5;
 };
 

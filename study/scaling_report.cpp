@@ -174,7 +174,7 @@ StudyReport scaling_report(const ScalingStudy& study) {
       {"How it was measured",
        {fmt::format("Five steps from the same state, as computing time of one thread that stays on one processor: the "
                     "median and the quartiles of {} runs, in which the methods take turns on each grid. Every run sets "
-                    "the simulation up anew and takes the same steps once before they are timed. Memory is what the "
+                    "the simulation up anew and takes a step that is not timed. Memory is what the "
                     "heap has given to the simulation.",
                     study.options.runs)},
        {},
