@@ -12,6 +12,7 @@
 #include "check/draw_windows.hpp"
 #include "check/picture.hpp"
 #include "render/encode/encoder.hpp"
+#include "render/montage.hpp"
 
 namespace drape {
 namespace {
@@ -73,16 +74,8 @@ double common_amplification(const std::vector<Pair>& pairs) {
 }
 
 Image side_by_side(const Pair& pair, double factor) {
-  const int width = pair.expected.width, height = pair.expected.height;
-  Image wide(3 * width + 2 * gap, height);
-  std::fill(wide.pixels.begin(), wide.pixels.end(), gap_gray);
   const Image difference = amplified_difference(pair.expected, pair.actual, factor);
-  int left = 0;
-  for (const Image* image : {&pair.expected, &pair.actual, &difference}) {
-    for (int y = 0; y < height; ++y) std::copy_n(image->at(0, y), 3 * width, wide.at(left, y));
-    left += width + gap;
-  }
-  return wide;
+  return montage({&pair.expected, &pair.actual, &difference}, 3, gap, gap_gray);
 }
 
 }  // namespace

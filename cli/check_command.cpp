@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <map>
 #include <memory>
 
 #include "check/check_scene.hpp"
@@ -19,6 +18,7 @@
 #include "cli/watched.hpp"
 #include "core/atomic_file.hpp"
 #include "core/nearest.hpp"
+#include "core/shell.hpp"
 
 namespace drape {
 namespace {
@@ -50,21 +50,6 @@ CheckSettings settings_of(const Scene& scene, const CheckArguments& arguments) {
   settings.limits.pixels = arguments.pixels.value_or(settings.limits.pixels);
   settings.limits.flip = arguments.flip.value_or(settings.limits.flip);
   return settings;
-}
-
-/// Names that tell the scenes of a report apart: the files' own, with the folder's before it where there are several.
-std::vector<std::string> unique_names(const std::vector<Scene>& scenes) {
-  std::map<std::string, int> with_this_name, used;
-  for (const Scene& scene : scenes) ++with_this_name[scene.name];
-  std::vector<std::string> names;
-  for (const Scene& scene : scenes) {
-    std::string name = scene.name;
-    const std::string folder = std::filesystem::absolute(scene.file).parent_path().filename().string();
-    if (with_this_name[name] > 1) name = folder + "-" + name;
-    if (const int number = ++used[name]; number > 1) name += fmt::format("-{}", number);
-    names.push_back(std::move(name));
-  }
-  return names;
 }
 
 std::string command_options(const CheckArguments& arguments) {

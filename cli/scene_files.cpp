@@ -1,8 +1,9 @@
 #include "cli/scene_files.hpp"
 
-#include <algorithm>
-#include <cctype>
-#include <string_view>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
 
 #include "core/error.hpp"
 
@@ -22,15 +23,18 @@ std::vector<Scene> load_scenes(const std::vector<std::string>& files, const std:
   return scenes;
 }
 
-std::string shell_word(const std::string& word) {
-  constexpr std::string_view harmless = "%+,-./:=@_";
-  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [&](unsigned char c) {
-    return std::isalnum(c) != 0 || harmless.find(static_cast<char>(c)) != std::string_view::npos;
-  });
-  if (plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
+std::vector<std::string> unique_names(const std::vector<Scene>& scenes) {
+  std::map<std::string, int> with_this_name, used;
+  for (const Scene& scene : scenes) ++with_this_name[scene.name];
+  std::vector<std::string> names;
+  for (const Scene& scene : scenes) {
+    std::string name = scene.name;
+    const std::string folder = std::filesystem::absolute(scene.file).parent_path().filename().string();
+    if (with_this_name[name] > 1) name = folder + "-" + name;
+    if (const int number = ++used[name]; number > 1) name += fmt::format("-{}", number);
+    names.push_back(std::move(name));
+  }
+  return names;
 }
 
 }  // namespace drape

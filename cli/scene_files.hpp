@@ -11,7 +11,7 @@ namespace drape {
 /// @throws UsageError
 std::vector<Scene> load_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides);
 
-/// A word as a shell takes it for one: between quotes if it has to be.
-std::string shell_word(const std::string& word);
+/// Names that tell scenes apart: the files' own, with the folder's before it where there are several.
+std::vector<std::string> unique_names(const std::vector<Scene>& scenes);
 
 }  // namespace drape

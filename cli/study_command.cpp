@@ -1,14 +1,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 
-#include "cli/command_line.hpp"
+#include "cli/studies.hpp"
 #include "cli/watched.hpp"
-#include "study/homework_files.hpp"
-#include "study/stability_report.hpp"
+#include "study/homework_report.hpp"
 
 namespace drape {
 namespace {
@@ -27,55 +25,33 @@ ExitCode run_homework(const HomeworkArguments& arguments, const CommonOptions& c
     spdlog::error("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
-  const std::string problem = write_homework_files(*study, arguments.folder);
-  if (!problem.empty()) spdlog::warn(problem);
-  if (!common.quiet) {
-    fmt::print("{}\n{}\n", homework_text(*study), (std::filesystem::path(arguments.folder) / "report.html").string());
-  }
-  return ExitCode::ok;
+  return hand_out(homework_report(*study), arguments.folder, common);
 }
 
-ExitCode run_stability(const std::string& folder, const StabilityDetail& detail, const CommonOptions& common) {
-  std::optional<StabilityStudy> study;
-  run_watched(common, [&](const std::stop_token& stop, Progress& progress) {
-    study = study_stability(detail, stop, progress);
-  });
-  if (!study) {
-    spdlog::error("interrupted; nothing was written");
-    return ExitCode::interrupted;
-  }
-  const std::string problem = write_stability_files(*study, folder);
-  if (!problem.empty()) spdlog::warn(problem);
-  if (!common.quiet) {
-    fmt::print("{}\n{}\n", stability_text(*study), (std::filesystem::path(folder) / "report.html").string());
-  }
-  return ExitCode::ok;
-}
-
-void add_stability_study(CLI::App& study, const CommonOptions& common, Command& command) {
-  auto folder = std::make_shared<std::string>("out/stability");
-  auto detail = std::make_shared<StabilityDetail>();
-  CLI::App* stability = study.add_subcommand("stability", "Map where each method is stable, converges or blows up");
-  stability->add_option("-o,--output", *folder, "Folder for the results; default out/stability");
-  stability->add_option("--per-decade", detail->per_decade, "Steps and stiffnesses in a factor of ten; default 2")
-      ->check(CLI::Range(1, 20));
-  stability->add_option("--steps", detail->steps, "Of every run; default 100")->check(CLI::Range(1, 100000));
-  stability->callback([folder, detail, &common, &command] {
-    command = [folder, detail, &common] { return run_stability(*folder, *detail, common); };
-  });
-}
-
-}  // namespace
-
-void add_study_command(CLI::App& app, const CommonOptions& common, Command& command) {
-  CLI::App* study = app.add_subcommand("study", "Measure what accuracy costs, and write tables, plots and a page");
-  study->require_subcommand(1);
+void add_homework_study(CLI::App& study, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<HomeworkArguments>();
-  CLI::App* homework = study->add_subcommand("homework", "Measure the homework's tables again, beside its report");
+  CLI::App* homework = study.add_subcommand("homework", "Measure the homework's tables again, beside its report");
   homework->add_option("-o,--output", arguments->folder, "Folder for the results; default out/homework");
   homework->add_option("--runs", arguments->runs, "Timed runs of every case; default 5")->check(CLI::Range(1, 1000));
   homework->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_homework(*arguments, common); }; });
+}
+
+}  // namespace
+
+ExitCode hand_out(const StudyReport& report, const std::filesystem::path& folder, const CommonOptions& common) {
+  const std::string problem = write_report(report, folder);
+  if (!problem.empty()) spdlog::warn(problem);
+  if (!common.quiet) fmt::print("{}\n{}\n", to_text(report), (folder / "report.html").string());
+  return ExitCode::ok;
+}
+
+void add_study_command(CLI::App& app, const CommonOptions& common, Command& command) {
+  CLI::App* study = app.add_subcommand("study", "Measure what accuracy costs, and write tables, plots and a page");
+  study->require_subcommand(1);
+  add_homework_study(*study, common, command);
+  add_accuracy_study(*study, common, command);
+  add_scaling_study(*study, common, command);
   add_stability_study(*study, common, command);
 }
 

@@ -30,6 +30,7 @@ Frame frame_of(const Chart& chart) {
     for (const ChartPoint& point : series.points) {
       xs.push_back(point.x);
       ys.push_back(point.y);
+      if (point.spread) xs.insert(xs.end(), point.spread->begin(), point.spread->end());
     }
   }
   for (const ChartLevel& level : chart.levels) ys.push_back(level.y);
@@ -89,7 +90,7 @@ Markup sign(std::size_t style) { return element("path", {{"class", "sign"}, {"d"
 
 Markup draw(const ChartSeries& series, std::size_t style, const Frame& frame) {
   std::string path;
-  Markup points;
+  Markup points, spreads;
   bool pen_down = false;
   const bool crowd = series.points.size() > crowded || !series.markers;
   for (const ChartPoint& point : series.points) {
@@ -104,9 +105,14 @@ Markup draw(const ChartSeries& series, std::size_t style, const Frame& frame) {
     attributes.push_back({"data-label", series.name.empty() ? point.label : series.name + ", " + point.label});
     if (!point.command.empty()) attributes.push_back({"data-command", point.command});
     points += element("g", attributes, sign(style));
+    if (point.spread) {
+      const auto [from, to] = *point.spread;
+      spreads += element("path", {{"class", "spread"},
+                                  {"d", fmt::format("M{:.1f} {}H{:.1f}", frame.across(from), y, frame.across(to))}});
+    }
   }
   return element("g", {{"class", fmt::format("series s{}", style)}, {"data-command", series.command}},
-                 element("path", {{"class", "curve"}, {"d", path}}) + points);
+                 element("path", {{"class", "curve"}, {"d", path}}) + spreads + points);
 }
 
 Markup legend(const Chart& chart) {

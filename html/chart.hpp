@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +13,9 @@ namespace drape::html {
 struct ChartPoint {
   double x = 0, y = 0;
   std::string label;    ///< what the point says when it is pointed at: "step 37: 2.1 mm"
-  std::string command;  ///< that makes this point again; may be empty
+  std::string command;  ///< that makes this point again, or several, a line each; may be empty
+  /// How far x was found to spread, from and to: drawn as a bar.
+  std::optional<std::array<double, 2>> spread = {};
 };
 
 struct ChartSeries {

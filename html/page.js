@@ -77,8 +77,19 @@
   const reach = 40; // px: how far from a point it still counts as pointed at
   const tip = document.getElementById("tip");
   let pinned = null;
+  let tipped = null; // the point that the tip is about, while it is seen
+
+  function placeTip() {
+    const at = tipped.querySelector(".sign").getBoundingClientRect();
+    const box = tip.getBoundingClientRect();
+    const left = Math.min(Math.max(8, at.left + at.width / 2 - box.width / 2), innerWidth - box.width - 8);
+    const above = at.top - box.height - 10;
+    tip.style.left = `${Math.max(8, left)}px`;
+    tip.style.top = `${above > 8 ? above : at.bottom + 10}px`;
+  }
 
   function showTip(point) {
+    tipped = point;
     tip.replaceChildren(point.dataset.label);
     const command = point.dataset.command || point.closest(".series").dataset.command;
     if (command) {
@@ -87,12 +98,7 @@
       tip.append(code);
     }
     tip.hidden = false;
-    const at = point.querySelector(".sign").getBoundingClientRect();
-    const box = tip.getBoundingClientRect();
-    const left = Math.min(Math.max(8, at.left + at.width / 2 - box.width / 2), innerWidth - box.width - 8);
-    const above = at.top - box.height - 10;
-    tip.style.left = `${Math.max(8, left)}px`;
-    tip.style.top = `${above > 8 ? above : at.bottom + 10}px`;
+    placeTip();
   }
 
   function setUpChart(svg) {
@@ -169,5 +175,8 @@
     });
   }
   all(".chart > svg").forEach(setUpChart);
-  addEventListener("scroll", () => pinned || (tip.hidden = true), { passive: true });
+  // Focusing a diagram scrolls to it, which is reported later than the key that comes next: the tip goes along.
+  const follow = () => tip.hidden || placeTip();
+  addEventListener("scroll", follow, { passive: true });
+  addEventListener("resize", follow, { passive: true });
 })();

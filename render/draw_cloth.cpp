@@ -19,7 +19,7 @@ namespace drape {
 namespace {
 
 constexpr GLuint position_attribute = 0, normal_attribute = 1, uv_attribute = 2, barycentric_attribute = 3,
-                 line_scale_attribute = 4;
+                 line_scale_attribute = 4, color_attribute = 5;
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
@@ -158,13 +158,34 @@ void DrawCloth::upload_frame(const Frame& frame) {
   gl_.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(dynamic_.size() * sizeof(float)), dynamic_.data());
 }
 
-const Program& DrawCloth::program_for(std::size_t sphere_count) {
-  if (program_ && sphere_count_ == sphere_count) return *program_;
+void DrawCloth::upload_colors(std::span<const Rgb> colors) {
+  std::vector<float> linear;
+  linear.reserve(3 * positions_.size());
+  for (const int vertex : positions_) {
+    const Eigen::Vector3f color = linear_color(colors[static_cast<std::size_t>(vertex)]);
+    linear.insert(linear.end(), color.data(), color.data() + 3);
+  }
+  if (!color_buffer_) color_buffer_.emplace(gl_);
+  gl_.BindVertexArray(array_.id());
+  gl_.BindBuffer(GL_ARRAY_BUFFER, color_buffer_->id());
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(linear.size() * sizeof(float)), linear.data(),
+                 GL_STREAM_DRAW);
+  gl_.EnableVertexAttribArray(color_attribute);
+  gl_.VertexAttribPointer(color_attribute, 3, GL_FLOAT, GL_FALSE, 3 * sizeof(float), nullptr);
+}
+
+const Program& DrawCloth::program_for(std::size_t sphere_count, bool colored) {
+  if (program_ && sphere_count_ == sphere_count && colored_ == colored) return *program_;
   std::vector<std::string> defines{fmt::format("SPHERES {}", sphere_count)};
-  if (texture_) defines.emplace_back("TEXTURE");
+  if (colored) {
+    defines.emplace_back("VERTEX_COLORS");
+  } else if (texture_) {
+    defines.emplace_back("TEXTURE");
+  }
   if (look_.mesh_lines) defines.emplace_back("MESH_LINES");
   program_ = std::make_unique<Program>(gl_, data_folder_, "cloth", defines);
   sphere_count_ = sphere_count;
+  colored_ = colored;
   program_->use();
   program_->set("cloth_texture", 0);
   program_->set("cloth_color", linear_color(look_.color));
@@ -173,9 +194,10 @@ const Program& DrawCloth::program_for(std::size_t sphere_count) {
   return *program_;
 }
 
-void DrawCloth::draw(const Shot& shot) {
+void DrawCloth::draw(const Shot& shot, std::span<const Rgb> colors) {
   upload_frame(shot.frame);
-  const Program& program = program_for(shot.spheres.size());
+  if (!colors.empty()) upload_colors(colors);
+  const Program& program = program_for(shot.spheres.size(), !colors.empty());
   program.use();
   shot.set_uniforms(program);
   if (texture_) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "render/gl/objects.hpp"
@@ -21,7 +22,8 @@ class DrawCloth {
   DrawCloth(const GlFunctions& gl, std::filesystem::path data_folder, const Look& look, int vertex_count,
             const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs);
 
-  void draw(const Shot& shot);
+  /// @param colors of the vertices, in place of texture and colour; or none
+  void draw(const Shot& shot, std::span<const Rgb> colors = {});
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
 
@@ -36,7 +38,8 @@ class DrawCloth {
   void load_texture();
   void make_corners(const std::vector<std::array<float, 2>>& uvs);
   void upload_frame(const Frame& frame);
-  const Program& program_for(std::size_t sphere_count);
+  void upload_colors(std::span<const Rgb> colors);
+  const Program& program_for(std::size_t sphere_count, bool colored);
 
   const GlFunctions& gl_;
   std::filesystem::path data_folder_;
@@ -47,9 +50,11 @@ class DrawCloth {
   std::vector<float> dynamic_;  // of each GL vertex: position and normal
   VertexArray array_;
   Buffer static_buffer_, dynamic_buffer_, index_buffer_;
+  std::optional<Buffer> color_buffer_;  // made when vertices first have colours
   std::optional<Texture> texture_;
   std::unique_ptr<Program> program_;
   std::size_t sphere_count_ = 0;
+  bool colored_ = false;
 };
 
 }  // namespace drape

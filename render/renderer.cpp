@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "render/canvas.hpp"
@@ -50,7 +51,8 @@ class Renderer::Implementation {
     }
   }
 
-  Image draw(const Frame& frame) {
+  /// @param colors of the vertices, or none
+  Image draw(const Frame& frame, std::span<const Rgb> colors) {
     context_->make_current();
     const Shot shot(frame, view_, aspect_);
     canvas_.begin();
@@ -62,7 +64,7 @@ class Renderer::Implementation {
       if (!spheres_) spheres_.emplace(gl_, data_folder_, look_, shot.grounds.size());
       spheres_->draw(shot);
     }
-    cloth_.draw(shot);
+    cloth_.draw(shot, colors);
     return canvas_.finish();
   }
 
@@ -95,7 +97,14 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-Image Renderer::draw(const Frame& frame) { return implementation_->draw(frame); }
+Image Renderer::draw(const Frame& frame) { return implementation_->draw(frame, {}); }
+
+Image Renderer::draw(const Frame& frame, const std::vector<Rgb>& vertex_colors) {
+  if (vertex_colors.empty() || vertex_colors.size() != static_cast<std::size_t>(frame.positions.rows())) {
+    throw std::invalid_argument("a frame needs a colour for each of its vertices");
+  }
+  return implementation_->draw(frame, vertex_colors);
+}
 
 std::string Renderer::description() const { return implementation_->description(); }
 

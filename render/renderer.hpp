@@ -38,6 +38,11 @@ class Renderer {
   /// @throws OutputError if OpenGL reports an error
   Image draw(const Frame& frame);
 
+  /// Draws the cloth in colours of its vertices, which show something about them, in place of its texture or colour.
+  /// @param vertex_colors one for each vertex; they are lit like any other
+  /// @throws std::invalid_argument if there is not one for each vertex
+  Image draw(const Frame& frame, const std::vector<Rgb>& vertex_colors);
+
   /// What draws: OpenGL's renderer and version.
   [[nodiscard]] std::string description() const;
 

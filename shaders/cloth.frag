@@ -4,6 +4,8 @@
 #ifdef TEXTURE
 uniform sampler2D cloth_texture;
 in vec2 texture_position;
+#elif defined(VERTEX_COLORS)
+in vec3 vertex_color;
 #else
 uniform vec3 cloth_color;
 #endif
@@ -58,6 +60,8 @@ void main() {
 
 #ifdef TEXTURE
   vec3 albedo = texture(cloth_texture, texture_position).rgb;
+#elif defined(VERTEX_COLORS)
+  vec3 albedo = vertex_color;
 #else
   vec3 albedo = cloth_color;
 #endif

@@ -7,11 +7,17 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec3 barycentric;
 layout(location = 4) in vec3 line_scale;
+#ifdef VERTEX_COLORS
+layout(location = 5) in vec3 own_color;  // linear light
+#endif
 
 out vec3 world_position;
 out vec3 world_normal;
 #ifdef TEXTURE
 out vec2 texture_position;
+#endif
+#ifdef VERTEX_COLORS
+out vec3 vertex_color;
 #endif
 #ifdef MESH_LINES
 out vec3 corner_weights;
@@ -23,6 +29,9 @@ void main() {
   world_normal = normal;
 #ifdef TEXTURE
   texture_position = uv;
+#endif
+#ifdef VERTEX_COLORS
+  vertex_color = own_color;
 #endif
 #ifdef MESH_LINES
   corner_weights = barycentric;

@@ -2,14 +2,27 @@
 
 #include <fmt/format.h>
 
+#include "core/shell.hpp"
+
 namespace drape {
+namespace {
 
-Scene StudyCase::load() const { return load_scene(data_folder() / scene, overrides); }
-
-std::string StudyCase::command() const {
-  std::string text = "drape simulate " + scene;
-  for (const std::string& value : overrides) text += " --set " + value;
-  return text + fmt::format(" --steps {}", steps);
+std::string arguments(const StudyCase& what) {
+  std::string text = shell_word(what.scene);
+  for (const std::string& value : what.overrides) text += " --set " + shell_word(value);
+  return text + fmt::format(" --steps {}", what.steps);
 }
+
+}  // namespace
+
+Scene StudyCase::load() const { return load_scene((folder.empty() ? data_folder() : folder) / scene, overrides); }
+
+std::string StudyCase::command() const { return "drape simulate " + arguments(*this); }
+
+std::string StudyCase::film_command(const std::string& film) const {
+  return "drape render " + arguments(*this) + " -o " + shell_word(film);
+}
+
+std::string plain_number(double value) { return fmt::format("{}", value); }
 
 }  // namespace drape

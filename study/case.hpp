@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,15 +12,23 @@ namespace drape {
 /// A scene with a few values replaced, run for a number of steps: what a study measures.
 struct StudyCase {
   std::string label;                   ///< "liu13, ε = 1e-3"
-  std::string scene;                   ///< below the data folder: "scenes/homework/3.toml"
+  std::string scene;                   ///< a file, relative to `folder`: "scenes/homework/3.toml"
   std::vector<std::string> overrides;  ///< as for --set
   std::int64_t steps = 0;
+  std::int64_t watched_steps = 0;     ///< of a run that is not timed, if they are more than `steps`
+  std::filesystem::path folder = {};  ///< empty: the data folder
 
   /// @throws UsageError
   [[nodiscard]] Scene load() const;
 
   /// The command that runs this case, and no other.
   [[nodiscard]] std::string command() const;
+  /// The command that makes a film of it.
+  /// @param film its name
+  [[nodiscard]] std::string film_command(const std::string& film) const;
 };
+
+/// A number as it is written on a command line: the shortest that reads back as the same.
+std::string plain_number(double value);
 
 }  // namespace drape

@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "html/chart.hpp"
 #include "study/measure.hpp"
-#include "study/result_table.hpp"
+#include "study/report.hpp"
 
 namespace drape {
 
@@ -15,11 +14,6 @@ struct Conclusion {
   std::string claim;
   bool confirmed = false;
   std::string figures;
-};
-
-struct NamedChart {
-  std::string name;  ///< of its files
-  html::Chart chart;
 };
 
 /// The homework's tables, measured again, beside what its report prints.

@@ -1,73 +1,47 @@
 #include "study/measure.hpp"
 
-#include <sched.h>
+#include <fmt/format.h>
 #include <time.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "sim/flipped_pairs.hpp"
-#include "sim/simulation.hpp"
 
 namespace drape {
 namespace {
 
 constexpr std::int64_t turns = 24;  // that a run of a case is cut into
 
-/// Keeps the calling thread on the processor where it is, until the object's end.
-class Pinned {
- public:
-  Pinned() {
-    CPU_ZERO(&before_);
-    known_ = sched_getaffinity(0, sizeof before_, &before_) == 0;
-    cpu_set_t here;
-    CPU_ZERO(&here);
-    CPU_SET(static_cast<unsigned>(std::max(0, sched_getcpu())), &here);
-    if (known_) sched_setaffinity(0, sizeof here, &here);
-  }
-  Pinned(const Pinned&) = delete;
-  Pinned& operator=(const Pinned&) = delete;
-  ~Pinned() {
-    if (known_) sched_setaffinity(0, sizeof before_, &before_);
-  }
-
- private:
-  cpu_set_t before_;
-  bool known_ = false;
-};
-
-/// Seconds that this thread has computed: the time in which others had the processor does not count.
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// One run of one case, in turns.
 class CaseRun {
  public:
-  CaseRun(const Scene& scene, Measured& measured, bool observe)
-      : simulation_(scene.simulation),
-        pairs_(scene.simulation.cloth.triangles),
-        measured_(measured),
-        observe_(observe) {}
+  /// @param watch called after every step; a run that is watched is not timed
+  CaseRun(const Scene& scene, Measured& measured, std::function<void(const Simulation&)> watch)
+      : pairs_(scene.simulation.cloth.triangles), measured_(measured), watch_(std::move(watch)) {
+    const double begin = thread_seconds();
+    simulation_.emplace(scene.simulation);
+    if (!watch_) measured_.setup.push_back(1e6 * (thread_seconds() - begin));
+  }
 
   void turn() {
-    const std::int64_t steps = measured_.what.steps;
-    const std::int64_t end = std::min(steps, simulation_.state().step + (steps + turns - 1) / turns);
-    while (simulation_.state().step < end) {
+    const std::int64_t steps = step_count();
+    const std::int64_t end = std::min(steps, simulation_->state().step + (steps + turns - 1) / turns);
+    while (simulation_->state().step < end) {
       const double begin = thread_seconds();
-      const StepReport report = simulation_.step();
+      const StepReport report = simulation_->step();
       seconds_ += thread_seconds() - begin;
-      if (observe_) observe(report);
+      if (watch_) observe(report);
     }
   }
 
   void finish() {
-    const auto steps = static_cast<double>(measured_.what.steps);
-    if (observe_) {
+    const auto steps = static_cast<double>(step_count());
+    if (watch_) {
       measured_.flipped_pairs /= steps;
     } else {
       measured_.microseconds.push_back(1e6 * seconds_ / steps);
@@ -75,23 +49,47 @@ class CaseRun {
   }
 
  private:
-  void observe(const StepReport& report) {
-    const State& state = simulation_.state();
-    const Eigen::VectorXd& m = simulation_.cloth().masses;
-    measured_.iterations.push_back(report.iterations);
-    measured_.capped += report.converged ? 0 : 1;
-    measured_.height.push_back(m.dot(state.x.col(2)) / m.sum());
-    measured_.flipped_pairs += pairs_.count(state.x);
+  [[nodiscard]] std::int64_t step_count() const {
+    return watch_ ? std::max(measured_.what.steps, measured_.what.watched_steps) : measured_.what.steps;
   }
 
-  Simulation simulation_;
+  void observe(const StepReport& report) {
+    const State& state = simulation_->state();
+    const Eigen::VectorXd& m = simulation_->cloth().masses;
+    measured_.iterations.push_back(report.iterations);
+    if (state.step <= measured_.what.steps) measured_.capped += report.converged ? 0 : 1;
+    measured_.height.push_back(m.dot(state.x.col(2)) / m.sum());
+    measured_.flipped_pairs += pairs_.count(state.x);
+    watch_(*simulation_);
+  }
+
+  std::optional<Simulation> simulation_;
   FlippedPairs pairs_;
   Measured& measured_;
-  bool observe_;
+  std::function<void(const Simulation&)> watch_;
   double seconds_ = 0;
 };
 
 }  // namespace
+
+PinnedThread::PinnedThread() {
+  CPU_ZERO(&before_);
+  known_ = sched_getaffinity(0, sizeof before_, &before_) == 0;
+  cpu_set_t here;
+  CPU_ZERO(&here);
+  CPU_SET(static_cast<unsigned>(std::max(0, sched_getcpu())), &here);
+  if (known_) sched_setaffinity(0, sizeof here, &here);
+}
+
+PinnedThread::~PinnedThread() {
+  if (known_) sched_setaffinity(0, sizeof before_, &before_);
+}
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 Quartiles quartiles(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -104,7 +102,7 @@ Quartiles quartiles(std::vector<double> values) {
   return {at(0.25), at(0.5), at(0.75)};
 }
 
-double Measured::mean_iterations() const { return mean_iterations(0, iterations.size()); }
+double Measured::mean_iterations() const { return mean_iterations(0, static_cast<std::size_t>(what.steps)); }
 
 double Measured::mean_iterations(std::size_t first, std::size_t last) const {
   const auto from = iterations.begin() + static_cast<std::ptrdiff_t>(first);
@@ -113,8 +111,8 @@ double Measured::mean_iterations(std::size_t first, std::size_t last) const {
 }
 
 std::vector<Measured> measure(const std::vector<StudyCase>& cases, int runs, const std::stop_token& stop,
-                              Progress& progress) {
-  const Pinned pinned;
+                              Progress& progress, const CaseWatch& watch) {
+  const PinnedThread pinned;
   std::vector<Scene> scenes;
   std::vector<Measured> results;
   for (const StudyCase& one : cases) {
@@ -126,7 +124,13 @@ std::vector<Measured> measure(const std::vector<StudyCase>& cases, int runs, con
   for (int run = 0; run <= runs; ++run) {
     std::vector<std::unique_ptr<CaseRun>> running;
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      running.push_back(std::make_unique<CaseRun>(scenes[i], results[i], run == 0));
+      std::function<void(const Simulation&)> first;
+      if (run == 0) {
+        first = [&watch, i](const Simulation& simulation) {
+          if (watch) watch(i, simulation);
+        };
+      }
+      running.push_back(std::make_unique<CaseRun>(scenes[i], results[i], std::move(first)));
     }
     for (std::int64_t turn = 0; turn < turns; ++turn) {
       for (const auto& one : running) {
@@ -138,6 +142,13 @@ std::vector<Measured> measure(const std::vector<StudyCase>& cases, int runs, con
     for (const auto& one : running) one->finish();
   }
   return results;
+}
+
+std::string describe_measuring(int runs) {
+  return fmt::format(
+      "Times are the computing time of one thread that stays on one processor, the mean over the steps of a run: the "
+      "median and the quartiles of {} runs, in which the cases take turns. A first run is not timed.",
+      runs);
 }
 
 }  // namespace drape

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdlib>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -38,11 +39,15 @@ const Kernels& choose() {
   return *best;
 }
 
-}  // namespace
-
-const Kernels& kernels() {
-  static const Kernels& chosen = choose();
+const Kernels*& current() {
+  static const Kernels* chosen = &choose();
   return chosen;
 }
+
+}  // namespace
+
+const Kernels& kernels() { return *current(); }
+
+const Kernels& replace_kernels(const Kernels& others) { return *std::exchange(current(), &others); }
 
 }  // namespace drape

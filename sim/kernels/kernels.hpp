@@ -151,6 +151,11 @@ struct Kernels {
 /// @throws UsageError if DRAPE_ISA names none of them
 const Kernels& kernels();
 
+/// Makes kernels() return others from now on, which must live as long: to measure what they take. Not while another
+/// thread computes.
+/// @returns those that it replaces
+const Kernels& replace_kernels(const Kernels& others);
+
 /// Every version, slowest first; some may not run here.
 std::span<const Kernels* const> all_kernels();
 

@@ -27,5 +27,60 @@ TEST(Study, NeedsAKindThatThereIs) {
   EXPECT_EQ(drape(folder, "study homework --runs 0").code, 2);
 }
 
+const std::string swing = R"([cloth]
+mesh = { grid = [4, 4] }
+stiffness = 20
+pins = ["corner:x-y-"]
+[time]
+step = 0.02
+duration = 1
+[integrator]
+method = "liu13"
+[effects.gravity]
+)";
+
+TEST(Study, OfAccuracyWritesEverythingForEveryScene) {
+  const SceneFolder folder;
+  folder.write("a.toml", swing);
+  folder.write("b/a.toml", swing);
+  const Finished finished =
+      drape(folder,
+            "study accuracy a.toml b/a.toml -o results --runs 1 --animate methods --methods liu13,implicit "
+            "--tolerances 1e-2,1e-4 --times 0.1,0.2 --steps 0.02,0.01");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  EXPECT_NE(finished.text.find("for an error"), std::string::npos) << finished.text;
+  for (const char* name : {"report.html", "report.md", "b-a-solve.csv", "b-a-solve.gp", "b-a-motion-1.gp",
+                           "b-a-motion-2.gp", "b-a-step.gp", "b-a-by-methods.gif", "b-a-step-cost.gp", "b-a-apart.gp",
+                           "b-a-tolerances.csv", "b-a-steps.csv", "b-a-cheapest.csv"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "results" / name)) << name;
+  }
+}
+
+TEST(Study, OfAccuracySaysWhatItCannotMeasure) {
+  const SceneFolder folder;
+  folder.write("a.toml", swing);
+  const auto expect_error = [&](const std::string& arguments, const std::string& message) {
+    const Finished finished = drape(folder, "study accuracy " + arguments);
+    EXPECT_EQ(finished.code, 2) << finished.text;
+    EXPECT_NE(finished.text.find(message), std::string::npos) << finished.text;
+  };
+  expect_error("a.toml --methods lui13", "did you mean 'liu13'");
+  expect_error("a.toml --times 2", "2 s is outside of the motion");
+  expect_error("a.toml --times 0.1 --steps 0.03", "does not divide");
+  expect_error("b.toml", "b.toml");
+  expect_error("a.toml --tolerances -1", "--tolerances");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+TEST(Study, OfScalingWritesEverything) {
+  const SceneFolder folder;
+  const Finished finished = drape(folder, "study scaling --largest 10 --runs 1 -o results");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  for (const char* name : {"report.html", "report.md", "scaling-times.csv", "scaling-growth.csv", "scaling-shares.csv",
+                           "scaling-step.gp", "scaling-iteration.gp", "scaling-memory.gp"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "results" / name)) << name;
+  }
+}
+
 }  // namespace
 }  // namespace drape

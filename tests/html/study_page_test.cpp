@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "study/homework_files.hpp"
+#include "study/homework_report.hpp"
 #include "tests/html/html_page.hpp"
 
 namespace drape {
@@ -41,7 +41,7 @@ class StudyPage : public testing::InBrowser {
 };
 
 TEST_F(StudyPage, IsSoundAndSaysWhatIsNotConfirmed) {
-  open(homework_page(sample_study()));
+  open(to_page(homework_report(sample_study())));
   expect_sound();
   EXPECT_EQ(browser_->run("return document.querySelector('h1').textContent"),
             "1 of the report's 2 conclusions are confirmed");
@@ -50,7 +50,7 @@ TEST_F(StudyPage, IsSoundAndSaysWhatIsNotConfirmed) {
 }
 
 TEST_F(StudyPage, HoveringAPointShowsItsCommand) {
-  open(homework_page(sample_study()));
+  open(to_page(homework_report(sample_study())));
   EXPECT_EQ(tip(), "");
   browser_->point_at(".series.s1 .point:nth-of-type(4) .sign");
   EXPECT_EQ(tip(), "liu13, ε = 1e-3drape simulate liu13 1e-3");
@@ -59,7 +59,7 @@ TEST_F(StudyPage, HoveringAPointShowsItsCommand) {
 }
 
 TEST_F(StudyPage, ArrowKeysGoFromPointToPoint) {
-  open(homework_page(sample_study()));
+  open(to_page(homework_report(sample_study())));
   browser_->run("document.querySelector('.chart > svg').focus()");
   browser_->press(Browser::arrow_right);
   EXPECT_EQ(tip(), "implicit, ε = 1e-0drape simulate implicit 1e-0");
@@ -71,6 +71,20 @@ TEST_F(StudyPage, ArrowKeysGoFromPointToPoint) {
   EXPECT_TRUE(tip().starts_with("liu13, ε = 1e-0")) << tip();
   browser_->press("\uE00C");  // escape
   EXPECT_EQ(tip(), "");
+}
+
+// The browser reports a scroll later than it happens: also after the key that shows a point's values.
+TEST_F(StudyPage, ValuesStayWithTheirPointWhileThePageScrolls) {
+  open(to_page(homework_report(sample_study())));
+  browser_->run("document.querySelector('.chart > svg').focus()");
+  browser_->press(Browser::arrow_right);
+  const std::string above =
+      "const p = document.querySelector('.point.shown .sign').getBoundingClientRect();"
+      "return p.top - document.getElementById('tip').getBoundingClientRect().bottom";
+  const double before = browser_->run(above);
+  browser_->run("scrollBy(0, -40); dispatchEvent(new Event('scroll'))");
+  EXPECT_EQ(tip(), "implicit, ε = 1e-0drape simulate implicit 1e-0");
+  EXPECT_NEAR(browser_->run(above).get<double>(), before, 1);
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+#include <spdlog/spdlog.h>
+
+#include <memory>
+
+#include "cli/studies.hpp"
+#include "cli/watched.hpp"
+#include "study/scaling_report.hpp"
+
+namespace drape {
+namespace {
+
+struct ScalingArguments {
+  ScalingOptions options;
+  std::string folder = "out/scaling";
+};
+
+ExitCode run_scaling(const ScalingArguments& arguments, const CommonOptions& common) {
+  std::optional<ScalingStudy> study;
+  run_watched(common, [&](const std::stop_token& stop, Progress& progress) {
+    study = study_scaling(arguments.options, stop, progress);
+  });
+  if (!study) {
+    spdlog::error("interrupted; nothing was written");
+    return ExitCode::interrupted;
+  }
+  return hand_out(scaling_report(*study), arguments.folder, common);
+}
+
+}  // namespace
+
+void add_scaling_study(CLI::App& study, const CommonOptions& common, Command& command) {
+  auto arguments = std::make_shared<ScalingArguments>();
+  CLI::App* sub = study.add_subcommand("scaling", "Measure how time and memory grow with the cloth");
+  sub->add_option("--largest", arguments->options.largest, "Cells along a side of the largest grid; default 160")
+      ->check(CLI::Range(10, 10000));
+  sub->add_option("--runs", arguments->options.runs, "Timed runs of every case; default 5")->check(CLI::Range(1, 1000));
+  sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/scaling");
+  sub->callback(
+      [arguments, &common, &command] { command = [arguments, &common] { return run_scaling(*arguments, common); }; });
+}
+
+}  // namespace drape

@@ -1,0 +1,162 @@
+#include "study/accuracy_charts.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/shell.hpp"
+
+namespace drape {
+namespace {
+
+std::string list(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text.append(text.empty() ? "" : ",").append(plain_number(value));
+  return text;
+}
+
+std::string command_of(const SceneAccuracy& scene, const std::string& methods, const std::vector<double>& tolerances,
+                       const std::vector<double>& steps) {
+  std::string text = "drape study accuracy " + shell_word(scene.scene);
+  for (const std::string& value : scene.options.overrides) text += " --set " + shell_word(value);
+  return text + fmt::format(" --methods {} --tolerances {} --steps {} --times {} --runs {}", methods, list(tolerances),
+                            list(steps), list(scene.options.times), scene.options.runs);
+}
+
+std::string film(const SceneAccuracy& scene, Method method, const char* key, double value) {
+  return fmt::format("out/{}-{}-{}{}.gif", scene.name, method_name(method), key, plain_number(value));
+}
+
+std::string commands(const SceneAccuracy& scene, const TolerancePoint& point) {
+  return fmt::format("{}\n{}",
+                     command_of(scene, method_name(point.method), {point.tolerance}, {scene.options.steps.front()}),
+                     point.measured.what.film_command(film(scene, point.method, "tolerance", point.tolerance)));
+}
+
+std::string commands(const SceneAccuracy& scene, const StepPoint& point) {
+  return fmt::format(
+      "{}\n{}", command_of(scene, method_name(point.method), {scene.options.tolerances.front()}, scene.options.steps),
+      point.measured.what.film_command(film(scene, point.method, "step", point.step)));
+}
+
+std::array<double, 2> spread(const Quartiles& time) { return {time.lower, time.upper}; }
+
+/// A series for each method, of the error that `error` takes from a point.
+template <class Error>
+html::Chart by_time(const SceneAccuracy& scene, const std::string& title, const std::string& y_title, Error error) {
+  html::Chart chart{
+      title, "µs a step, median and quartiles", y_title, html::Scale::logarithmic, html::Scale::logarithmic, {}, {}};
+  for (const Method method : scene.options.methods) {
+    html::ChartSeries series{method_name(method), {}};
+    for (const TolerancePoint& p : scene.points) {
+      if (p.method != method) continue;
+      const Quartiles time = p.measured.time();
+      series.points.push_back({time.median, error(p),
+                               fmt::format("ε = {:g} {}: {:.1f} µs a step ({:.1f} to {:.1f}), {:.3g} m", p.tolerance,
+                                           scene.tolerance_unit, time.median, time.lower, time.upper, error(p)),
+                               commands(scene, p), spread(time)});
+    }
+    if (!series.points.empty()) chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+NamedChart motion_chart(const SceneAccuracy& scene, std::size_t i) {
+  const double time = scene.options.times[i];
+  std::string title =
+      fmt::format("Error of the motion at {:g} s: the largest distance of a vertex to the reference.", time);
+  const bool chaotic = scene.chaotic_from && time >= *scene.chaotic_from;
+  if (chaotic) {
+    title += fmt::format(
+        " The motion is chaotic from {:g} s on: nearby motions part, and errors near the dashed line or below it are "
+        "those of the reference.",
+        *scene.chaotic_from);
+  }
+  html::Chart chart = by_time(scene, title, "error [m]", [i](const TolerancePoint& p) { return p.motion.at(i).max; });
+  if (scene.apart[i] > 0) chart.levels.push_back({scene.apart[i], "how far the two references are apart"});
+  return {fmt::format("{}-motion-{}", scene.name, i + 1), std::move(chart)};
+}
+
+template <class Across>
+html::Chart by_step(const SceneAccuracy& scene, const std::string& title, const std::string& x_title, Across across,
+                    bool with_spread) {
+  html::Chart chart{title, x_title, "error [m]", html::Scale::logarithmic, html::Scale::logarithmic, {}, {}};
+  for (const Method method : scene.options.methods) {
+    html::ChartSeries series{method_name(method), {}};
+    for (const StepPoint& p : scene.steps) {
+      if (p.method != method) continue;
+      const Quartiles cost = cost_of_motion(p);
+      std::string label =
+          fmt::format("h = {:g} s: {:.3g} m, {:.3g} ms for a second of motion", p.step, p.error.max, cost.median);
+      if (std::isfinite(p.order)) label += fmt::format(", order {:.2f} from the step before", p.order);
+      html::ChartPoint point{across(p), p.error.max, std::move(label), commands(scene, p), {}};
+      if (with_spread) point.spread = spread(cost);
+      series.points.push_back(std::move(point));
+    }
+    if (!series.points.empty()) chart.series.push_back(std::move(series));
+  }
+  if (scene.step_gained > 0) chart.levels.push_back({scene.step_gained, "the reference is known better than this"});
+  return chart;
+}
+
+NamedChart apart_chart(const SceneAccuracy& scene) {
+  html::ChartSeries series{"Newton and quasi-Newton", {}, false};
+  for (std::size_t i = 0; i < scene.apart_by_step.size(); ++i) {
+    const double time = static_cast<double>(i + 1) * scene.step;
+    series.points.push_back(
+        {time, scene.apart_by_step[i], fmt::format("{:g} s: {:.2g} m apart", time, scene.apart_by_step[i]), {}, {}});
+  }
+  return {scene.name + "-apart",
+          {"How far the two references are apart: what rounding alone makes of the motion.",
+           "time [s]",
+           "largest distance of a vertex [m]",
+           html::Scale::linear,
+           html::Scale::logarithmic,
+           {std::move(series)},
+           {{smallest_error, "1 µm"}}}};
+}
+
+}  // namespace
+
+std::string study_command(const SceneAccuracy& scene) {
+  std::string methods;
+  for (const Method method : scene.options.methods)
+    methods.append(methods.empty() ? "" : ",").append(method_name(method));
+  return command_of(scene, methods, scene.options.tolerances, scene.options.steps);
+}
+
+Quartiles cost_of_motion(const StepPoint& point) {
+  const double scale = 1e-3 / point.step;
+  const Quartiles time = point.measured.time();
+  return {scale * time.lower, scale * time.median, scale * time.upper};
+}
+
+std::vector<NamedChart> accuracy_charts(const SceneAccuracy& scene) {
+  std::vector<NamedChart> charts;
+  if (!scene.points.empty()) {
+    charts.push_back(
+        {scene.name + "-solve",
+         by_time(scene,
+                 fmt::format("Error of the solve: the largest distance of a vertex to the exact minimiser, "
+                             "mean over {} states along the motion.",
+                             scene.states),
+                 "error [m]", [](const TolerancePoint& p) { return p.solve.max; })});
+    for (std::size_t i = 0; i < scene.options.times.size(); ++i) charts.push_back(motion_chart(scene, i));
+  }
+  if (!scene.steps.empty()) {
+    const double time = scene.options.times.front();
+    charts.push_back(
+        {scene.name + "-step", by_step(
+                                   scene, fmt::format("Error of the time step at {:g} s, by the step's length.", time),
+                                   "h [s]", [](const StepPoint& p) { return p.step; }, false)});
+    charts.push_back(
+        {scene.name + "-step-cost", by_step(
+                                        scene, fmt::format("Error of the time step at {:g} s, by what it costs.", time),
+                                        "ms for a second of motion, median and quartiles",
+                                        [](const StepPoint& p) { return cost_of_motion(p).median; }, true)});
+  }
+  if (!scene.points.empty()) charts.push_back(apart_chart(scene));
+  return charts;
+}
+
+}  // namespace drape

@@ -1,0 +1,269 @@
+#include "study/accuracy_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "study/accuracy_charts.hpp"
+
+namespace drape {
+namespace {
+
+constexpr std::array<double, 4> limits{1e-3, 1e-4, 1e-5, smallest_error};
+
+std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
+
+/// A time with three digits or all before the point.
+std::string cost(double value) { return fmt::format("{:.{}f}", value, value < 10 ? 2 : value < 100 ? 1 : 0); }
+
+ResultTable tolerance_table(const SceneAccuracy& scene) {
+  ResultTable table{
+      scene.name + "-tolerances",
+      fmt::format("{}: methods and tolerances, h = {:g} s", scene.scene, scene.step),
+      {"method", fmt::format("ε [{}]", scene.tolerance_unit), "iterations", "capped steps", "µs a step",
+       "lower quartile", "upper quartile", "set-up [µs]", "solve: max [m]", "RMS [m]", "‖∇g‖, relative"},
+      {},
+      {"Set-up is what comes before the first step, the factorisation of the constant matrix above all."}};
+  for (const double time : scene.options.times) table.columns.push_back(fmt::format("motion at {:g} s [m]", time));
+  table.columns.emplace_back("flipped pairs");
+  table.notes.emplace_back(
+      "Flipped pairs: neighbouring triangles whose normals are more than 150° apart, mean over the steps of the whole "
+      "motion. Times and iterations are means up to the last of the times compared.");
+  for (const TolerancePoint& p : scene.points) {
+    const Quartiles time = p.measured.time();
+    table.rows.push_back(
+        {method_name(p.method), plain_number(p.tolerance), fmt::format("{:.2f}", p.measured.mean_iterations()),
+         fmt::format("{}", p.measured.capped), cost(time.median), cost(time.lower), cost(time.upper),
+         cost(quartiles(p.measured.setup).median), figure(p.solve.max), figure(p.solve.rms), figure(p.solve.gradient)});
+    for (const Distance& d : p.motion) table.rows.back().push_back(figure(d.max));
+    table.rows.back().push_back(fmt::format("{:.2f}", p.measured.flipped_pairs));
+  }
+  return table;
+}
+
+ResultTable step_table(const SceneAccuracy& scene) {
+  ResultTable table{
+      scene.name + "-steps",
+      fmt::format("{}: time steps, error at {:g} s", scene.scene, scene.options.times.front()),
+      {"method", "h [s]", "iterations", "µs a step", "ms for a second of motion", "lower quartile", "upper quartile",
+       "error: max [m]", "RMS [m]", "order"},
+      {},
+      {fmt::format("Order: measured from the step before. The reference is extrapolated from h = {:g} s and "
+                   "twice that, by which it gains {:.2g} m; its two solvers are {:.2g} m apart.",
+                   scene.step_reference, scene.step_gained, scene.step_apart)}};
+  for (const StepPoint& p : scene.steps) {
+    const Quartiles motion = cost_of_motion(p);
+    const bool iterates = p.method != Method::semi_implicit;
+    table.rows.push_back({method_name(p.method), plain_number(p.step),
+                          iterates ? fmt::format("{:.2f}", p.measured.mean_iterations()) : "–",
+                          cost(p.measured.time().median), cost(motion.median), cost(motion.lower), cost(motion.upper),
+                          figure(p.error.max), figure(p.error.rms),
+                          std::isfinite(p.order) ? fmt::format("{:.2f}", p.order) : "–"});
+  }
+  return table;
+}
+
+/// A kind of error: what every point offers.
+struct Kind {
+  std::string name, unit;
+  std::vector<Offer> offers;
+};
+
+std::vector<Kind> kinds_of(const SceneAccuracy& scene) {
+  std::vector<Kind> kinds;
+  if (!scene.points.empty()) {
+    kinds.push_back({"of the solve", "µs per step", {}});
+    for (const double time : scene.options.times) {
+      kinds.push_back({fmt::format("of the motion at {:g} s", time), "µs per step", {}});
+    }
+  }
+  for (const TolerancePoint& p : scene.points) {
+    Offer offer{method_name(p.method), fmt::format("ε = {:g} {}", p.tolerance, scene.tolerance_unit), p.solve.max,
+                p.measured.time()};
+    kinds[0].offers.push_back(offer);
+    for (std::size_t i = 0; i < p.motion.size(); ++i) {
+      offer.error = p.motion[i].max;
+      kinds[i + 1].offers.push_back(offer);
+    }
+  }
+  if (scene.steps.empty()) return kinds;
+  Kind steps{fmt::format("of the time step at {:g} s", scene.options.times.front()), "ms per second of motion", {}};
+  for (const StepPoint& p : scene.steps) {
+    steps.offers.push_back({method_name(p.method), fmt::format("h = {:g} s", p.step), p.error.max, cost_of_motion(p)});
+  }
+  kinds.push_back(std::move(steps));
+  return kinds;
+}
+
+/// Why errors below a limit cannot be told, for the kind of a number; empty if they can.
+std::string why_unknown(const SceneAccuracy& scene, std::size_t kind, double limit) {
+  if (kind == 0 && !scene.points.empty()) return {};
+  const std::size_t motions = scene.points.empty() ? 0 : scene.apart.size();
+  if (kind <= motions && motions > 0) {
+    return scene.apart[kind - 1] < limit ? std::string() : "not known: the motion is chaotic";
+  }
+  return scene.step_gained < limit ? std::string() : "not known: the reference's own steps are too large";
+}
+
+ResultTable cheapest_table(const SceneAccuracy& scene) {
+  ResultTable table{
+      scene.name + "-cheapest",
+      fmt::format("{}: what accuracy costs", scene.scene),
+      {"for an error", "below", "the cheapest is", "at", "for", "unit", "next best", "next at", "next for"},
+      {},
+      {}};
+  const std::vector<Kind> kinds = kinds_of(scene);
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    for (const double limit : limits) {
+      const Cheapest c = find_cheapest(kinds[k].offers, limit);
+      std::vector<std::string> row{kinds[k].name, short_length(limit)};
+      const std::string unknown = why_unknown(scene, k, limit);
+      if (!unknown.empty() || c.first == nullptr) {
+        row.emplace_back(unknown.empty() ? "none that was run" : unknown);
+        row.resize(table.columns.size(), "–");
+      } else {
+        row.insert(row.end(), {c.first->method, c.first->at, cost(c.first->cost.median), kinds[k].unit});
+        if (c.next != nullptr) {
+          row.insert(row.end(), {c.next->method, c.next->at, cost(c.next->cost.median)});
+        }
+        row.resize(table.columns.size(), "–");
+      }
+      table.rows.push_back(std::move(row));
+    }
+  }
+  return table;
+}
+
+/// "The cheapest below 1 mm is liu13 at ε = 0.001 m with 88.1 µs per step; below 0.1 mm it is …"
+std::string describe_cheapest(const SceneAccuracy& scene) {
+  const std::vector<Kind> kinds = kinds_of(scene);
+  std::string text = "The cheapest";
+  for (const double limit : limits) {
+    const Cheapest c = find_cheapest(kinds.front().offers, limit);
+    text += fmt::format("{} below {} is {}", limit == limits.front() ? "" : "; the cheapest", short_length(limit),
+                        c.first == nullptr ? "not among what was run"
+                                           : fmt::format("{} at {} with {} µs per step", c.first->method, c.first->at,
+                                                         cost(c.first->cost.median)));
+  }
+  return text + ".";
+}
+
+/// "semi-implicit 0.99, implicit 0.87 (from h = 0.00125 s to 0.000625 s)"
+std::string describe_orders(const SceneAccuracy& scene) {
+  std::string text, unknown;
+  for (const Method method : scene.options.methods) {
+    const auto last = std::find_if(scene.steps.rbegin(), scene.steps.rend(),
+                                   [method](const StepPoint& p) { return p.method == method; });
+    if (last == scene.steps.rend() || !std::isfinite(last->order)) continue;
+    if (last->error.max < scene.step_gained) {
+      unknown += fmt::format(" The errors of {} are smaller than what the reference is known to.", method_name(method));
+      continue;
+    }
+    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", method_name(method), last->order);
+  }
+  return text.empty() ? text : text + ", each between its two smallest steps." + unknown;
+}
+
+void add_findings(StudyReport& report, const SceneAccuracy& scene) {
+  if (!scene.points.empty()) {
+    report.findings.push_back(
+        {html::Tone::neutral, "", fmt::format("{}: the error of the solve.", scene.scene), describe_cheapest(scene)});
+    const std::string confirmed = fmt::format(
+        "From the same state, Newton's method and quasi-Newton end at most {:.2g} m apart, over {} states{}.",
+        scene.solve_apart, scene.states,
+        scene.left_out > 0
+            ? fmt::format(" ({} more are so near to buckling that the minimiser is not known to 1 µm)", scene.left_out)
+            : "");
+    report.findings.push_back({scene.solve_apart < smallest_error ? html::Tone::good : html::Tone::caution, "",
+                               fmt::format("{}: the reference.", scene.scene), confirmed});
+    report.findings.push_back(
+        {scene.chaotic_from ? html::Tone::caution : html::Tone::good, "",
+         scene.chaotic_from ? fmt::format("{}: the motion is chaotic from {:g} s on.", scene.scene, *scene.chaotic_from)
+                            : fmt::format("{}: the motion is not chaotic up to its end.", scene.scene),
+         fmt::format("The two reference motions, which differ by rounding alone, {} 1 µm; at {:g} s they are {:.2g} m "
+                     "apart.",
+                     scene.chaotic_from ? "part by more than" : "stay within", scene.options.times.back(),
+                     scene.apart.back())});
+  }
+  if (const std::string orders = describe_orders(scene); !orders.empty()) {
+    report.findings.push_back(
+        {html::Tone::neutral, "", fmt::format("{}: the orders of the methods in the time step.", scene.scene), orders});
+  }
+}
+
+std::string headline(const std::vector<SceneAccuracy>& scenes) {
+  double least = INFINITY, most = 0;
+  for (const SceneAccuracy& scene : scenes) {
+    if (scene.points.empty()) continue;
+    const Cheapest c = find_cheapest(kinds_of(scene).front().offers, smallest_error);
+    if (c.first == nullptr) continue;
+    least = std::min(least, c.first->cost.median);
+    most = std::max(most, c.first->cost.median);
+  }
+  if (!(most > 0)) return "What accuracy costs";
+  if (least == most) return fmt::format("A step solved to 1 µm costs {} µs", cost(most));
+  return fmt::format("A step solved to 1 µm costs {} to {} µs", cost(least), cost(most));
+}
+
+}  // namespace
+
+std::string short_length(double metres) {
+  if (metres >= 1) return fmt::format("{:g} m", metres);
+  return metres >= 0.99e-4 ? fmt::format("{:g} mm", 1e3 * metres) : fmt::format("{:g} µm", 1e6 * metres);
+}
+
+Cheapest find_cheapest(const std::vector<Offer>& offers, double limit) {
+  Cheapest found;
+  const auto best = [&](const std::string& but) {
+    const Offer* least = nullptr;
+    for (const Offer& offer : offers) {
+      if (!(offer.error < limit) || offer.method == but) continue;
+      // The same iterations: what differs is the clock's scatter.
+      if (least != nullptr && offer.method == least->method && offer.error == least->error) continue;
+      if (least == nullptr || offer.cost.median < least->cost.median) least = &offer;
+    }
+    return least;
+  };
+  found.first = best("");
+  if (found.first != nullptr) found.next = best(found.first->method);
+  return found;
+}
+
+StudyReport accuracy_report(const std::vector<SceneAccuracy>& scenes, const std::string& command,
+                            const std::vector<std::vector<StudyPicture>>& pictures, double seconds) {
+  StudyReport report;
+  report.kind = "drape study accuracy";
+  report.title = "What accuracy costs in time";
+  report.headline = headline(scenes);
+  report.introduction =
+      "How far a step is from the exact minimiser, and a motion from the reference motion, against the time that it "
+      "takes: each point is a method with a tolerance, or with a time step. Lower and further left is better.";
+  report.command = command;
+  report.seconds = seconds;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const SceneAccuracy& scene = scenes[i];
+    add_findings(report, scene);
+    StudySection section{scene.scene, scene.notes, {}, accuracy_charts(scene), pictures[i]};
+    if (!scene.points.empty()) section.tables.push_back(tolerance_table(scene));
+    if (!scene.steps.empty()) section.tables.push_back(step_table(scene));
+    section.tables.push_back(cheapest_table(scene));
+    report.sections.push_back(std::move(section));
+  }
+  report.sections.push_back(
+      {"How it was measured",
+       {describe_measuring(scenes.front().options.runs) + " The time of a step is without the set-up before the first.",
+        fmt::format("Tolerances decide when a step ends, not the number of iterations, which may be up to {}. The "
+                    "reference is Newton's method until its iterations change nothing but rounding; quasi-Newton "
+                    "does the same beside it, and how far they are apart says how well the reference is known.",
+                    most_study_iterations),
+        "An error of the solve is the distance of one step's result to the exact result from the same state. An error "
+        "of the motion is what has become of these errors since the beginning. An error of the time step is the "
+        "distance to a motion in steps so small that their length no longer counts, each step solved to 1e-9 m."},
+       {},
+       {},
+       {}});
+  return report;
+}
+
+}  // namespace drape

@@ -1,0 +1,184 @@
+#include "study/animation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "render/encode/encoder.hpp"
+#include "render/montage.hpp"
+#include "render/renderer.hpp"
+#include "run/frame_sampler.hpp"
+#include "run/run_steps.hpp"
+#include "sim/flipped_pairs.hpp"
+#include "study/drawn_text.hpp"
+#include "study/reference.hpp"
+
+namespace drape {
+namespace {
+
+constexpr double most_frames_per_second = 10;  // a GIF that shows differences need not be smooth
+constexpr int picture_width = 340, gap = 6, band = 42, bar_height = 46, margin = 10;  // [pixels]
+constexpr double letters = 9;                                                         // height of a capital [pixels]
+constexpr double smallest = 1e-6, largest = 1;                                        // of the colour bar [m]
+constexpr std::uint8_t paper = 255;
+const Rgb ink{0.12, 0.12, 0.13};
+// The lines of the mesh show triangles that are folded over, on dark colours as on bright ones.
+const Rgb mesh_ink{0.05, 0.05, 0.06};
+
+double along_bar(double distance) {
+  return distance <= smallest ? 0 : std::log10(distance / smallest) / std::log10(largest / smallest);
+}
+
+/// The frames of a whole motion; those up to where it was stopped.
+std::vector<Frame> frames_of(const SimulationSettings& settings, const Video& video, double duration,
+                             const std::stop_token& stop) {
+  std::vector<Frame> frames;
+  const FilmExtent film(video, settings.step, std::llround(duration / settings.step), std::nullopt);
+  FrameSampler sampler(film, [&](Frame frame) { frames.push_back(std::move(frame)); });
+  const std::array<StepObserver*, 1> observers{&sampler};
+  Simulation simulation(settings);
+  run_steps(simulation, film.steps, observers, stop);
+  return frames;
+}
+
+std::string length(double metres) {
+  if (metres >= 1) return fmt::format("{:.2f} m", metres);
+  if (metres >= 1e-3) return fmt::format("{:.3g} mm", 1e3 * metres);
+  return fmt::format("{:.3g} µm", 1e6 * metres);
+}
+
+/// The strip below the panels.
+Image color_bar(int width) {
+  Image strip(width, bar_height);
+  std::fill(strip.pixels.begin(), strip.pixels.end(), paper);
+  const std::string title = "distance to the reference";
+  const int left = 2 * margin + text_width(title, letters), right = width - 4 * margin, top = 8, bottom = 22;
+  draw_text(strip, margin, bottom - 2, title, letters, ink);
+  for (int x = left; x < right; ++x) {
+    const Rgb color = viridis(static_cast<double>(x - left) / (right - 1 - left));
+    for (int y = top; y < bottom; ++y) {
+      std::uint8_t* pixel = strip.at(x, y);
+      for (const double part : {color.r, color.g, color.b}) *pixel++ = static_cast<std::uint8_t>(255 * part);
+    }
+  }
+  for (const auto& [value, name] : std::initializer_list<std::pair<double, const char*>>{{1e-6, "1 µm"},
+                                                                                         {1e-5, "10 µm"},
+                                                                                         {1e-4, "0.1 mm"},
+                                                                                         {1e-3, "1 mm"},
+                                                                                         {1e-2, "1 cm"},
+                                                                                         {0.1, "0.1 m"},
+                                                                                         {1, "1 m"}}) {
+    const int x = left + static_cast<int>(std::lround(along_bar(value) * (right - 1 - left)));
+    for (int y = bottom; y < bottom + 4; ++y) std::fill_n(strip.at(std::min(x, right - 1), y), 3, std::uint8_t{90});
+    draw_text(strip, x - text_width(name, letters) / 2, bottom + 17, name, letters, ink);
+  }
+  return strip;
+}
+
+Image beneath(const Image& upper, const Image& lower) {
+  Image whole(upper.width, upper.height + lower.height);
+  std::copy(upper.pixels.begin(), upper.pixels.end(), whole.pixels.begin());
+  std::copy(lower.pixels.begin(), lower.pixels.end(),
+            whole.pixels.begin() + static_cast<std::ptrdiff_t>(upper.pixels.size()));
+  return whole;
+}
+
+/// Draws panels of one cloth.
+class PanelPainter {
+ public:
+  PanelPainter(const Scene& scene, const View& view, const Eigen::Vector2i& size, GlBackend backend)
+      : pairs_(scene.simulation.cloth.triangles),
+        renderer_(data_folder(), size, view, look_of(scene.look), scene.simulation.cloth.vertex_count(),
+                  scene.simulation.cloth.triangles, {}, backend) {}
+
+  Image draw(const std::string& label, const Frame& frame, const Vertices& reference) {
+    const Eigen::VectorXd distances = (frame.positions - reference).rowwise().norm();
+    std::vector<Rgb> colors;
+    for (const double d : distances) colors.push_back(viridis(along_bar(d)));
+    const Image cloth = renderer_.draw(frame, colors);
+    Image head(cloth.width, band);
+    std::fill(head.pixels.begin(), head.pixels.end(), paper);
+    draw_text(head, margin, 16, label, letters, ink);
+    const int flipped = pairs_.count(frame.positions);
+    draw_text(
+        head, margin, 34,
+        fmt::format("error {}, {} flipped {}", length(distances.maxCoeff()), flipped, flipped == 1 ? "pair" : "pairs"),
+        letters, ink);
+    return beneath(head, cloth);
+  }
+
+ private:
+  static Look look_of(Look look) {
+    look.texture.clear();
+    look.mesh_lines = true;
+    look.line_color = mesh_ink;
+    return look;
+  }
+
+  FlippedPairs pairs_;
+  Renderer renderer_;
+};
+
+View view_of(const Scene& scene, const Eigen::Vector2i& size, const std::vector<std::vector<Frame>>& motions) {
+  if (!needs_motion(scene.camera)) return fixed_view(scene.camera);
+  Framing framing(scene.camera, static_cast<double>(size.x()) / size.y());
+  for (const std::vector<Frame>& motion : motions) {
+    for (const Frame& frame : motion) {
+      framing.add(frame.positions);
+      for (const Collider& collider : frame.colliders) framing.add(collider);
+    }
+  }
+  return framing.view();
+}
+
+}  // namespace
+
+std::optional<std::string> animate_errors(const Scene& scene, const SimulationSettings& reference,
+                                          const std::vector<AnimationPanel>& panels, const std::filesystem::path& file,
+                                          GlBackend backend, const std::stop_token& stop, Progress& progress) {
+  progress.begin("simulating for the animation", "motions", static_cast<std::int64_t>(panels.size()) + 1);
+  Video video = scene.video;
+  video.fps = std::min(video.fps, most_frames_per_second);
+  const std::vector<Frame> exact = frames_of(reference, video, scene.duration, stop);
+  ++progress.done;
+  std::vector<std::vector<Frame>> motions;
+  for (const AnimationPanel& panel : panels) {
+    motions.push_back(frames_of(panel.what.load().simulation, video, scene.duration, stop));
+    ++progress.done;
+  }
+  if (stop.stop_requested()) return std::nullopt;
+
+  const Eigen::Vector2i size(picture_width, picture_width * scene.video.size.y() / scene.video.size.x());
+  PanelPainter painter(scene, view_of(scene, size, motions), size, backend);
+  const int columns = panels.size() == 3 ? 3 : 2;
+  OutputSpec spec;
+  spec.path = file.string();
+  spec.scene = scene.name;
+  spec.fps = video.fps;
+  spec.expected_frames = static_cast<int>(exact.size());
+  const std::unique_ptr<Encoder> encoder = make_encoder(spec);
+  progress.begin("drawing the animation", "frames", spec.expected_frames);
+  Image bar;
+  for (std::size_t f = 0; f < exact.size(); ++f) {
+    if (stop.stop_requested()) return std::nullopt;
+    std::vector<Image> pictures;
+    for (std::size_t p = 0; p < panels.size(); ++p) {
+      pictures.push_back(painter.draw(panels[p].label, motions[p][f], exact[f].positions));
+    }
+    std::vector<const Image*> list;
+    for (const Image& picture : pictures) list.push_back(&picture);
+    const Image all = montage(list, columns, gap, paper);
+    if (bar.width == 0) bar = color_bar(all.width);
+    encoder->add(beneath(all, bar));
+    ++progress.done;
+  }
+  encoder->finish();
+  std::ifstream stream(file, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+}  // namespace drape

@@ -1,0 +1,68 @@
+#include "study/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace drape {
+namespace {
+
+// Where the cloth is about to buckle, Newton's matrix is nearly singular and even Newton's method needs thousands.
+constexpr int most_iterations = 5000;
+
+}  // namespace
+
+Distance distance(const Vertices& a, const Vertices& b) {
+  const Eigen::VectorXd squares = (a - b).rowwise().squaredNorm();
+  return {std::sqrt(squares.maxCoeff()), std::sqrt(squares.mean())};
+}
+
+SimulationSettings to_rounding(SimulationSettings settings, Method method) {
+  const System system = make_system(settings);
+  const Cloth& cloth = settings.cloth;
+  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(cloth.vertex_count());
+  for (const Spring& spring : system.stiffness_bound()) {
+    stiffness[spring.i] += std::abs(spring.stiffness);
+    stiffness[spring.j] += std::abs(spring.stiffness);
+  }
+  for (const auto& energy : system.energies) energy->add_bound(stiffness);
+  const double h = settings.step;
+  const double amplified = 1 + h * h * (stiffness.array() / cloth.masses.array()).maxCoeff();
+  const double unit = std::numeric_limits<double>::epsilon() * cloth.positions.cwiseAbs().maxCoeff();
+  settings.integrator.method = method;
+  settings.integrator.stop = StoppingRule::change;
+  settings.integrator.tolerance = unit * std::sqrt(3.0 * cloth.vertex_count()) * amplified;
+  settings.integrator.max_iterations = most_iterations;
+  return settings;
+}
+
+std::optional<std::int64_t> ReferenceMotion::first_beyond(double limit) const {
+  const auto found = std::find_if(apart.begin(), apart.end(), [limit](double d) { return d > limit; });
+  if (found == apart.end()) return std::nullopt;
+  return found - apart.begin() + 1;
+}
+
+std::optional<ReferenceMotion> run_reference(const SimulationSettings& settings, std::int64_t steps,
+                                             const std::vector<std::int64_t>& keep, const std::stop_token& stop,
+                                             Progress& progress) {
+  progress.begin("computing the reference", "steps", steps);
+  Simulation newton(to_rounding(settings, Method::implicit));
+  Simulation quasi_newton(to_rounding(settings, Method::quasi_newton));
+  ReferenceMotion motion;
+  auto next = keep.begin();
+  const auto look = [&] {
+    for (; next != keep.end() && *next == newton.state().step; ++next) motion.states.push_back(newton.state());
+  };
+  look();
+  while (newton.state().step < steps) {
+    if (stop.stop_requested()) return std::nullopt;
+    newton.step();
+    quasi_newton.step();
+    motion.apart.push_back(distance(newton.state().x, quasi_newton.state().x).max);
+    look();
+    ++progress.done;
+  }
+  return motion;
+}
+
+}  // namespace drape

@@ -1,0 +1,104 @@
+#include "study/report.hpp"
+
+#include <fmt/format.h>
+
+#include "core/atomic_file.hpp"
+#include "html/page.hpp"
+#include "sim/kernels/kernels.hpp"
+#include "study/gnuplot.hpp"
+
+namespace drape {
+namespace {
+
+html::Markup to_html(const StudyFinding& finding) {
+  std::string claim = finding.claim;
+  // A sign says that something is good; that it is not has to be said in words.
+  if (finding.tone == html::Tone::bad && !finding.verdict.empty()) claim += " " + finding.verdict;
+  return html::element("strong", claim) + " " + finding.figures;
+}
+
+html::Markup to_html(const StudySection& section, std::size_t number) {
+  html::Markup content;
+  for (const std::string& paragraph : section.text) content += html::paragraph(paragraph);
+  for (const StudyPicture& picture : section.pictures) {
+    content += html::figure(html::picture("image/gif", picture.bytes, picture.caption), picture.caption) +
+               html::command("This animation", picture.command);
+  }
+  if (!section.charts.empty()) {
+    content += html::note(
+        "Point at a curve, or go along it with the arrow keys, to see its values and the command that computes them.");
+  }
+  for (const NamedChart& chart : section.charts) content += html::chart(chart.chart);
+  for (const ResultTable& table : section.tables) content += to_html(table);
+  return html::section(2, fmt::format("section-{}", number), section.title, content);
+}
+
+}  // namespace
+
+std::string to_text(const StudyReport& report) {
+  std::string text;
+  for (const StudySection& section : report.sections) {
+    for (const ResultTable& table : section.tables) text += to_text(table) + "\n";
+  }
+  text += report.headline + "\n";
+  for (const StudyFinding& f : report.findings) {
+    text += fmt::format("  {}{}{}\n", f.verdict, f.verdict.empty() ? "" : ": ", f.claim);
+    if (!f.figures.empty()) text += fmt::format("      {}\n", f.figures);
+  }
+  for (const StudySection& section : report.sections) {
+    if (section.text.empty()) continue;
+    text += fmt::format("\n{}\n", section.title);
+    for (const std::string& paragraph : section.text) text += fmt::format("  {}\n", paragraph);
+  }
+  return text;
+}
+
+std::string to_markdown(const StudyReport& report) {
+  std::string text = fmt::format("# {}\n\n{}.\n\n{}\n\n", report.title, report.headline, report.introduction);
+  for (const StudyFinding& f : report.findings) {
+    text += fmt::format("- {}{} {}\n", f.verdict.empty() ? "" : "**" + f.verdict + "** ", f.claim, f.figures);
+  }
+  for (const StudySection& section : report.sections) {
+    text += fmt::format("\n## {}\n\n", section.title);
+    for (const std::string& paragraph : section.text) text += paragraph + "\n\n";
+    for (const StudyPicture& picture : section.pictures) {
+      text += fmt::format("![{}]({})\n\n    {}\n\n", picture.caption, picture.file, picture.command);
+    }
+    for (const NamedChart& chart : section.charts)
+      text += fmt::format("![{}]({}.svg)\n\n", chart.chart.title, chart.name);
+    for (const ResultTable& table : section.tables) text += to_markdown(table) + "\n";
+  }
+  return text + fmt::format("    {}\n", report.command);
+}
+
+std::string to_page(const StudyReport& report) {
+  std::vector<html::Finding> findings;
+  for (const StudyFinding& finding : report.findings) findings.push_back({finding.tone, to_html(finding)});
+  html::Page page;
+  page.kind = report.kind;
+  page.title = report.title;
+  page.heading = report.headline;
+  page.introduction = html::paragraph(report.introduction) + html::command("This study", report.command);
+  page.content = html::findings(findings);
+  for (std::size_t i = 0; i < report.sections.size(); ++i) page.content += to_html(report.sections[i], i + 1);
+  page.foot = html::provenance();
+  page.foot.emplace_back("Instruction set", std::string(kernels().name));
+  page.foot.emplace_back("Took", fmt::format("{:.0f} s", report.seconds));
+  return html::render(page);
+}
+
+std::string write_report(const StudyReport& report, const std::filesystem::path& folder) {
+  std::string problem;
+  for (const ResultTable& table : report.data) write_file_atomically(folder / (table.name + ".csv"), to_csv(table));
+  for (const StudySection& section : report.sections) {
+    for (const ResultTable& table : section.tables) {
+      write_file_atomically(folder / (table.name + ".csv"), to_csv(table));
+    }
+    for (const NamedChart& chart : section.charts) problem = write_plot(chart.chart, folder, chart.name);
+  }
+  write_file_atomically(folder / "report.md", to_markdown(report));
+  write_file_atomically(folder / "report.html", to_page(report));
+  return problem;
+}
+
+}  // namespace drape

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "html/chart.hpp"
+#include "html/components.hpp"
+#include "study/result_table.hpp"
+
+namespace drape {
+
+/// Something that came out of a study.
+struct StudyFinding {
+  html::Tone tone = html::Tone::neutral;
+  std::string verdict;  ///< in a word, where there is one: "confirmed"
+  std::string claim;
+  std::string figures;
+};
+
+struct NamedChart {
+  std::string name;  ///< of its files
+  html::Chart chart;
+};
+
+/// An animation that a study has made.
+struct StudyPicture {
+  std::string file;     ///< its name in the folder of the results
+  std::string bytes;    ///< of the GIF
+  std::string caption;  ///< also for who cannot see it
+  std::string command;  ///< that makes it again
+};
+
+struct StudySection {
+  std::string title;
+  std::vector<std::string> text;  ///< a paragraph each
+  std::vector<ResultTable> tables;
+  std::vector<NamedChart> charts;
+  std::vector<StudyPicture> pictures;
+};
+
+/// What every study hands out: read from top to bottom, findings first.
+struct StudyReport {
+  std::string kind;      ///< "drape study homework"
+  std::string title;     ///< of the page's window
+  std::string headline;  ///< the finding in one sentence
+  std::string introduction;
+  std::string command;  ///< that makes it again
+  std::vector<StudyFinding> findings;
+  std::vector<StudySection> sections;
+  std::vector<ResultTable> data;  ///< tables that are written as CSV and not shown
+  double seconds = 0;             ///< that it took
+};
+
+/// For a terminal: the tables, and at the end what came out.
+std::string to_text(const StudyReport& report);
+std::string to_markdown(const StudyReport& report);
+/// A self-contained page.
+std::string to_page(const StudyReport& report);
+
+/// Writes all of it into a folder: report.html, report.md, a CSV file for every table, and the plots. Animations have
+/// been written where they were made.
+/// @returns what could not be done, as a sentence; empty if all is there
+/// @throws OutputError
+std::string write_report(const StudyReport& report, const std::filesystem::path& folder);
+
+}  // namespace drape

@@ -1,0 +1,186 @@
+#include "study/scaling_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "study/power_law.hpp"
+
+namespace drape {
+namespace {
+
+std::string cost(double value) { return fmt::format("{:.{}f}", value, value < 10 ? 2 : value < 100 ? 1 : 0); }
+std::string percent(double share) { return share > 0 ? fmt::format("{:.1f}", 100 * share) : "–"; }
+std::string exponent(double value) { return std::isfinite(value) ? fmt::format("{:.2f}", value) : "–"; }
+
+double per_iteration(const ScalingPoint& p) { return p.time.median / std::max(1.0, p.iterations); }
+
+/// Methods in the order of their points.
+std::vector<std::string> methods_of(const ScalingStudy& study) {
+  std::vector<std::string> names;
+  for (const ScalingPoint& p : study.points) {
+    if (names.empty() || names.back() != p.method) names.push_back(p.method);
+  }
+  return names;
+}
+
+template <class Value>
+double growth(const ScalingStudy& study, const std::string& method, Value value) {
+  std::vector<std::array<double, 2>> points;
+  for (const ScalingPoint& p : study.points) {
+    if (p.method == method) points.push_back({p.vertices, value(p)});
+  }
+  return fitted_exponent(points);
+}
+
+struct Growth {
+  std::string method;
+  double step, iterations, iteration, factor, memory;
+};
+
+std::vector<Growth> growths(const ScalingStudy& study) {
+  std::vector<Growth> all;
+  for (const std::string& method : methods_of(study)) {
+    all.push_back({method, growth(study, method, [](const ScalingPoint& p) { return p.time.median; }),
+                   growth(study, method, [](const ScalingPoint& p) { return p.iterations; }),
+                   growth(study, method, per_iteration),
+                   growth(study, method, [](const ScalingPoint& p) { return p.factor; }),
+                   growth(study, method, [](const ScalingPoint& p) { return p.memory; })});
+  }
+  return all;
+}
+
+ResultTable time_table(const ScalingStudy& study) {
+  ResultTable table{
+      "scaling-times",
+      "Time and memory",
+      {"method", "grid", "vertices", "h [s]", "iterations", "µs a step", "lower quartile", "upper quartile",
+       "µs an iteration", "set-up [µs]", "of it, the factor", "memory [MB]"},
+      {},
+      {"A semi-implicit step is as long as is stable, with some room; set-up is then the search for that."}};
+  for (const ScalingPoint& p : study.points) {
+    table.rows.push_back({p.method, fmt::format("{0}×{0}", p.cells), fmt::format("{}", p.vertices),
+                          fmt::format("{:g}", p.step), p.iterations > 0 ? fmt::format("{:.1f}", p.iterations) : "–",
+                          cost(p.time.median), cost(p.time.lower), cost(p.time.upper), cost(per_iteration(p)),
+                          cost(p.setup.median), p.factor > 0 ? cost(p.factor) : "–", cost(1e-6 * p.memory)});
+  }
+  return table;
+}
+
+ResultTable growth_table(const ScalingStudy& study) {
+  ResultTable table{"scaling-growth",
+                    "Growth: p in (number of vertices)ᵖ, fitted to all grids",
+                    {"method", "time per step", "iterations", "time per iteration", "factor", "memory"},
+                    {},
+                    {}};
+  for (const Growth& g : growths(study)) {
+    table.rows.push_back({g.method, exponent(g.step), exponent(g.iterations), exponent(g.iteration), exponent(g.factor),
+                          exponent(g.memory)});
+  }
+  return table;
+}
+
+ResultTable share_table(const ScalingStudy& study) {
+  ResultTable table{
+      "scaling-shares",
+      "Where the time of a step goes [%]",
+      {"method", "grid", "local", "assembly", "products", "global", "vectors", "contact", "rest"},
+      {},
+      {"Local: the springs' energies and forces. Assembly: the blocks of Newton's matrix. Products: with "
+       "that matrix, in the conjugate gradients. Global: the two triangles of the constant factor, which "
+       "is also Newton's preconditioner. Vectors: their sums and products. Contact: the sphere, and "
+       "gravity.",
+       "With cholesky the rest is Newton's matrix, its factor and the solution with it. Measured in a run "
+       "of its own, with a clock around every hot loop."}};
+  for (const ScalingPoint& p : study.points) {
+    const TimeShares& s = p.shares;
+    table.rows.push_back({p.method, fmt::format("{0}×{0}", p.cells), percent(s.local), percent(s.assembly),
+                          percent(s.product), percent(s.global), percent(s.vectors), percent(s.contact),
+                          percent(s.rest)});
+  }
+  return table;
+}
+
+template <class Value>
+NamedChart chart_of(const ScalingStudy& study, const std::string& name, const std::string& title,
+                    const std::string& y_title, Value value) {
+  html::Chart chart{title, "vertices", y_title, html::Scale::logarithmic, html::Scale::logarithmic, {}, {}};
+  for (const std::string& method : methods_of(study)) {
+    html::ChartSeries series{method, {}};
+    for (const ScalingPoint& p : study.points) {
+      if (p.method != method) continue;
+      series.points.push_back({p.vertices,
+                               value(p),
+                               fmt::format("{0}×{0}: {1} {2}", p.cells, cost(value(p)), y_title),
+                               p.what.command(),
+                               {}});
+    }
+    chart.series.push_back(std::move(series));
+  }
+  return {name, std::move(chart)};
+}
+
+/// The part of a step that takes the most time.
+std::string largest_share(const TimeShares& s) {
+  const std::array<std::pair<const char*, double>, 7> parts{{{"the local step", s.local},
+                                                             {"the assembly", s.assembly},
+                                                             {"products with Newton's matrix", s.product},
+                                                             {"the constant factor's triangles", s.global},
+                                                             {"sums of vectors", s.vectors},
+                                                             {"contact", s.contact},
+                                                             {"the rest", s.rest}}};
+  const auto* most =
+      std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return fmt::format("{} ({:.0f} %)", most->first, 100 * most->second);
+}
+
+}  // namespace
+
+StudyReport scaling_report(const ScalingStudy& study) {
+  StudyReport report;
+  report.kind = "drape study scaling";
+  report.title = "How time and memory grow with the cloth";
+  report.command = fmt::format("drape study scaling --largest {} --runs {}", study.options.largest, study.options.runs);
+  report.introduction =
+      "The homework's cloth on the sphere, k = 180 N/m, h = 0.02 s and ε = 1e-3 m, on finer and finer grids. Every "
+      "method "
+      "starts from the same state, 0.5 s into the motion.";
+  report.seconds = study.seconds;
+  report.headline = "How time and memory grow with the cloth";
+  for (const Growth& g : growths(study)) {
+    const auto last = std::find_if(study.points.rbegin(), study.points.rend(),
+                                   [&](const ScalingPoint& p) { return p.method == g.method; });
+    report.findings.push_back(
+        {html::Tone::neutral, "",
+         fmt::format("{}: time per step grows like n to the power of {}.", g.method, exponent(g.step)),
+         fmt::format("On {0}×{0} cells a step takes {1} µs{2}, most of it {3}, and the simulation {4} MB.", last->cells,
+                     cost(last->time.median),
+                     last->iterations > 0 ? fmt::format(" in {:.1f} iterations", last->iterations) : "",
+                     largest_share(last->shares), cost(1e-6 * last->memory))});
+  }
+  report.sections = {
+      {"Growth",
+       study.notes,
+       {growth_table(study), time_table(study)},
+       {chart_of(study, "scaling-step", "Time per step by the number of vertices.", "µs a step",
+                 [](const ScalingPoint& p) { return p.time.median; }),
+        chart_of(study, "scaling-iteration", "Time per iteration by the number of vertices.", "µs an iteration",
+                 per_iteration),
+        chart_of(study, "scaling-memory", "Memory by the number of vertices.", "MB",
+                 [](const ScalingPoint& p) { return 1e-6 * p.memory; })},
+       {}},
+      {"Where the time goes", {}, {share_table(study)}, {}, {}},
+      {"How it was measured",
+       {fmt::format("Five steps from the same state, as computing time of one thread that stays on one processor: the "
+                    "median and the quartiles of {} runs, in which the methods take turns on each grid. Every run sets "
+                    "the simulation up anew and takes the same steps once before they are timed. Memory is what the "
+                    "heap has given to the simulation.",
+                    study.options.runs)},
+       {},
+       {},
+       {}}};
+  return report;
+}
+
+}  // namespace drape

@@ -1,0 +1,54 @@
+#include "study/solve_error.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "study/reference.hpp"
+
+namespace drape {
+
+ExactSteps::ExactSteps(const SimulationSettings& settings, const std::vector<State>& states, double limit)
+    : settings_(settings) {
+  Simulation newton(to_rounding(settings, Method::implicit));
+  Simulation quasi_newton(to_rounding(settings, Method::quasi_newton));
+  // A step that is content with any gradient ends where it begins.
+  SimulationSettings content = settings;
+  content.integrator.method = Method::implicit;
+  content.integrator.stop = StoppingRule::gradient;
+  content.integrator.tolerance = std::numeric_limits<double>::infinity();
+  Simulation beginning(content);
+  for (const State& state : states) {
+    for (Simulation* simulation : {&newton, &quasi_newton, &beginning}) {
+      simulation->restore(state);
+      simulation->step();
+    }
+    const double apart = distance(newton.state().x, quasi_newton.state().x).max;
+    if (apart > limit) {
+      ++left_out_;
+      continue;
+    }
+    apart_ = std::max(apart_, apart);
+    states_.push_back(state);
+    minimisers_.push_back(newton.state().x);
+    first_gradients_.push_back(beginning.residual());
+  }
+}
+
+SolveError ExactSteps::error(const IntegratorSettings& integrator) const {
+  SimulationSettings settings = settings_;
+  settings.integrator = integrator;
+  Simulation simulation(settings);
+  SolveError sum;
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    simulation.restore(states_[i]);
+    simulation.step();
+    const Distance d = distance(simulation.state().x, minimisers_[i]);
+    sum.max += d.max;
+    sum.rms += d.rms;
+    sum.gradient += simulation.residual() / first_gradients_[i];
+  }
+  const auto n = static_cast<double>(states_.size());
+  return {sum.max / n, sum.rms / n, sum.gradient / n};
+}
+
+}  // namespace drape

@@ -1,0 +1,29 @@
+#include "study/step_reference.hpp"
+
+#include "study/reference.hpp"
+
+namespace drape {
+
+std::optional<StepReference> extrapolate_step(SimulationSettings settings, double time, std::int64_t steps,
+                                              const std::stop_token& stop, Progress& progress) {
+  const std::int64_t half = steps / 2;
+  settings.step = time / static_cast<double>(half);
+  const auto coarse = run_reference(settings, half, {half}, stop, progress);
+  if (!coarse) return std::nullopt;
+  settings.step = time / static_cast<double>(steps);
+  Simulation fine(to_rounding(settings, Method::implicit));
+  progress.begin("computing the reference in small steps", "steps", steps);
+  while (fine.state().step < steps) {
+    if (stop.stop_requested()) return std::nullopt;
+    fine.step();
+    ++progress.done;
+  }
+  StepReference reference;
+  reference.x = 2 * fine.state().x - coarse->states.front().x;
+  reference.step = settings.step;
+  reference.gained = distance(fine.state().x, reference.x).max;
+  reference.apart = coarse->apart_after(half);
+  return reference;
+}
+
+}  // namespace drape
