@@ -17,7 +17,7 @@ namespace {
 
 constexpr double spring_stiffness = 180;  // where the push is varied [N/m]
 constexpr double sphere_reach = 0.44;     // 1.1 · 0.4 m
-const Eigen::Vector3d sphere_center(0, 0, -0.5);
+const Eigen::Vector3d sphere_center(0, 0, -sphere_reach);  // the cloth touches it at the start
 
 /// A sphere as the homework has it, which pushes with this stiffness [1/s²].
 ActiveEffect sphere(double stiffness, bool implicit) {

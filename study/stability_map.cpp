@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -156,10 +157,18 @@ std::string write_map(const StabilityMap& map, const std::filesystem::path& fold
   std::string palette;
   for (std::size_t b = 0; b < bands.size(); ++b)
     palette += fmt::format("{}{} '{}'", b == 0 ? "" : ", ", b, bands[b].color);
-  const auto marked = [&](const char* outcome, const char* style, const char* title) {
-    return fmt::format(", \\\n     '{}.csv' skip 1 using 1:(strcol(3) eq '{}' ? $2 : 1/0) with points {} title '{}'",
-                       name, outcome, style, title);
+  // Half the way to the next cell, less a gap.
+  const double half = 0.96 * std::sqrt(map.steps[1] / map.steps[0]),
+               high = 0.96 * std::sqrt(map.stiffnesses[1] / map.stiffnesses[0]);
+  const auto rings = [&](const char* condition, const char* color, const char* title) {
+    return fmt::format(
+        ", \\\n     '{}.csv' skip 1 using 1:(strcol(3) eq 'not converged' && $7 {} ? $2 : 1/0) with points pt 6 ps 0.9 "
+        "lw 1.8 lc "
+        "rgb '{}' {}",
+        name, condition, color, title);
   };
+  const bool limited =
+      std::any_of(map.limits.begin(), map.limits.end(), [&](double h) { return h < map.steps.back(); });
   const std::string script = fmt::format(
       "# gnuplot {0}.gp draws {0}.svg and {0}.png from {0}.csv.\n"
       "set datafile separator ','\nset encoding utf8\nset title \"{1}\" noenhanced\nset xlabel 'step, s'\nset ylabel "
@@ -170,18 +179,21 @@ std::string write_map(const StabilityMap& map, const std::filesystem::path& fold
       "'< 50 %%' 3, 'lost' 4, 'blown up' 5)\nset cblabel 'error of the energy'\n",
       name, map_title(map), stiffness_title(map.axis), map.steps.front() / 1.8, map.steps.back() * 1.8,
       map.stiffnesses.front() / 1.8, map.stiffnesses.back() * 1.8, bands.size(), palette, bands.size() - 1);
-  const auto plot = [&](double size) {
-    return fmt::format("plot '{}.csv' skip 1 using 1:2:7 with points pt 5 ps {} palette notitle", name, size) +
-           marked("not converged", "pt 6 ps 0.6 lw 1.2 lc rgb '#222222'", "some steps did not converge") +
-           marked("blown up", "pt 2 ps 0.6 lw 1.5 lc rgb 'white'", "blown up") +
-           fmt::format(", \\\n     '{}.csv' skip 1 using 6:2 with lines lw 2 dt 2 lc rgb 'black' title '{}'", name,
-                       map.limit_name);
-  };
+  std::string plot = fmt::format(
+      "plot '{0}.csv' skip 1 using 1:2:($1/{1:.4f}):($1*{1:.4f}):($2/{2:.4f}):($2*{2:.4f}):7 with boxxyerror fs solid "
+      "noborder lc "
+      "palette notitle",
+      name, half, high);
+  plot += rings("< 3", "#222222", "title 'some steps did not converge'") + rings(">= 3", "#ffffff", "notitle");
+  if (limited) {
+    plot += fmt::format(", \\\n     '{}.csv' skip 1 using 6:2 with lines lw 2.5 dt 2 lc rgb 'black' title '{}'", name,
+                        map.limit_name);
+  }
   write_file_atomically(
       folder / (name + ".gp"),
       script + fmt::format("set terminal svg size 800,640 font 'DejaVu Sans,13'\nset output '{0}.svg'\n{1}\n"
-                           "set terminal pngcairo size 1200,960 font 'DejaVu Sans,16'\nset output '{0}.png'\n{2}\n",
-                           name, plot(1.6), plot(2.6)));
+                           "set terminal pngcairo size 1200,960 font 'DejaVu Sans,18'\nset output '{0}.png'\n{1}\n",
+                           name, plot));
   return draw_with_gnuplot(folder, name);
 }
 

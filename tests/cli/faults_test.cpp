@@ -78,8 +78,8 @@ TEST(Faults, AFullDiskExitsWith4AndLeavesTheOldFilm) {
 TEST(Faults, AFolderThatCannotBeWrittenExitsWith4BeforeAnythingIsComputed) {
   const SceneFolder folder;
   folder.write("scene.toml", scene);
-  for (const char* option : {"render scene.toml --set time.duration=1e6 -o /proc/film.gif",
-                             "simulate scene.toml --set time.duration=1e6 --energies /proc/table.csv"}) {
+  for (const char* option : {"render scene.toml --set time.duration=1e5 -o /proc/film.gif",
+                             "simulate scene.toml --set time.duration=1e5 --energies /proc/table.csv"}) {
     const Finished finished = drape(folder, option);
     EXPECT_EQ(finished.code, 4) << finished.text;
     EXPECT_NE(finished.text.find("/proc/"), std::string::npos) << finished.text;

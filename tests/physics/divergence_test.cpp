@@ -16,7 +16,7 @@ SimulationSettings far_too_large_step(Solver solver) {
   return settings;
 }
 
-TEST(Divergence, NamesTheStepAndAVertexThatIsNoLongerFinite) {
+TEST(Divergence, NamesTheStepAndTheFastestVertex) {
   Simulation simulation(far_too_large_step(Method::semi_implicit));
   try {
     for (int step = 0; step < 2000; ++step) simulation.step();
@@ -31,8 +31,8 @@ TEST(Divergence, NamesTheStepAndAVertexThatIsNoLongerFinite) {
     EXPECT_EQ(std::stoll(step[1]), simulation.state().step);
     const int i = std::stoi(vertex[1]);
     ASSERT_LT(i, 49);
-    // Beyond 1e150 m the squares of the numbers are no longer finite.
-    EXPECT_FALSE(simulation.state().x.row(i).cwiseAbs().maxCoeff() < 1e150) << message;
+    const double fastest = simulation.state().v.rowwise().norm().maxCoeff();
+    EXPECT_EQ(simulation.state().v.row(i).norm(), fastest) << message;
   }
 }
 

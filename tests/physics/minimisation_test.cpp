@@ -70,10 +70,11 @@ TEST_P(Minimisation, NeverGoesUphill) {
       const SimulationSettings settings = endless(GetParam(), stiffness);
       const State start = after(step, stiffness);
       const Problem problem(settings, start);
-      double before = problem.value(problem.y);
+      double before = problem.value(problem.y), lowest = before;
       for (int iterations = 1; iterations <= 10; ++iterations) {
         const Outcome outcome = iterate(settings, start, iterations);
         EXPECT_LE(outcome.report.rise, 0);
+        lowest = std::min(lowest, problem.value(outcome.state.x));
         if (outcome.report.kept < 1) continue;  // it is not at its last iterate, which had too much energy
         const double now = problem.value(outcome.state.x);
         // A sum of 1700 positive terms is right to far better than 1e-13.
@@ -81,7 +82,7 @@ TEST_P(Minimisation, NeverGoesUphill) {
             << "iteration " << iterations << " from step " << step << " at " << stiffness << " N/m";
         before = now;
       }
-      EXPECT_LT(before, problem.value(problem.y)) << "got nowhere";
+      EXPECT_LT(lowest, problem.value(problem.y)) << "got nowhere";
     }
   }
 }
@@ -95,16 +96,17 @@ TEST_P(Minimisation, NeverGoesUphillWhereAFullStepWould) {
     settings.integrator.tolerance = 1e-300;
     const State start = Simulation(settings).state();
     const Problem problem(settings, start, {0, 0, 0});
-    double before = problem.value(problem.y);
+    double before = problem.value(problem.y), lowest = before;
     for (int iterations = 1; iterations <= 10; ++iterations) {
       const Outcome outcome = iterate(settings, start, iterations);
       EXPECT_LE(outcome.report.rise, 0);
+      lowest = std::min(lowest, problem.value(outcome.state.x));
       if (outcome.report.kept < 1) continue;
       const double now = problem.value(outcome.state.x);
       EXPECT_LE(now, before * (1 + 1e-13)) << "iteration " << iterations << ", velocities " << seed;
       before = now;
     }
-    EXPECT_LT(before, 0.1 * problem.value(problem.y)) << "got nowhere, velocities " << seed;
+    EXPECT_LT(lowest, 0.1 * problem.value(problem.y)) << "got nowhere, velocities " << seed;
   }
 }
 

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "scene/tables.hpp"
@@ -31,8 +34,9 @@ class Writer {
         add(table, "[" + table.name);
     }
     for (const EffectType& type : effect_types()) {
-      if (random_.number() > 0.3) continue;
-      const int count = type.repeatable ? 1 + random_.below(2) : 1;
+      if (random_.number() > 0.3 || (!wild() && type.name == "moving_pins" && pins_.empty())) continue;
+      // Pins can be moved by one table only.
+      const int count = type.repeatable && (wild() || type.name != "moving_pins") ? 1 + random_.below(2) : 1;
       for (int i = 0; i < count; ++i) {
         const auto effect = type.make();
         add(effect_table(type, *effect),
@@ -57,11 +61,28 @@ class Writer {
 
   void add(const TableType& table, const std::string& heading) {
     text_ += heading + "]\n";
+    const auto motion = static_cast<std::size_t>(random_.below(8));
     for (const Key& key : table.keys.all()) {
-      if (!key.required && random_.number() > 0.35) continue;
+      if (wild() ? !key.required && random_.number() > 0.35 : !wanted(table.name, key, motion)) continue;
       const std::string text = std::visit([&](const auto& target) { return value(key, target); }, key.target);
       if (!text.empty()) text_ += fmt::format("{} = {}\n", key.name, text);
     }
+  }
+
+  [[nodiscard]] bool wild() const { return wild_ > 0; }
+
+  /// Whether a scene that is meant to be right has the key: there are rules between keys.
+  /// @param motion which of a sphere's motions it has, if any
+  bool wanted(const std::string& table, const Key& key, std::size_t motion) {
+    if (table == "effects.sphere") {
+      constexpr std::array<std::string_view, 4> motions{"velocity", "orbit_period", "keyframes", "track"};
+      const auto found = std::ranges::find(motions, key.name);
+      if (found != motions.end()) return motion == static_cast<std::size_t>(found - motions.begin()) && motion < 3;
+      if (key.name == "center") return motion != 2;
+    }
+    if (key.name == "rigidity" || (table == "effects.moving_pins" && key.name == "keyframes")) return true;
+    if (key.name == "samples" || key.name == "frames") return false;
+    return key.required || random_.number() < 0.35;
   }
 
   static std::string number(double value) {
