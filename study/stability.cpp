@@ -69,7 +69,9 @@ double predicted_limit(Method method, StabilityAxis axis, double stiffness) {
 }
 
 StabilityMap empty_map(Method method, StabilityAxis axis, const StabilityDetail& detail) {
-  StabilityMap map{.method = method, .axis = axis};
+  StabilityMap map;
+  map.method = method;
+  map.axis = axis;
   map.steps = decades(1e-5, 1, detail.per_decade);
   map.stiffnesses =
       axis == StabilityAxis::springs ? decades(1e-2, 1e9, detail.per_decade) : decades(1, 1e9, detail.per_decade);

@@ -99,7 +99,10 @@ std::string write_stability_files(const StabilityStudy& study, const std::filesy
   write_file_atomically(folder / "border.csv", to_csv(border_table(study)));
   write_file_atomically(folder / "report.html", stability_page(study));
   std::string problem;
-  for (const StabilityMap& map : study.maps) problem = write_map(map, folder);
+  for (const StabilityMap& map : study.maps) {
+    const std::string missing = write_map(map, folder);
+    if (problem.empty()) problem = missing;
+  }
   return problem;
 }
 
