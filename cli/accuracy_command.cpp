@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
@@ -7,7 +6,6 @@
 
 #include "cli/scene_files.hpp"
 #include "cli/studies.hpp"
-#include "cli/watched.hpp"
 #include "core/nearest.hpp"
 #include "core/shell.hpp"
 #include "study/accuracy_animation.hpp"
@@ -84,27 +82,23 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, options.overrides);
   for (const Scene& scene : scenes) complete(options, scene);  // what is wrong is said before hours of work
   const std::vector<std::string> names = unique_names(scenes);
-  std::vector<SceneAccuracy> studies;
-  std::vector<std::vector<StudyPicture>> pictures;
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    std::optional<SceneAccuracy> study;
-    std::vector<StudyPicture> animated;
-    const bool interrupted = run_watched(common, [&](const std::stop_token& stop, Progress& progress) {
-      study = study_accuracy(names[i], arguments.scenes[i], options, stop, progress);
-      for (std::size_t a = 0; study && a < animations.size(); ++a) {
-        auto picture = animate_accuracy(*study, animations[a], arguments.folder, arguments.backend, stop, progress);
-        if (picture) animated.push_back(std::move(*picture));
-      }
-    });
-    if (interrupted || !study) {
-      spdlog::error("interrupted; there is no report");
-      return ExitCode::interrupted;
-    }
-    studies.push_back(std::move(*study));
-    pictures.push_back(std::move(animated));
-  }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return hand_out(accuracy_report(studies, command_line(arguments), pictures, seconds), arguments.folder, common);
+  return run_study(
+      arguments.folder, common, [&](const std::stop_token& stop, Progress& progress) -> std::optional<StudyReport> {
+        std::vector<SceneAccuracy> studies;
+        std::vector<std::vector<StudyPicture>> pictures(scenes.size());
+        for (std::size_t i = 0; i < scenes.size(); ++i) {
+          auto study = study_accuracy(names[i], arguments.scenes[i], options, stop, progress);
+          if (!study) return std::nullopt;
+          for (const AnimatedBy animated : animations) {
+            auto picture = animate_accuracy(*study, animated, arguments.folder, arguments.backend, stop, progress);
+            if (picture) pictures[i].push_back(std::move(*picture));
+          }
+          if (stop.stop_requested()) return std::nullopt;
+          studies.push_back(std::move(*study));
+        }
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+        return accuracy_report(studies, command_line(arguments), pictures, took.count());
+      });
 }
 
 }  // namespace

@@ -1,9 +1,6 @@
-#include <spdlog/spdlog.h>
-
 #include <memory>
 
 #include "cli/studies.hpp"
-#include "cli/watched.hpp"
 #include "study/scaling_report.hpp"
 
 namespace drape {
@@ -15,15 +12,9 @@ struct ScalingArguments {
 };
 
 ExitCode run_scaling(const ScalingArguments& arguments, const CommonOptions& common) {
-  std::optional<ScalingStudy> study;
-  run_watched(common, [&](const std::stop_token& stop, Progress& progress) {
-    study = study_scaling(arguments.options, stop, progress);
+  return run_study(arguments.folder, common, [&](const std::stop_token& stop, Progress& progress) {
+    return report_of(study_scaling(arguments.options, stop, progress), scaling_report);
   });
-  if (!study) {
-    spdlog::error("interrupted; nothing was written");
-    return ExitCode::interrupted;
-  }
-  return hand_out(scaling_report(*study), arguments.folder, common);
 }
 
 }  // namespace

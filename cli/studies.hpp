@@ -1,14 +1,28 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <stop_token>
 
 #include "cli/command_line.hpp"
+#include "run/progress.hpp"
 #include "study/report.hpp"
 
 namespace drape {
 
-/// Writes a study's files, and prints it.
-ExitCode hand_out(const StudyReport& report, const std::filesystem::path& folder, const CommonOptions& common);
+/// Measures while it shows the progress, and then writes the report's files and prints it.
+/// @param measure the study's report; nothing if it was stopped
+/// @throws what measure throws
+/// @throws OutputError
+ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& common,
+                   const std::function<std::optional<StudyReport>(const std::stop_token&, Progress&)>& measure);
+
+/// A study's report, if it was not stopped.
+template <class Study>
+std::optional<StudyReport> report_of(const std::optional<Study>& study, StudyReport (*report)(const Study&)) {
+  return study ? std::optional(report(*study)) : std::nullopt;
+}
 
 /// Each adds a subcommand of study.
 void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& command);

@@ -17,15 +17,9 @@ struct HomeworkArguments {
 };
 
 ExitCode run_homework(const HomeworkArguments& arguments, const CommonOptions& common) {
-  std::optional<HomeworkStudy> study;
-  run_watched(common, [&](const std::stop_token& stop, Progress& progress) {
-    study = study_homework(arguments.runs, stop, progress);
+  return run_study(arguments.folder, common, [&](const std::stop_token& stop, Progress& progress) {
+    return report_of(study_homework(arguments.runs, stop, progress), homework_report);
   });
-  if (!study) {
-    spdlog::error("interrupted; nothing was written");
-    return ExitCode::interrupted;
-  }
-  return hand_out(homework_report(*study), arguments.folder, common);
 }
 
 void add_homework_study(CLI::App& study, const CommonOptions& common, Command& command) {
@@ -39,10 +33,17 @@ void add_homework_study(CLI::App& study, const CommonOptions& common, Command& c
 
 }  // namespace
 
-ExitCode hand_out(const StudyReport& report, const std::filesystem::path& folder, const CommonOptions& common) {
-  const std::string problem = write_report(report, folder);
+ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& common,
+                   const std::function<std::optional<StudyReport>(const std::stop_token&, Progress&)>& measure) {
+  std::optional<StudyReport> report;
+  run_watched(common, [&](const std::stop_token& stop, Progress& progress) { report = measure(stop, progress); });
+  if (!report) {
+    spdlog::error("interrupted; there is no report");
+    return ExitCode::interrupted;
+  }
+  const std::string problem = write_report(*report, folder);
   if (!problem.empty()) spdlog::warn(problem);
-  if (!common.quiet) fmt::print("{}\n{}\n", to_text(report), (folder / "report.html").string());
+  if (!common.quiet) fmt::print("{}\n{}\n", to_text(*report), (folder / "report.html").string());
   return ExitCode::ok;
 }
 

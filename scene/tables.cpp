@@ -52,8 +52,7 @@ Keys integrator_keys(IntegratorSettings& integrator) {
       "preconditioned with liu13's matrix.");
   keys.add("allow_unstable", &integrator.allow_unstable, "",
            "Run what is refused otherwise: semi-implicit with a step beyond its largest safe one, or an implicit "
-           "method where "
-           "double precision cannot hold the inertia beside the springs.");
+           "method where double precision cannot hold the inertia beside the springs.");
   return keys;
 }
 

@@ -20,7 +20,13 @@ Eigen::Index worst_vertex(const State& state) {
 
 }  // namespace
 
-BlowUpWatch::BlowUpWatch(const System& system) {
+double BlowUpWatch::limit(double ratio) {
+  if (ratio >= 1) return limit_of_unstable_steps;
+  return std::min(limit_of_unstable_steps, 4 * (1 + ratio) / (1 - ratio));
+}
+
+BlowUpWatch::BlowUpWatch(const System& system, double safe_step)
+    : limit_(limit(system.step / safe_step)), interval_(system.step > safe_step ? 1 : 256) {
   // Where every spring has its rest length, rounding lengths by ε leaves Σ k (εL)²/2.
   double scale = std::numeric_limits<double>::min();
   for (const Spring& s : system.springs) scale += s.stiffness * s.rest_length * s.rest_length;
@@ -29,9 +35,9 @@ BlowUpWatch::BlowUpWatch(const System& system) {
 
 void BlowUpWatch::begin(double energy) { explained_ = std::max(energy, rounding_); }
 
-std::optional<double> BlowUpWatch::after_step(double work, double energy) {
+std::optional<double> BlowUpWatch::look(double work, double energy) {
   explained_ += work;
-  if (!(energy > limit * explained_)) return std::nullopt;
+  if (!(energy > limit_ * explained_)) return std::nullopt;
   return energy / explained_;
 }
 
@@ -45,7 +51,13 @@ DivergedError diverged(const State& state, double time, const BlowUp& what) {
   text += what.growth
               ? fmt::format(" and the energy has grown to {:.2g} times what the cloth had and was given", *what.growth)
               : " and the energy has grown without bound";
-  if (what.safe_step) {
+  if (what.safe_step && what.step <= *what.safe_step) {
+    text += fmt::format(
+        ", though the step is below {:.4g} s, up to which semi-implicit Euler is stable as long as springs do not pass "
+        "through zero length, where each gains a little: take a step far below it, or method = \"liu13\", \"implicit\" "
+        "or \"quasi-newton\"",
+        *what.safe_step);
+  } else if (what.safe_step) {
     text += fmt::format(
         "; semi-implicit Euler is stable up to a step of {:.4g} s here: take a shorter one, or method = "
         "\"liu13\", \"implicit\" or \"quasi-newton\"",

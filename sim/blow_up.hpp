@@ -11,28 +11,38 @@ namespace drape {
 /// The motion blew up, or left the range of finite numbers.
 class DivergedError : public Error {
  public:
-  using Error::Error;
   explicit DivergedError(const std::string& message) : Error(ExitCode::diverged, message) {}
 };
 
-/// Recognises the step in which an unstable motion has more energy than can be explained. Symplectic Euler with a
-/// stable step keeps K + E − (h/2)·v·∇E of a linear cloth, so its energy K + E stays within a factor of (1 + hω/2)/(1 −
-/// hω/2); with an unstable step it grows by a constant factor in every step. The watch keeps what the cloth had and
-/// what the forces gave it, Σ|f·Δx|, and calls ten thousand times that a blow-up: far beyond what a stable motion has,
-/// and a few steps after its beginning.
+/// Recognises that a motion of semi-implicit Euler has more energy than can be explained: than what the cloth had and
+/// what the forces gave it, Σ|f·Δx|.
+///
+/// Symplectic Euler keeps K + E − (h/2)·v·∇E of a linear cloth. With r = step/safe_step() < 1 that is between (1 − r)
+/// and (1 + r) times K + E, which so stays within a factor of (1 + r)/(1 − r); the limit is four times that. Beyond r =
+/// 1 the energy grows by a constant factor in every step, and ten thousand times what is explained is far beyond what a
+/// stable motion has, and a few steps after the beginning of its end.
 class BlowUpWatch {
  public:
-  static constexpr double limit = 1e4;
+  static constexpr double limit_of_unstable_steps = 1e4;
+  /// How many times the energy that is explained is a blow-up.
+  /// @param ratio step/safe_step()
+  static double limit(double ratio);
 
-  explicit BlowUpWatch(const System& system);
+  BlowUpWatch(const System& system, double safe_step);
+
+  /// How many steps may lie between two looks: one beyond the safe step, and below it, where a cloth can only gain
+  /// energy little by little, so many that looking costs nothing.
+  [[nodiscard]] int interval() const { return interval_; }
 
   /// Begins with a state of this energy, K + E [J].
   void begin(double energy);
-  /// Takes note of a step in which the forces at its start did this work, |f·Δx|, and which ended with this energy [J].
+  /// Takes note of steps in which the forces did this work, Σ|f·Δx|, and which ended with this energy [J].
   /// @returns how many times the energy that is explained, if that is beyond the limit
-  std::optional<double> after_step(double work, double energy);
+  std::optional<double> look(double work, double energy);
 
  private:
+  double limit_;
+  int interval_;
   double rounding_;       // what rounding the positions does to the energy [J]
   double explained_ = 0;  // [J]
 };
@@ -41,6 +51,7 @@ class BlowUpWatch {
 struct BlowUp {
   std::optional<double> growth;     ///< of the energy, see BlowUpWatch; absent: the numbers are no longer finite
   std::optional<double> safe_step;  ///< of semi-implicit Euler [s]; absent for the implicit methods
+  double step = 0;                  ///< that it was run with [s]
 };
 
 /// Names the step, the time, the worst vertex (the first that is not finite, else the fastest), the energy's growth,

@@ -49,7 +49,7 @@ struct IntegratorSettings {
   std::optional<int>
       max_iterations;  ///< absent: the homework's 20 for implicit and 100 for liu13; 500 for quasi_newton
   LinearSolver linear_solver = LinearSolver::automatic;  ///< of the implicit method
-  bool allow_unstable = false;  ///< run what stability_problem() refuses
+  bool allow_unstable = false;                           ///< run what stability_problem() refuses
 };
 
 /// An effect that a scene calls for: its name in the registry, and what its table says.

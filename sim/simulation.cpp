@@ -12,10 +12,16 @@
 namespace drape {
 namespace {
 
+bool is_explicit(const SimulationSettings& settings) { return settings.integrator.method == Method::semi_implicit; }
+
 /// Makes the integrator, unless the motion is known beforehand to be unstable.
-std::unique_ptr<Integrator> make_stable_integrator(const SimulationSettings& settings, const System& system) {
+/// @param safe_step of semi-implicit Euler, which takes a while to find
+std::unique_ptr<Integrator> make_stable_integrator(const SimulationSettings& settings, const System& system,
+                                                   double safe_step) {
   if (!settings.integrator.allow_unstable) {
-    if (const auto problem = stability_problem(settings, system)) throw UsageError(*problem);
+    const auto problem =
+        is_explicit(settings) ? step_problem(settings.step, safe_step) : stability_problem(settings, system);
+    if (problem) throw UsageError(*problem);
   }
   return make_integrator(settings.integrator, system);
 }
@@ -54,12 +60,13 @@ Simulation::Simulation(SimulationSettings settings, Timing timing)
       state_(initial_state(settings_.cloth)),
       constant_force_(constant_force(*system_, state_)),
       force_(constant_force_),
-      integrator_(make_stable_integrator(settings_, *system_)),
+      safe_step_(is_explicit(settings_) ? safe_step(*system_) : 0),
+      integrator_(make_stable_integrator(settings_, *system_, safe_step_)),
       springs_(system_->springs, settings_.cloth.vertex_count()) {
-  // Where the step is safe nothing blows up, and nothing is spent on looking.
-  const bool explicit_method = settings_.integrator.method == Method::semi_implicit;
-  if (explicit_method && settings_.integrator.allow_unstable && stability_problem(settings_, *system_)) {
-    watch_.emplace(*system_);
+  if (!is_explicit(settings_)) return;
+  // What pins and filters do to the cloth is no force. Beyond the safe step that does not count.
+  if (settings_.step > safe_step_ || (system_->pin_motions.empty() && system_->filters.empty())) {
+    watch_.emplace(*system_, safe_step_);
     restore(state_);
   }
 }
@@ -80,25 +87,29 @@ void Simulation::enter_phase() {
 StepReport Simulation::step() {
   if (phases_.size() > 1) enter_phase();
   const Vertices& push = force();
-  Vertices before;
-  if (watch_) before = state_.x;
   StepReport report = integrator_->advance(state_, push);
   for (const auto& filter : system_->filters) report.converged = report.converged && filter->converged();
   ++state_.step;
   // What is not finite makes the sum of its squares so, and any velocity that is not moves its vertex there.
   if (!std::isfinite(norm(state_.x))) throw diverged_with(std::nullopt);
-  if (watch_) check_for_blow_up(std::abs(push.cwiseProduct(state_.x - before).sum()));
+  if (watch_) look_for_blow_up(push);
   return report;
 }
 
-void Simulation::check_for_blow_up(double work) {
+void Simulation::look_for_blow_up(const Vertices& push) {
+  const bool constant = &push == &constant_force_;
+  if (!constant) work_ += settings_.step * std::abs(push.cwiseProduct(state_.v).sum());
+  if (state_.step % watch_->interval() != 0) return;
+  if (constant) work_ = std::abs(push.cwiseProduct(state_.x - looked_at_).sum());
   const Energies now = energies();
-  if (const auto growth = watch_->after_step(work, now.kinetic + now.elastic)) throw diverged_with(growth);
+  if (const auto growth = watch_->look(work_, now.kinetic + now.elastic)) throw diverged_with(growth);
+  looked_at_ = state_.x;
+  work_ = 0;
 }
 
 DivergedError Simulation::diverged_with(std::optional<double> growth) const {
-  BlowUp what{.growth = growth, .safe_step = {}};
-  if (settings_.integrator.method == Method::semi_implicit) what.safe_step = safe_step(*system_);
+  BlowUp what{.growth = growth, .safe_step = {}, .step = settings_.step};
+  if (is_explicit(settings_)) what.safe_step = safe_step_;
   return diverged(state_, time(), what);
 }
 
@@ -119,16 +130,19 @@ void Simulation::restore(const State& state) {
   if (!watch_) return;
   const Energies now = energies();
   watch_->begin(now.kinetic + now.elastic);
+  looked_at_ = state_.x;
+  work_ = 0;
 }
 
 Energies Simulation::energies() const {
   const Eigen::VectorXd& m = settings_.cloth.masses;
-  double elastic = springs_.energy(state_.x);
-  Vertices ignored = Vertices::Zero(state_.x.rows(), 3);
-  for (const auto& energy : system_->coupled_energies) elastic += energy->add_gradient(state_.x, ignored);
-  return {.kinetic = 0.5 * m.dot(state_.v.rowwise().squaredNorm()),
-          .gravity = -m.dot(state_.x * system_->gravity),
-          .elastic = elastic};
+  ignored_.setZero(state_.x.rows(), 3);
+  double elastic = springs_.add_value_gradient(state_.x, ignored_);
+  for (const auto& energy : system_->coupled_energies) elastic += energy->add_gradient(state_.x, ignored_);
+  per_vertex_ = state_.v.rowwise().squaredNorm();
+  const double kinetic = 0.5 * m.dot(per_vertex_);
+  per_vertex_.noalias() = state_.x * system_->gravity;
+  return {.kinetic = kinetic, .gravity = -m.dot(per_vertex_), .elastic = elastic};
 }
 
 std::vector<Collider> Simulation::colliders(double time) const {

@@ -41,8 +41,8 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// Advances the cloth by one step.
-  /// @throws DivergedError if a position or velocity is no longer finite, or semi-implicit Euler runs beyond its safe
-  ///         step and the energy blows up
+  /// @throws DivergedError if a position or velocity is no longer finite, or semi-implicit Euler gains energy out of
+  ///         nothing, see BlowUpWatch
   StepReport step();
 
   /// Goes on from another state of the same cloth, at any step.
@@ -70,8 +70,8 @@ class Simulation {
   void enter_phase();
   /// The sum of all forces now.
   [[nodiscard]] const Vertices& force();
-  /// Ends the simulation if its last step, in which the forces at its start did this work [J], was none.
-  void check_for_blow_up(double work);
+  /// Ends the simulation if its last steps gained energy out of nothing. @param push the forces of the last one
+  void look_for_blow_up(const Vertices& push);
   [[nodiscard]] DivergedError diverged_with(std::optional<double> growth) const;
   [[nodiscard]] double time_of(std::int64_t step) const { return static_cast<double>(step) * settings_.step; }
 
@@ -82,9 +82,14 @@ class Simulation {
   std::size_t phase_ = 0;
   State state_;
   Vertices constant_force_, force_;
+  double safe_step_;  // of semi-implicit Euler, else 0 [s]
   std::unique_ptr<Integrator> integrator_;
   SpringNetwork springs_;
-  std::optional<BlowUpWatch> watch_;  // of a step that is not safe
+  mutable Eigen::VectorXd per_vertex_;  // for energies(), which takes nothing from the heap…
+  mutable Vertices ignored_;            // …and this is a gradient that comes with an energy
+  std::optional<BlowUpWatch> watch_;    // of semi-implicit Euler
+  Vertices looked_at_;                  // where the cloth was when it last looked
+  double work_ = 0;                     // since then [J]
 };
 
 }  // namespace drape

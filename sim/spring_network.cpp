@@ -144,11 +144,6 @@ double SpringNetwork::add_lists(const Vertices& x, Vertices& gradient) const {
   return total;
 }
 
-double SpringNetwork::energy(const Vertices& x) const {
-  Vertices ignored = Vertices::Zero(x.rows(), 3);
-  return add_value_gradient(x, ignored);
-}
-
 double SpringNetwork::add_value_gradient(const Vertices& x, Vertices& gradient) const {
   double total = 0;
   for_stretches([&](int first, const SpringStretch& stretch) {

@@ -19,9 +19,6 @@ class SpringNetwork {
   /// @param springs  any springs with i < j < vertex_count, duplicates included
   SpringNetwork(const std::vector<Spring>& springs, int vertex_count);
 
-  /// E(x) [J].
-  [[nodiscard]] double energy(const Vertices& x) const;
-
   /// gradient += ∇E(x), n×3 [N]; returns E(x) [J]. A spring of zero length pulls nowhere.
   double add_value_gradient(const Vertices& x, Vertices& gradient) const;
 
@@ -86,8 +83,8 @@ class SpringNetwork {
   std::vector<Range> stretches_;
   std::vector<int> i_, j_;
   AlignedVector stiffness_, rest_length_;
-  mutable AlignedVector force_;  // of the springs of each band, for as long as the pass needs them
-  mutable Vertices other_force_;       // of an explicit step, with that of springs in no band
+  mutable AlignedVector force_;   // of the springs of each band, for as long as the pass needs them
+  mutable Vertices other_force_;  // of an explicit step, with that of springs in no band
 };
 
 }  // namespace drape

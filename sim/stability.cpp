@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <fmt/format.h>
-#include <vector>
 
 namespace drape {
 namespace {
@@ -94,15 +94,16 @@ double condition_bound(const System& system) {
   return 1 + (h * h * stiffness.array() / masses.array()).maxCoeff();
 }
 
+std::optional<std::string> step_problem(double step, double safe_step) {
+  if (step <= safe_step) return std::nullopt;
+  return fmt::format(
+      "{:g} s is too long for semi-implicit Euler: with these springs and masses it is stable up to {:.4g} s; take a "
+      "shorter step or an implicit method, or set [integrator] allow_unstable = true to run it nevertheless",
+      step, safe_step);
+}
+
 std::optional<std::string> stability_problem(const SimulationSettings& settings, const System& system) {
-  if (settings.integrator.method == Method::semi_implicit) {
-    const double largest = safe_step(system);
-    if (settings.step <= largest) return std::nullopt;
-    return fmt::format(
-        "{:g} s is too long for semi-implicit Euler: with these springs and masses it is stable up to {:.4g} s; take a "
-        "shorter step or an implicit method, or set [integrator] allow_unstable = true to run it nevertheless",
-        settings.step, largest);
-  }
+  if (settings.integrator.method == Method::semi_implicit) return step_problem(settings.step, safe_step(system));
   const double condition = condition_bound(system);
   if (condition <= largest_condition) return std::nullopt;
   return fmt::format(

@@ -69,7 +69,8 @@ std::string points_csv(const html::Chart& chart) {
 std::string script(const html::Chart& chart, const std::string& name) {
   std::string text = fmt::format(
       "# gnuplot {0}.gp draws {0}.svg and {0}.png from {0}.csv.\n"
-      "set datafile separator ','\nset encoding utf8\nset title {1} noenhanced\nset xlabel {2} noenhanced offset 0,0.4\n"
+      "set datafile separator ','\nset encoding utf8\nset title {1} noenhanced\nset xlabel {2} noenhanced offset "
+      "0,0.4\n"
       "set ylabel {3} noenhanced\nset key outside below noenhanced\nset grid lt 1 lc rgb '#dddddd'\nset border 3\n"
       "set tics nomirror\n",
       name, quoted(wrapped(chart.title)), quoted(chart.x_title), quoted(chart.y_title));

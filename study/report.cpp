@@ -29,6 +29,11 @@ html::Markup to_html(const StudySection& section, std::size_t number) {
         "Point at a curve, or go along it with the arrow keys, to see its values and the command that computes them.");
   }
   for (const NamedChart& chart : section.charts) content += html::chart(chart.chart);
+  if (!section.maps.empty()) {
+    std::vector<html::Markup> drawings;
+    for (const StabilityMap& map : section.maps) drawings.push_back(map_svg(map));
+    content += map_legend() + html::row(drawings);
+  }
   for (const ResultTable& table : section.tables) content += to_html(table);
   return html::section(2, fmt::format("section-{}", number), section.title, content);
 }
@@ -66,6 +71,9 @@ std::string to_markdown(const StudyReport& report) {
     }
     for (const NamedChart& chart : section.charts)
       text += fmt::format("![{}]({}.svg)\n\n", chart.chart.title, chart.name);
+    for (const StabilityMap& map : section.maps) {
+      text += fmt::format("![{}]({}.svg)\n\n", map_title(map), map_name(map));
+    }
     for (const ResultTable& table : section.tables) text += to_markdown(table) + "\n";
   }
   return text + fmt::format("    {}\n", report.command);
@@ -88,13 +96,17 @@ std::string to_page(const StudyReport& report) {
 }
 
 std::string write_report(const StudyReport& report, const std::filesystem::path& folder) {
-  std::string problem;
+  std::string problem;  // the first
+  const auto note = [&](const std::string& missing) {
+    if (problem.empty()) problem = missing;
+  };
   for (const ResultTable& table : report.data) write_file_atomically(folder / (table.name + ".csv"), to_csv(table));
   for (const StudySection& section : report.sections) {
     for (const ResultTable& table : section.tables) {
       write_file_atomically(folder / (table.name + ".csv"), to_csv(table));
     }
-    for (const NamedChart& chart : section.charts) problem = write_plot(chart.chart, folder, chart.name);
+    for (const NamedChart& chart : section.charts) note(write_plot(chart.chart, folder, chart.name));
+    for (const StabilityMap& map : section.maps) note(write_map(map, folder));
   }
   write_file_atomically(folder / "report.md", to_markdown(report));
   write_file_atomically(folder / "report.html", to_page(report));

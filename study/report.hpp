@@ -7,6 +7,7 @@
 #include "html/chart.hpp"
 #include "html/components.hpp"
 #include "study/result_table.hpp"
+#include "study/stability_map.hpp"
 
 namespace drape {
 
@@ -37,6 +38,7 @@ struct StudySection {
   std::vector<ResultTable> tables;
   std::vector<NamedChart> charts;
   std::vector<StudyPicture> pictures;
+  std::vector<StabilityMap> maps = {};
 };
 
 /// What every study hands out: read from top to bottom, findings first.

@@ -1,55 +1,74 @@
 #include "study/stability.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <thread>
 
 #include "core/parallel.hpp"
+#include "sim/effects/contact.hpp"
 #include "sim/effects/gravity.hpp"
-#include "sim/effects/sphere.hpp"
+#include "sim/effects/ground.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
 
 namespace drape {
 namespace {
 
-constexpr double spring_stiffness = 180;                   // where the push is varied [N/m]
-constexpr double sphere_reach = 0.44;                      // 1.1 · 0.4 m
-const Eigen::Vector3d sphere_center(0, 0, -sphere_reach);  // the cloth touches it at the start
+constexpr std::array all_methods{Method::semi_implicit, Method::implicit, Method::liu13, Method::quasi_newton};
+constexpr int cells = 6;                  // along a side
+constexpr double spring_stiffness = 180;  // where the push is varied [N/m]
+constexpr double depth = 0.01;            // to which it lies in the ground [m]
+constexpr double disturbance = 1e-4;      // how far it swings there [m]
 
-/// A sphere as the homework has it, which pushes with this stiffness [1/s²].
-ActiveEffect sphere(double stiffness, bool implicit) {
-  std::shared_ptr<Effect> effect = make_sphere();
+/// Sets a value of an effect's table.
+template <class T>
+void set(Effect& effect, std::string_view name, const T& value) {
   Keys keys;
-  effect->describe(keys);
+  effect.describe(keys);
   for (const Key& key : keys.all()) {
-    if (key.name == "center") *std::get<std::optional<Eigen::Vector3d>*>(key.target) = sphere_center;
-    if (key.name == "radius") *std::get<std::optional<double>*>(key.target) = 0.4;
-    if (key.name == "stiffness") *std::get<double*>(key.target) = stiffness;
-    if (key.name == "response") std::get<Choice>(key.target).set(implicit ? 1 : 0);
+    if (key.name != name) continue;
+    if constexpr (std::is_same_v<T, Response>) {
+      std::get<Choice>(key.target).set(static_cast<std::size_t>(value));
+    } else {
+      *std::get<T*>(key.target) = value;
+    }
   }
-  return {"sphere", effect};
 }
 
-/// What the sphere's push holds, Σ m·stiffness/2·depth² [J].
+ActiveEffect gravity(double acceleration) {
+  std::shared_ptr<Effect> effect = make_gravity();
+  set(*effect, "acceleration", Eigen::Vector3d(0, 0, -acceleration));
+  return {"gravity", effect};
+}
+
+/// A level ground at height 0 without friction, which pushes with this stiffness [1/s²].
+ActiveEffect ground(double stiffness, Response response) {
+  std::shared_ptr<Effect> effect = make_ground();
+  set(*effect, "thickness", 0.0);
+  set(*effect, "friction", 0.0);
+  set(*effect, "restitution", 1.0);
+  set(*effect, "stiffness", stiffness);
+  set(*effect, "response", response);
+  return {"ground", effect};
+}
+
+/// What the ground's push holds, Σ m·stiffness/2·depth² [J].
 double push_energy(const Cloth& cloth, const Vertices& x, double stiffness) {
-  double sum = 0;
-  for (Eigen::Index i = 0; i < x.rows(); ++i) {
-    const double depth = sphere_reach - (x.row(i).transpose() - sphere_center).norm();
-    if (depth > 0) sum += 0.5 * cloth.masses[i] * stiffness * depth * depth;
-  }
-  return sum;
+  return 0.5 * stiffness * cloth.masses.dot(x.col(2).cwiseMin(0).cwiseAbs2());
 }
 
-SimulationSettings settings_of(Method method, StabilityAxis axis, double step, double stiffness) {
-  SimulationSettings settings =
-      stability_cloth(method, step, axis == StabilityAxis::springs ? stiffness : spring_stiffness);
-  if (axis != StabilityAxis::springs) {
-    settings.effects.push_back(sphere(stiffness, axis == StabilityAxis::implicit_push));
+/// Lays a cloth into the ground, in motion: the same way down everywhere, which strains no spring, and to and fro along
+/// its plane, which strains them most.
+void lay(Cloth& cloth, double stiffness) {
+  const double speed = disturbance * std::sqrt(stiffness);
+  for (int i = 0; i < cloth.vertex_count(); ++i) {
+    const int column = i % (cells + 1), row = i / (cells + 1);
+    cloth.positions(i, 2) = -depth;
+    cloth.velocities.row(i) = speed * Eigen::RowVector3d((column + row) % 2 == 0 ? 1 : -1, row % 2 == 0 ? 1 : -1, -1);
   }
-  return settings;
 }
 
 std::vector<double> decades(double from, double to, int per_decade) {
@@ -59,15 +78,6 @@ std::vector<double> decades(double from, double to, int per_decade) {
   return values;
 }
 
-/// The largest step that is predicted to be possible.
-double predicted_limit(Method method, StabilityAxis axis, double stiffness) {
-  const SimulationSettings settings = settings_of(method, axis, 1, stiffness);
-  const System system = make_system(settings);
-  if (method == Method::semi_implicit) return safe_step(system);
-  if (axis == StabilityAxis::explicit_push) return 2 / std::sqrt(stiffness);
-  return std::sqrt(largest_condition / (condition_bound(system) - 1));
-}
-
 StabilityMap empty_map(Method method, StabilityAxis axis, const StabilityDetail& detail) {
   StabilityMap map;
   map.method = method;
@@ -75,7 +85,7 @@ StabilityMap empty_map(Method method, StabilityAxis axis, const StabilityDetail&
   map.steps = decades(1e-5, 1, detail.per_decade);
   map.stiffnesses =
       axis == StabilityAxis::springs ? decades(1e-2, 1e9, detail.per_decade) : decades(1, 1e9, detail.per_decade);
-  for (const double stiffness : map.stiffnesses) map.limits.push_back(predicted_limit(method, axis, stiffness));
+  for (const double stiffness : map.stiffnesses) map.limits.push_back(stability_limit(method, axis, stiffness));
   map.limit_name = method == Method::semi_implicit        ? "safe step"
                    : axis == StabilityAxis::explicit_push ? "step·√stiffness = 2"
                                                           : "condition 1e14";
@@ -90,39 +100,56 @@ const char* outcome_name(StabilityOutcome outcome) {
   return names[static_cast<std::size_t>(outcome)];
 }
 
-SimulationSettings stability_cloth(Method method, double step, double stiffness) {
-  const Mesh mesh = make_grid(6, 6);
+SimulationSettings stability_cloth(Method method, StabilityAxis axis, double step, double stiffness) {
+  const bool pushed = axis != StabilityAxis::springs;
+  const Mesh mesh = make_grid(cells, cells);
   SimulationSettings settings;
-  settings.cloth = make_cloth(mesh, mesh, 1, stiffness, {0, 6});
+  settings.cloth = make_cloth(mesh, mesh, 1, pushed ? spring_stiffness : stiffness,
+                              pushed ? std::vector<int>{} : std::vector<int>{0, cells});
   settings.step = step;
   settings.integrator.method = method;
   settings.integrator.allow_unstable = true;
   settings.integrator.tolerance = 1e-6;
-  settings.effects.push_back({"gravity", std::shared_ptr<Effect>(make_gravity())});
+  settings.effects.push_back(gravity(pushed ? stiffness * depth : 9.8));
+  if (pushed) {
+    settings.effects.push_back(
+        ground(stiffness, axis == StabilityAxis::explicit_push ? Response::explicit_force : Response::implicit_energy));
+    lay(settings.cloth, stiffness);
+  }
   return settings;
 }
 
+double stability_limit(Method method, StabilityAxis axis, double stiffness) {
+  const SimulationSettings settings = stability_cloth(method, axis, 1, stiffness);
+  const System system = make_system(settings);
+  if (method == Method::semi_implicit) return safe_step(system);
+  if (axis == StabilityAxis::explicit_push) return 2 / std::sqrt(stiffness);
+  return std::sqrt(largest_condition / (condition_bound(system) - 1));
+}
+
 StabilityCell stability_cell(Method method, StabilityAxis axis, double step, double stiffness, int steps) {
-  const SimulationSettings settings = settings_of(method, axis, step, stiffness);
+  const SimulationSettings settings = stability_cloth(method, axis, step, stiffness);
   StabilityCell cell{.step = step, .stiffness = stiffness};
   if (method != Method::semi_implicit) cell.outcome = StabilityOutcome::converged;
-  const auto total = [&](const Simulation& simulation) {
+  // What gravity and the push hold together.
+  const auto potential = [&](const Simulation& simulation) {
     const double push =
         axis == StabilityAxis::springs ? 0 : push_energy(settings.cloth, simulation.state().x, stiffness);
-    return simulation.energies().total() + push;
+    return simulation.energies().gravity + push;
   };
   try {
     Simulation simulation(settings);
-    const double begin = total(simulation), level = simulation.energies().gravity;
-    double moved = 0, differed = 0, given = 1e-12;
+    const Energies begin = simulation.energies();
+    const double had = begin.kinetic + begin.elastic, level = potential(simulation);
+    double moved = had, differed = 0, given = 0;
     for (int step_number = 0; step_number < steps; ++step_number) {
       if (!simulation.step().converged) ++cell.not_converged;
       const Energies now = simulation.energies();
-      const double after = total(simulation);
-      given = std::max(given, std::abs(now.gravity - level));
-      if (!(after - begin <= BlowUpWatch::limit * given)) throw DivergedError("more energy than gravity gave");
-      differed = std::max(differed, std::abs(after - begin));
-      moved = std::max({moved, now.kinetic, given, now.elastic});
+      const double has = now.kinetic + now.elastic, got = level - potential(simulation);
+      given = std::max(given, got);
+      if (!(has <= BlowUpWatch::limit_of_unstable_steps * (had + given))) throw DivergedError("more energy than it had and was given");
+      differed = std::max(differed, std::abs(has - had - got));
+      moved = std::max({moved, now.kinetic, std::abs(got), now.elastic});
     }
     cell.energy_error = moved > 0 ? differed / moved : 0;
   } catch (const DivergedError&) {
@@ -134,43 +161,61 @@ StabilityCell stability_cell(Method method, StabilityAxis axis, double step, dou
   return cell;
 }
 
-StabilityBorder stability_border(double stiffness) {
-  SimulationSettings settings = stability_cloth(Method::semi_implicit, 1, stiffness);
-  StabilityBorder border{.stiffness = stiffness, .predicted = safe_step(make_system(settings))};
-  const auto blows_up = [&](double factor) {
-    settings.step = factor * border.predicted;
-    Simulation simulation(settings);
-    try {
-      for (int step = 0; step < 2000; ++step) simulation.step();
-    } catch (const DivergedError&) {
-      return true;
-    }
-    return false;
-  };
+double stability_border(const std::function<bool(double factor)>& blows_up) {
   double stable = 0.9, unstable = 1.5;
-  while (unstable - stable > 0.005) {
+  if (!blows_up(unstable)) return unstable;
+  while (unstable - stable > 0.002) {
     const double middle = (stable + unstable) / 2;
     (blows_up(middle) ? unstable : stable) = middle;
   }
-  border.measured = stable * border.predicted;
+  return stable;
+}
+
+StabilityBorder stability_border(Method method, StabilityAxis axis, double stiffness) {
+  StabilityBorder border{method, axis, stiffness, stability_limit(method, axis, stiffness), 0};
+  border.measured = border.predicted * stability_border([&](double factor) {
+                      return stability_cell(method, axis, factor * border.predicted, stiffness, 2000).outcome ==
+                             StabilityOutcome::blown_up;
+                    });
   return border;
 }
+
+namespace {
+
+/// Of every map that has one.
+std::vector<StabilityBorder> measure_borders(std::size_t threads, const std::stop_token& stop) {
+  std::vector<StabilityBorder> borders;
+  for (const double stiffness : {1e-2, 1.0, 1e2, 1e4, 1e6, 1e8}) {
+    borders.push_back({Method::semi_implicit, StabilityAxis::springs, stiffness});
+  }
+  for (const Method method : all_methods) {
+    for (const double stiffness : {1e2, 1e4, 1e6, 1e8}) {
+      borders.push_back({method, StabilityAxis::explicit_push, stiffness});
+    }
+  }
+  for_each_in_parallel(threads, borders.size(), stop, [&](std::size_t, std::size_t i) {
+    borders[i] = stability_border(borders[i].method, borders[i].axis, borders[i].stiffness);
+  });
+  return borders;
+}
+
+}  // namespace
 
 std::optional<StabilityStudy> study_stability(const StabilityDetail& detail, const std::stop_token& stop,
                                               Progress& progress) {
   const auto begin = std::chrono::steady_clock::now();
   StabilityStudy study;
-  study.steps = detail.steps;
+  study.detail = detail;
   for (const StabilityAxis axis :
        {StabilityAxis::springs, StabilityAxis::explicit_push, StabilityAxis::implicit_push}) {
-    for (const Method method : {Method::semi_implicit, Method::implicit, Method::liu13, Method::quasi_newton}) {
+    for (const Method method : all_methods) {
       if (method == Method::semi_implicit && axis == StabilityAxis::implicit_push) continue;
       study.maps.push_back(empty_map(method, axis, detail));
     }
   }
-  std::size_t cells = 0;
-  for (const StabilityMap& map : study.maps) cells += map.cells.size();
-  progress.begin("measuring", "runs", static_cast<std::int64_t>(cells));
+  std::size_t runs = 0;
+  for (const StabilityMap& map : study.maps) runs += map.cells.size();
+  progress.begin("measuring", "runs", static_cast<std::int64_t>(runs));
   const std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
   for (StabilityMap& map : study.maps) {
     const std::size_t columns = map.steps.size();
@@ -181,7 +226,8 @@ std::optional<StabilityStudy> study_stability(const StabilityDetail& detail, con
     });
     if (stop.stop_requested()) return std::nullopt;
   }
-  for (const double stiffness : {1e-2, 1.0, 1e2, 1e4, 1e6, 1e8}) study.borders.push_back(stability_border(stiffness));
+  study.borders = measure_borders(threads, stop);
+  if (stop.stop_requested()) return std::nullopt;
   study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return study;
 }

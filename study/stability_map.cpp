@@ -25,7 +25,7 @@ constexpr std::array<Band, 6> bands{{{1e-3, "#e8f1e4", "below 0.1 %"},
                                      {1e-2, "#b9dbb4", "0.1 to 1 %"},
                                      {1e-1, "#7fb8a4", "1 to 10 %"},
                                      {0.5, "#4789a0", "10 to 50 %"},
-                                     {10, "#2f5a8a", "half and more: the motion is lost"},
+                                     {INFINITY, "#2f5a8a", "half and more"},
                                      {INFINITY, "#9c2a20", "blown up"}}};
 
 std::size_t band_of(const StabilityCell& cell) {
@@ -67,11 +67,66 @@ const char* stiffness_title(StabilityAxis axis) {
   return axis == StabilityAxis::springs ? "stiffness of the springs, N/m" : "stiffness of the push, 1/s²";
 }
 
+/// Whether the predicted limit lies within the map anywhere.
+bool is_limited(const StabilityMap& map) {
+  return std::ranges::any_of(map.limits, [&](double limit) { return limit < map.steps.back(); });
+}
+
+/// Half the way from a cell to the next, as a factor.
+double half_way(const std::vector<double>& axis) { return std::sqrt(axis[1] / axis[0]); }
+
+/// Of a gnuplot script, all but what draws.
+std::string plot_settings(const StabilityMap& map) {
+  std::string palette;
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    palette += fmt::format("{}{} '{}'", b == 0 ? "" : ", ", b, bands[b].color);
+  }
+  const double x_half = half_way(map.steps), y_half = half_way(map.stiffnesses);
+  return fmt::format(
+             "# gnuplot {0}.gp draws {0}.svg and {0}.png from {0}.csv.\n"
+             "set datafile separator ','\nset encoding utf8\nset title \"{1}\" noenhanced\n"
+             "set xlabel 'step, s' offset 0,0.3\nset ylabel '{2}'\nset logscale xy\nset format '10^{{%L}}'\n"
+             "set key outside below\nset bmargin 4.5\nset rmargin 11\nset tics out nomirror\n",
+             map_name(map), map_title(map), stiffness_title(map.axis)) +
+         fmt::format("set xrange [{:.4g}:{:.4g}]\nset yrange [{:.4g}:{:.4g}]\n", map.steps.front() / x_half,
+                     map.steps.back() * x_half, map.stiffnesses.front() / y_half, map.stiffnesses.back() * y_half) +
+         fmt::format(
+             "set palette maxcolors {} defined ({})\nset cbrange [-0.5:{}.5]\nset cblabel 'error of the energy'\n"
+             "set cbtics ('< 0.1 %%' 0, '< 1 %%' 1, '< 10 %%' 2, '< 50 %%' 3, '≥ 50 %%' 4, 'blown up' 5) scale 0\n",
+             bands.size(), palette, bands.size() - 1);
+}
+
+/// Of a gnuplot script, what draws: the cells, a ring where steps did not converge, and the predicted limit.
+std::string plot_command(const StabilityMap& map) {
+  const std::string data = fmt::format("'{}.csv' skip 1", map_name(map));
+  constexpr double gap = 0.96;
+  std::string plot = fmt::format(
+      "plot {0} using 1:2:($1/{1:.4f}):($1*{1:.4f}):($2/{2:.4f}):($2*{2:.4f}):7 with boxxyerror fs solid noborder lc "
+      "palette notitle",
+      data, gap * half_way(map.steps), gap * half_way(map.stiffnesses));
+  const auto rings = [&](const char* bands_of_them, const char* color, const char* title) {
+    plot += fmt::format(
+        ", \\\n     {} using 1:(strcol(3) eq 'not converged' && $7 {} ? $2 : 1/0) with points pt 6 ps 0.9 lw 1.8 lc "
+        "rgb "
+        "'{}' {}",
+        data, bands_of_them, color, title);
+  };
+  if (std::ranges::any_of(map.cells, [](const StabilityCell& c) { return c.not_converged > 0; })) {
+    rings("< 3", "#222222", "title 'some steps did not converge'");
+    rings(">= 3", "#ffffff", "notitle");
+  }
+  if (is_limited(map)) {
+    plot +=
+        fmt::format(", \\\n     {} using 6:2 with lines lw 2.5 dt 2 lc rgb 'black' title '{}'", data, map.limit_name);
+  }
+  return plot;
+}
+
 }  // namespace
 
 std::string map_title(const StabilityMap& map) {
-  constexpr const char* axes[] = {"step and stiffness of the springs", "step and stiffness of a sphere's explicit push",
-                                  "step and stiffness of a sphere's implicit push"};
+  constexpr const char* axes[] = {"step and stiffness of the springs", "step and stiffness of a ground's explicit push",
+                                  "step and stiffness of a ground's implicit push"};
   return fmt::format("{}: {}", method_name(map.method), axes[static_cast<std::size_t>(map.axis)]);
 }
 
@@ -123,9 +178,10 @@ Markup map_svg(const StabilityMap& map) {
       "svg",
       {{"viewBox", fmt::format("0 0 {} {}", width, below + bottom)}, {"role", "img"}, {"aria-label", map_title(map)}},
       drawing);
-  return element("figure", {{"class", "chart"}},
-                 element("figcaption", map_title(map) + "; the dashed line: " + map.limit_name) +
-                     element("p", {{"class", "axis-title"}}, stiffness_title(map.axis)) + svg);
+  return element(
+      "figure", {{"class", "chart"}},
+      element("figcaption", map_title(map) + (is_limited(map) ? "; the dashed line: " + map.limit_name : "")) +
+          element("p", {{"class", "axis-title"}}, stiffness_title(map.axis)) + svg);
 }
 
 Markup map_legend() {
@@ -154,46 +210,14 @@ std::string map_csv(const StabilityMap& map) {
 std::string write_map(const StabilityMap& map, const std::filesystem::path& folder) {
   const std::string name = map_name(map);
   write_file_atomically(folder / (name + ".csv"), map_csv(map));
-  std::string palette;
-  for (std::size_t b = 0; b < bands.size(); ++b)
-    palette += fmt::format("{}{} '{}'", b == 0 ? "" : ", ", b, bands[b].color);
-  // Half the way to the next cell, less a gap.
-  const double half = 0.96 * std::sqrt(map.steps[1] / map.steps[0]),
-               high = 0.96 * std::sqrt(map.stiffnesses[1] / map.stiffnesses[0]);
-  const auto rings = [&](const char* condition, const char* color, const char* title) {
-    return fmt::format(
-        ", \\\n     '{}.csv' skip 1 using 1:(strcol(3) eq 'not converged' && $7 {} ? $2 : 1/0) with points pt 6 ps 0.9 "
-        "lw 1.8 lc "
-        "rgb '{}' {}",
-        name, condition, color, title);
-  };
-  const bool limited =
-      std::any_of(map.limits.begin(), map.limits.end(), [&](double h) { return h < map.steps.back(); });
-  const std::string script = fmt::format(
-      "# gnuplot {0}.gp draws {0}.svg and {0}.png from {0}.csv.\n"
-      "set datafile separator ','\nset encoding utf8\nset title \"{1}\" noenhanced\nset xlabel 'step, s'\nset ylabel "
-      "'{2}'\n"
-      "set logscale xy\nset format '10^{{%L}}'\nset key outside below\nset xrange [{3}:{4}]\nset yrange [{5}:{6}]\n"
-      "set palette maxcolors {7} defined ({8})\nset cbrange [-0.5:{9}.5]\nset cbtics ('< 0.1 %%' 0, '< 1 %%' 1, '< 10 "
-      "%%' 2, "
-      "'< 50 %%' 3, 'lost' 4, 'blown up' 5)\nset cblabel 'error of the energy'\n",
-      name, map_title(map), stiffness_title(map.axis), map.steps.front() / 1.8, map.steps.back() * 1.8,
-      map.stiffnesses.front() / 1.8, map.stiffnesses.back() * 1.8, bands.size(), palette, bands.size() - 1);
-  std::string plot = fmt::format(
-      "plot '{0}.csv' skip 1 using 1:2:($1/{1:.4f}):($1*{1:.4f}):($2/{2:.4f}):($2*{2:.4f}):7 with boxxyerror fs solid "
-      "noborder lc "
-      "palette notitle",
-      name, half, high);
-  plot += rings("< 3", "#222222", "title 'some steps did not converge'") + rings(">= 3", "#ffffff", "notitle");
-  if (limited) {
-    plot += fmt::format(", \\\n     '{}.csv' skip 1 using 6:2 with lines lw 2.5 dt 2 lc rgb 'black' title '{}'", name,
-                        map.limit_name);
-  }
+  const std::string plot = plot_command(map);
   write_file_atomically(
       folder / (name + ".gp"),
-      script + fmt::format("set terminal svg size 800,640 font 'DejaVu Sans,13'\nset output '{0}.svg'\n{1}\n"
-                           "set terminal pngcairo size 1200,960 font 'DejaVu Sans,18'\nset output '{0}.png'\n{1}\n",
-                           name, plot));
+      plot_settings(map) +
+          fmt::format("set terminal svg size 800,640 font 'DejaVu Sans,13'\nset output '{0}.svg'\n{1}\n"
+                      "set terminal pngcairo size 1200,960 font 'DejaVu Sans,18'\nset output "
+                      "'{0}.png'\n{1}\n",
+                      name, plot));
   return draw_with_gnuplot(folder, name);
 }
 

@@ -29,7 +29,8 @@ TEST_P(LongHomework, StaysWithinItsEnergy) {
   settings.integrator.linear_solver = method.linear_solver;
   settings.integrator.max_iterations.reset();
   if (method.method == Method::semi_implicit) {
-    settings.step = std::min(settings.step, 0.95 * safe_step(make_system(settings)));
+    // Nearer to the safe step a crumpled cloth heats up in so many steps: see BlowUp in semi_implicit_test.cpp.
+    settings.step = std::min(settings.step, 0.5 * safe_step(make_system(settings)));
   }
   const FloatingPointTraps traps;
   Simulation simulation(settings);

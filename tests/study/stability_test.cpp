@@ -11,31 +11,56 @@
 namespace drape {
 namespace {
 
-TEST(StabilityBorder, LiesWhereItIsPredicted) {
-  for (const double stiffness : {1e-2, 1e3, 1e8}) {
-    const StabilityBorder border = stability_border(stiffness);
-    EXPECT_GE(border.measured / border.predicted, 0.98) << stiffness;
-    EXPECT_LE(border.measured / border.predicted, 1.2) << stiffness;
-  }
+struct Border {
+  Method method;
+  StabilityAxis axis;
+  double stiffness;
+};
+class StabilityBorders : public ::testing::TestWithParam<Border> {};
+INSTANTIATE_TEST_SUITE_P(Of, StabilityBorders,
+                         ::testing::Values(Border{Method::semi_implicit, StabilityAxis::springs, 1e-2},
+                                           Border{Method::semi_implicit, StabilityAxis::springs, 1e3},
+                                           Border{Method::semi_implicit, StabilityAxis::springs, 1e8},
+                                           Border{Method::semi_implicit, StabilityAxis::explicit_push, 1e2},
+                                           Border{Method::semi_implicit, StabilityAxis::explicit_push, 1e7},
+                                           Border{Method::implicit, StabilityAxis::explicit_push, 1},
+                                           Border{Method::implicit, StabilityAxis::explicit_push, 1e6},
+                                           Border{Method::liu13, StabilityAxis::explicit_push, 1e3},
+                                           Border{Method::liu13, StabilityAxis::explicit_push, 1e8},
+                                           Border{Method::quasi_newton, StabilityAxis::explicit_push, 1e4},
+                                           Border{Method::quasi_newton, StabilityAxis::explicit_push, 1e8}));
+
+TEST_P(StabilityBorders, LieWhereTheyArePredicted) {
+  const auto [method, axis, stiffness] = GetParam();
+  const StabilityBorder border = stability_border(method, axis, stiffness);
+  EXPECT_GE(border.measured / border.predicted, 0.98);
+  EXPECT_LE(border.measured / border.predicted, 1.2);
 }
 
-// The cells on both sides of the line of a map.
-TEST(StabilityCell, IsStableBelowTheSafeStepAndBlownUpBeyondItsBorder) {
-  for (const double stiffness : {1.0, 1e6}) {
-    const double safe = safe_step(make_system(stability_cloth(Method::semi_implicit, 1, stiffness)));
-    const auto at = [&](double factor) {
-      return stability_cell(Method::semi_implicit, StabilityAxis::springs, factor * safe, stiffness, 1000).outcome;
-    };
-    EXPECT_EQ(at(0.98), StabilityOutcome::stable);
-    EXPECT_EQ(at(1.25), StabilityOutcome::blown_up);
-  }
+// Where a flat cloth's springs and the push are equally stiff, each moves in directions in which the other does not
+// resist, and the bound that adds them is too careful by √2 and what it is by for the springs alone.
+TEST(StabilityBorder, IsBeyondThePredictionWhereSpringsAndPushDoNotAddUp) {
+  constexpr double stiffness = 1.4e5;
+  const StabilityBorder border = stability_border(Method::semi_implicit, StabilityAxis::explicit_push, stiffness);
+  EXPECT_GE(border.measured / border.predicted, 0.98);
+  EXPECT_LE(border.measured, 2 / std::sqrt(stiffness) * 1.002);
 }
 
-TEST(StabilityCell, OfAnExplicitPushIsBoundedBelowItsLimitAndAnImplicitOneBeyondIt) {
+// The cells on both sides of the line of a map, in as many steps as a map's.
+TEST_P(StabilityBorders, PartTheCellsOfAMap) {
+  const auto [method, axis, stiffness] = GetParam();
+  const double limit = stability_limit(method, axis, stiffness);
+  const auto at = [&](double factor) { return stability_cell(method, axis, factor * limit, stiffness, 100).outcome; };
+  EXPECT_EQ(at(0.95), method == Method::semi_implicit ? StabilityOutcome::stable : StabilityOutcome::converged);
+  EXPECT_EQ(at(1.25), StabilityOutcome::blown_up);
+}
+
+TEST(StabilityCell, OfAnImplicitPushIsBoundedFarBeyondTheExplicitLimit) {
   for (const Method method : {Method::implicit, Method::liu13, Method::quasi_newton}) {
-    EXPECT_NE(stability_cell(method, StabilityAxis::explicit_push, 0.01, 3.9e4, 200).outcome,
-              StabilityOutcome::blown_up);
-    EXPECT_NE(stability_cell(method, StabilityAxis::implicit_push, 0.01, 1e9, 100).outcome, StabilityOutcome::blown_up);
+    for (const double stiffness : {1e5, 1e9}) {
+      EXPECT_NE(stability_cell(method, StabilityAxis::implicit_push, 0.01, stiffness, 100).outcome,
+                StabilityOutcome::blown_up);
+    }
   }
 }
 

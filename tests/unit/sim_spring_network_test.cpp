@@ -89,6 +89,11 @@ std::vector<Case> cases() {
           {"Empty", 3, {}}};
 }
 
+double energy_of(const SpringNetwork& network, const Vertices& x) {
+  Vertices ignored = Vertices::Zero(x.rows(), 3);
+  return network.add_value_gradient(x, ignored);
+}
+
 class SpringNetworkOf : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Springs, SpringNetworkOf, testing::ValuesIn(cases()),
                          [](const auto& tested) { return tested.param.name; });
@@ -96,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Springs, SpringNetworkOf, testing::ValuesIn(cases()),
 TEST_P(SpringNetworkOf, HasTheEnergyOfTheFormula) {
   const Vertices x = random_vertices(GetParam().vertices, 77);
   const double expected = plain_energy(GetParam().springs, x);
-  EXPECT_NEAR(SpringNetwork(GetParam().springs, GetParam().vertices).energy(x), expected, 1e-13 * expected);
+  EXPECT_NEAR(energy_of(SpringNetwork(GetParam().springs, GetParam().vertices), x), expected, 1e-13 * expected);
 }
 
 TEST_P(SpringNetworkOf, AddsTheGradientOfTheFormula) {
@@ -146,7 +151,7 @@ TEST_P(SpringNetworkOf, HasTheGradientOfItsEnergy) {
   for (const int seed : {1, 2, 3}) {
     const Vertices direction = random_vertices(x.rows(), seed);
     const double slope =
-        (network.energy(x + epsilon * direction) - network.energy(x - epsilon * direction)) / (2 * epsilon);
+        (energy_of(network, x + epsilon * direction) - energy_of(network, x - epsilon * direction)) / (2 * epsilon);
     const double scale = gradient.cwiseProduct(direction).cwiseAbs().sum();
     EXPECT_NEAR(slope, gradient.cwiseProduct(direction).sum(), 1e-7 * scale);
   }
@@ -169,7 +174,7 @@ TEST(SpringNetwork, PullsNowhereBetweenVerticesInOnePlace) {
   Vertices gradient = Vertices::Zero(x.rows(), 3);
   network.add_value_gradient(x, gradient);
   EXPECT_EQ(gradient.cwiseAbs().maxCoeff(), 0);
-  EXPECT_NEAR(network.energy(x), plain_energy(springs, x), 1e-13 * network.energy(x));
+  EXPECT_NEAR(energy_of(network, x), plain_energy(springs, x), 1e-13 * energy_of(network, x));
 }
 
 TEST(SpringNetwork, StaysFiniteHoweverNearTwoVerticesAre) {
@@ -180,7 +185,7 @@ TEST(SpringNetwork, StaysFiniteHoweverNearTwoVerticesAre) {
     network.add_value_gradient(x, gradient);
     EXPECT_TRUE(gradient.allFinite()) << distance;
     EXPECT_LE(gradient.cwiseAbs().maxCoeff(), 50 * (1 + 1e-15)) << "no more than the force at length zero";
-    EXPECT_NEAR(network.energy(x), 100 * 0.25 / 2, 1e-6);
+    EXPECT_NEAR(energy_of(network, x), 100 * 0.25 / 2, 1e-6);
   }
 }
 
