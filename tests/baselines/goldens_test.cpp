@@ -31,8 +31,8 @@ INSTANTIATE_TEST_SUITE_P(Of, Goldens, ::testing::ValuesIn(scenes_with_goldens())
 });
 
 TEST_P(Goldens, AreWhatTheSceneStillGives) {
-  const testing::SceneFolder folder;
-  const auto finished = testing::drape(folder, "check --update none '" + GetParam().string() + "'");
+  const test::SceneFolder folder;
+  const auto finished = test::drape(folder, "check --update none '" + GetParam().string() + "'");
   EXPECT_EQ(finished.code, 0) << finished.text;
 }
 

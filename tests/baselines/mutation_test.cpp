@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "check/check_scene.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 // Whether the gate can be trusted: changes of everything that makes a film, as small as a person might make them by
@@ -63,14 +64,9 @@ Apply textured(const Apply& apply) {
   };
 }
 
-std::string read(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// Replaces text in a file, where it must be found.
 void replace(const fs::path& file, const std::string& from, const std::string& to) {
-  std::string text = read(file);
+  std::string text = test::content(file);
   const std::size_t at = text.find(from);
   ASSERT_NE(at, std::string::npos) << file << " has no '" << from << "'";
   text.replace(at, from.size(), to);
@@ -172,7 +168,7 @@ const std::vector<Mutation> mutations{
     {"ACoarserMesh", set("cloth.mesh={grid = [19, 19]}"), moved, altered},
 };
 
-class MutationTest : public testing::ScratchFolder {
+class MutationTest : public test::InScratchFolder {
  protected:
   MutationTest() {
     const fs::path source = DRAPE_SOURCE_DIR;
@@ -226,10 +222,10 @@ void PrintTo(const Harmless& harmless, std::ostream* out) { *out << harmless.nam
 Apply compressed(int level) {
   return [=](Subject& subject) {
     for (const auto& entry : fs::directory_iterator(subject.golden() / "frames")) {
-      const std::string before = read(entry.path());
+      const std::string before = test::content(entry.path());
       const cv::Mat picture = cv::imread(entry.path().string());
       cv::imwrite(entry.path().string(), picture, {cv::IMWRITE_PNG_COMPRESSION, level});
-      EXPECT_NE(read(entry.path()), before);
+      EXPECT_NE(test::content(entry.path()), before);
     }
   };
 }
@@ -237,7 +233,7 @@ Apply compressed(int level) {
 /// The scene with its tables in the opposite order.
 void reverse_tables(Subject& subject) {
   const fs::path file = subject.folder / subject.file;
-  std::istringstream lines(read(file));
+  std::istringstream lines(test::content(file));
   std::vector<std::string> blocks(1);
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("[")) blocks.emplace_back();

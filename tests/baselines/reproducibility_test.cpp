@@ -9,6 +9,7 @@
 
 #include "sim/kernels/kernels.hpp"
 #include "tests/cli/run_drape.hpp"
+#include "tests/support/files.hpp"
 
 // The same scene and the same binary give the same bits, whatever else the machine does and is told to do.
 
@@ -20,12 +21,12 @@ namespace fs = std::filesystem;
 class Reproducibility : public ::testing::Test {
  protected:
   /// Runs the drape that was built; @ stands for the folder of the homework's scenes.
-  [[nodiscard]] testing::Finished drape(const std::string& environment, std::string arguments) const {
+  [[nodiscard]] test::Finished drape(const std::string& environment, std::string arguments) const {
     const std::string scenes = std::string(DRAPE_SOURCE_DIR) + "/scenes/homework/";
     for (std::size_t at = 0; (at = arguments.find('@', at)) != std::string::npos; at += scenes.size()) {
       arguments.replace(at, 1, scenes);
     }
-    return testing::drape(folder_, arguments, environment);
+    return test::drape(folder_, arguments, environment);
   }
 
   /// The bytes of every picture of the film's first frames, and of the last positions.
@@ -46,17 +47,12 @@ class Reproducibility : public ::testing::Test {
   [[nodiscard]] std::map<std::string, std::string> bytes(const std::string& name) const {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::directory_iterator(folder_.path() / name)) {
-      files[entry.path().filename().string()] = content(entry.path());
+      files[entry.path().filename().string()] = test::content(entry.path());
     }
     return files;
   }
 
-  [[nodiscard]] static std::string content(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-
-  testing::SceneFolder folder_;
+  test::SceneFolder folder_;
 };
 
 TEST_F(Reproducibility, TwoRunsGiveTheSameBytes) {
@@ -92,7 +88,7 @@ TEST_F(Reproducibility, AFrameIsTheSameWhereverTheRangeBegins) {
     const auto finished = drape("", film_arguments(name, "@5.toml") + fmt::format(" --frames {}..{}", first, first));
     EXPECT_EQ(finished.code, 0) << finished.text;
     const std::string picture = fmt::format("{:02}.png", first);
-    EXPECT_EQ(content(folder_.path() / name / picture), whole.at(picture)) << first;
+    EXPECT_EQ(test::content(folder_.path() / name / picture), whole.at(picture)) << first;
   }
 }
 
@@ -106,7 +102,7 @@ TEST_F(Reproducibility, EveryInstructionSetGivesTheSameMotion) {
                                                                    "--positions {}",
                                                                    scene, file));
       EXPECT_EQ(finished.code, 0) << finished.text;
-      motions[name] = content(folder_.path() / file);
+      motions[name] = test::content(folder_.path() / file);
     }
     ASSERT_GE(motions.size(), 1u);
     for (const auto& [name, motion] : motions) EXPECT_EQ(motion, motions.begin()->second) << scene << ' ' << name;

@@ -9,6 +9,7 @@
 #include "check/json_report.hpp"
 #include "check/junit_report.hpp"
 #include "check/record_motion.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/usage_error.hpp"
 
@@ -35,7 +36,7 @@ size = [64, 48]
 frames = [0, 10, 25]
 )";
 
-class CheckScene : public testing::ScratchFolder {
+class CheckScene : public test::InScratchFolder {
  protected:
   CheckScene() { put(folder_ / "swing.toml", swinging); }
 
@@ -86,16 +87,16 @@ TEST_F(CheckScene, WritesAMissingGoldenAndFailsAllTheSame) {
 
 TEST_F(CheckScene, UpdatesWhatItIsToldTo) {
   EXPECT_EQ(check(as_written, {.update = UpdateMode::changed}).verdict, SceneVerdict::updated);
-  const std::string first = content(golden() / "motion.bin");
+  const std::string first = test::content(golden() / "motion.bin");
   EXPECT_EQ(check(as_written, {.update = UpdateMode::changed}).verdict, SceneVerdict::passed);
   const std::vector<std::string> heavier{"cloth.mass=2"};
   EXPECT_EQ(check(heavier, {.update = UpdateMode::missing}).verdict, SceneVerdict::changed);
-  EXPECT_EQ(content(golden() / "motion.bin"), first);
+  EXPECT_EQ(test::content(golden() / "motion.bin"), first);
   EXPECT_EQ(check(heavier, {.update = UpdateMode::changed}).verdict, SceneVerdict::updated);
-  EXPECT_NE(content(golden() / "motion.bin"), first);
+  EXPECT_NE(test::content(golden() / "motion.bin"), first);
   EXPECT_EQ(check(heavier).verdict, SceneVerdict::passed);
   EXPECT_EQ(check(as_written, {.update = UpdateMode::all}).verdict, SceneVerdict::updated);
-  EXPECT_EQ(content(golden() / "motion.bin"), first);
+  EXPECT_EQ(test::content(golden() / "motion.bin"), first);
 }
 
 TEST_F(CheckScene, NamesTheStepTheVertexAndTheDistance) {
@@ -137,7 +138,7 @@ TEST_F(CheckScene, ComparesSomeFramesIfAsked) {
   EXPECT_EQ(result.windows.frames[0].frame, 25);
   ASSERT_EQ(result.windows.windows.size(), 2u);  // the motion's start, too
   EXPECT_FALSE(result.windows.windows[0].frame.has_value());
-  EXPECT_NE(testing::usage_error([&] { check(as_written, {.frames = {3}}); }).find("has no frame 3, only 0, 10, 25"),
+  EXPECT_NE(test::usage_error([&] { check(as_written, {.frames = {3}}); }).find("has no frame 3, only 0, 10, 25"),
             std::string::npos);
 }
 
@@ -173,7 +174,7 @@ TEST_F(CheckScene, SpreadsEightFramesOverTheMotion) {
   for (const WindowPlan& window : plan) EXPECT_EQ(window.last - window.first, 20);
   EXPECT_GE(plan.back().last, 98);
   settings.frames = {61};
-  EXPECT_NE(testing::usage_error([&] { plan_windows(scene(), settings); }).find("the film ends with frame 60"),
+  EXPECT_NE(test::usage_error([&] { plan_windows(scene(), settings); }).find("the film ends with frame 60"),
             std::string::npos);
 }
 
@@ -181,7 +182,7 @@ TEST_F(CheckScene, LoopsAroundTheFirstBadFrame) {
   bless();
   const SceneResult moved = check({"cloth.mass=1.2"}, {.update = UpdateMode::none, .artefacts = folder_ / "report"});
   EXPECT_TRUE(moved.animation.starts_with("GIF89a"));
-  EXPECT_EQ(content(folder_ / "report/swing/difference.gif"), moved.animation);
+  EXPECT_EQ(test::content(folder_ / "report/swing/difference.gif"), moved.animation);
   const auto width =
       static_cast<unsigned char>(moved.animation[6]) + 256 * static_cast<unsigned char>(moved.animation[7]);
   EXPECT_EQ(width, 3 * 64 + 2 * 4);
@@ -207,7 +208,7 @@ TEST_F(CheckScene, ReportsToMachines) {
 
   write_frame_files(report, folder_ / "report");
   const std::string difference = json.at("scenes")[1].at("windows").at("frames")[0].at("files").at("difference");
-  EXPECT_TRUE(content(folder_ / "report" / difference).starts_with("\x89PNG"));
+  EXPECT_TRUE(test::content(folder_ / "report" / difference).starts_with("\x89PNG"));
 
   tinyxml2::XMLDocument xml;
   ASSERT_EQ(xml.Parse(junit_report(report).c_str()), tinyxml2::XML_SUCCESS);
@@ -225,11 +226,11 @@ TEST_F(CheckScene, ReportsToMachines) {
 
 TEST_F(CheckScene, AnInterruptedRecordingLeavesTheOldGolden) {
   bless();
-  const std::string before = content(golden() / "manifest.json");
+  const std::string before = test::content(golden() / "manifest.json");
   std::stop_source stop;
   stop.request_stop();
   EXPECT_FALSE(bless_scene(scene(), scene().check, GlBackend::automatic, stop.get_token(), progress_).has_value());
-  EXPECT_EQ(content(golden() / "manifest.json"), before);
+  EXPECT_EQ(test::content(golden() / "manifest.json"), before);
 }
 
 TEST_F(CheckScene, SaysWhenItsPrecisionIsTooLow) {
@@ -237,7 +238,7 @@ TEST_F(CheckScene, SaysWhenItsPrecisionIsTooLow) {
   CheckSettings finer = scene().check;
   finer.motion_tolerance = 1e-8;
   const auto message =
-      testing::usage_error([&] { check_scene(scene(), "swing", finer, {.update = UpdateMode::none}, {}, progress_); });
+      test::usage_error([&] { check_scene(scene(), "swing", finer, {.update = UpdateMode::none}, {}, progress_); });
   EXPECT_NE(message.find("keeps positions to 1e-07 m"), std::string::npos) << message;
 }
 

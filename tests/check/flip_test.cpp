@@ -87,7 +87,7 @@ TEST_P(Flip, AgreesWithItsAuthorsProgram) {
 }
 
 struct ColorPair {
-  testing::Color a, b;
+  test::Color a, b;
   double error;
 };
 
@@ -98,13 +98,13 @@ TEST(FlipOfPlainColors, AgreesWithItsAuthorsProgram) {
                                         {{128, 128, 128}, {129, 129, 129}, 0.029855},
                                         {{200, 30, 30}, {203, 30, 30}, 0.079258}}};
   for (const ColorPair& pair : pairs) {
-    const ErrorMap map = flip_error(testing::plain_image(8, 8, pair.a), testing::plain_image(8, 8, pair.b));
+    const ErrorMap map = flip_error(test::plain_image(8, 8, pair.a), test::plain_image(8, 8, pair.b));
     for (const float value : map.values) EXPECT_NEAR(value, pair.error, 1e-5);
   }
 }
 
 TEST(FlipOfPlainColors, IsZeroForTheSamePictureAndTheSameBothWays) {
-  const Image a = testing::synthetic_frame(0, 80, 60), b = testing::synthetic_frame(3, 80, 60);
+  const Image a = test::synthetic_frame(0, 80, 60), b = test::synthetic_frame(3, 80, 60);
   for (const float value : flip_error(a, a).values) EXPECT_EQ(value, 0);
   EXPECT_EQ(flip_error(a, b).values, flip_error(b, a).values);
 }

@@ -8,6 +8,7 @@
 
 #include "check/motion_file.hpp"
 #include "render/encode/png_encoder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/synthetic_film.hpp"
 #include "tests/support/usage_error.hpp"
@@ -93,7 +94,7 @@ TEST(MotionFile, RefusesEveryDamage) {
   EXPECT_GT(refused, good.size() * 95 / 100);
 }
 
-class GoldenFolder : public testing::ScratchFolder {
+class GoldenFolder : public test::InScratchFolder {
  protected:
   Golden golden() const {
     Golden golden;
@@ -111,7 +112,7 @@ class GoldenFolder : public testing::ScratchFolder {
     return golden;
   }
 
-  Png picture() const { return encode_png(testing::plain_image(32, 24, {1, 2, 3})); }
+  Png picture() const { return encode_png(test::plain_image(32, 24, {1, 2, 3})); }
   fs::path folder() const { return folder_ / "scene.golden"; }
 };
 
@@ -146,15 +147,15 @@ TEST_F(GoldenFolder, ReplacesAnOlderOneWhole) {
 
 TEST_F(GoldenFolder, SaysWhichFileIsDamagedAndWhatToDo) {
   write_golden(folder(), golden(), {picture(), picture()});
-  const auto message = [&] { return testing::usage_error([&] { read_golden(folder()); }); };
-  const std::string motion = content(folder() / "motion.bin");
+  const auto message = [&] { return test::usage_error([&] { read_golden(folder()); }); };
+  const std::string motion = test::content(folder() / "motion.bin");
   put(folder() / "motion.bin", motion.substr(0, motion.size() / 2));
   EXPECT_NE(message().find("motion.bin: it is damaged; restore it, or record it anew with drape bless"),
             std::string::npos)
       << message();
   put(folder() / "motion.bin", motion);
   EXPECT_EQ(message(), "(no error)");
-  std::string manifest = content(folder() / "manifest.json");
+  std::string manifest = test::content(folder() / "manifest.json");
   put(folder() / "manifest.json", "{");
   EXPECT_NE(message().find("manifest.json"), std::string::npos) << message();
   manifest.replace(manifest.find("\"vertices\": 12"), 14, "\"vertices\": 13");

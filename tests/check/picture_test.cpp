@@ -9,7 +9,7 @@ namespace {
 
 constexpr int width = 100, height = 80;  // 0.5 % are 40 pixels
 
-Image base() { return testing::synthetic_frame(0, width, height); }
+Image base() { return test::synthetic_frame(0, width, height); }
 
 /// Changes one channel of the first `count` pixels of every other column by `amount`.
 Image with_changes(int count, int amount) {

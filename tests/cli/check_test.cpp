@@ -1,39 +1,20 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <iterator>
 
 #include "tests/cli/run_drape.hpp"
+#include "tests/support/files.hpp"
 
 namespace drape {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::drape;
+using test::drape;
 
-constexpr const char* scene = R"(
-[cloth]
-mesh = { grid = [6, 6] }
-stiffness = 50
-pins = ["corner:x-y-", "corner:x+y-"]
-[time]
-step = 0.02
-duration = 0.8
-[integrator]
-method = "liu13"
-[effects.gravity]
-[check]
-frames = [0, 10]
-size = [64, 48]
-)";
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+const std::string scene = test::swinging_scene + "[check]\nframes = [0, 10]\nsize = [64, 48]\n";
 
 TEST(CheckCommand, BlessesChecksAndFails) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("swing.toml", scene);
   const auto blessed = drape(folder, "bless swing.toml");
   EXPECT_EQ(blessed.code, 0) << blessed.text;
@@ -51,13 +32,13 @@ TEST(CheckCommand, BlessesChecksAndFails) {
   const auto failed = drape(folder, "check swing.toml --set cloth.mass=1.1 --report elsewhere");
   EXPECT_EQ(failed.code, 1) << failed.text;
   EXPECT_NE(failed.text.find("swing.toml: changed: the motion changed at step "), std::string::npos) << failed.text;
-  EXPECT_NE(text_of(folder.path() / "elsewhere/report.json").find("drape check swing.toml --set cloth.mass=1.1"),
+  EXPECT_NE(test::content(folder.path() / "elsewhere/report.json").find("drape check swing.toml --set cloth.mass=1.1"),
             std::string::npos);
   EXPECT_TRUE(fs::exists(folder.path() / "elsewhere/swing/difference.gif"));
 }
 
 TEST(CheckCommand, AMissingGoldenIsWrittenAndFails) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("swing.toml", scene);
   EXPECT_EQ(drape(folder, "check swing.toml --update none").code, 1);
   EXPECT_FALSE(fs::exists(folder.path() / "swing.golden"));
@@ -68,7 +49,7 @@ TEST(CheckCommand, AMissingGoldenIsWrittenAndFails) {
 }
 
 TEST(CheckCommand, QuietPrintsOnlyWhatChanged) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("swing.toml", scene);
   EXPECT_EQ(drape(folder, "bless swing.toml --quiet").text, "");
   EXPECT_EQ(drape(folder, "check swing.toml --quiet").text, "");
@@ -79,7 +60,7 @@ TEST(CheckCommand, QuietPrintsOnlyWhatChanged) {
 }
 
 TEST(CheckCommand, LimitsCanBeWiderOnTheCommandLine) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("swing.toml", scene);
   EXPECT_EQ(drape(folder, "bless swing.toml").code, 0);
   const std::string check = "check swing.toml --set look.background=#fefefe";
@@ -93,7 +74,7 @@ TEST(CheckCommand, LimitsCanBeWiderOnTheCommandLine) {
 }
 
 TEST(CheckCommand, SaysWhatIsWrongWithItsOptions) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("swing.toml", scene);
   const auto expect = [&](const std::string& arguments, const std::string& message) {
     const auto finished = drape(folder, arguments);
@@ -102,7 +83,7 @@ TEST(CheckCommand, SaysWhatIsWrongWithItsOptions) {
   };
   expect("check swing.toml --update chnaged", "--update: unknown 'chnaged'; did you mean 'changed'?");
   expect("check swing.toml --frames 1,,2", "--frames takes A,B,C, numbers of frames from 0 on, found '1,,2'");
-  expect("bless swing.toml --frames 1000", "the film ends with frame 20");
+  expect("bless swing.toml --frames 1000", "the film ends with frame 10");
   expect("check nowhere.toml", "nowhere.toml: no such file");
   EXPECT_EQ(drape(folder, "bless swing.toml").code, 0);
   std::ofstream(folder.path() / "swing.golden/motion.bin", std::ios::binary) << "nonsense";

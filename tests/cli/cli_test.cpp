@@ -14,33 +14,20 @@ namespace drape {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::drape;
-using testing::Finished;
+using test::drape;
+using test::Finished;
 
-constexpr const char* scene = R"(
-[cloth]
-mesh = { grid = [6, 6] }
-stiffness = 50
-pins = ["corner:x-y-", "corner:x+y-"]
-[time]
-step = 0.02
-duration = 0.4
-[integrator]
-method = "liu13"
-[effects.gravity]
-[video]
-size = [64, 48]
-)";
+const std::string scene = test::swinging_scene + "[video]\nsize = [64, 48]\n";
 
 TEST(CommandLine, PrintsItsVersion) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   const Finished finished = drape(folder, "--version");
   EXPECT_EQ(finished.code, 0);
   EXPECT_TRUE(finished.text.starts_with("drape ")) << finished.text;
 }
 
 TEST(CommandLine, NamesTheNearestOptionAndCommand) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("scene.toml", scene);
   Finished finished = drape(folder, "simulate scene.toml --stpes 3");
   EXPECT_EQ(finished.code, 2);
@@ -51,19 +38,18 @@ TEST(CommandLine, NamesTheNearestOptionAndCommand) {
 }
 
 TEST(CommandLine, RefusesAFactorThatCannotFitBeforeItIsBegun) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("scene.toml", scene);
-  const Finished finished =
-      drape(folder,
-            "simulate scene.toml --steps 1 --set 'cloth.mesh={ grid = [200, 200] }' --set "
-            "'integrator.method=\"implicit\"' --set 'integrator.linear_solver=\"cholesky\"'",
-            "ulimit -v 700000;");
+  const Finished finished = drape(folder,
+                                  "simulate scene.toml --steps 1 --set 'cloth.mesh={ grid = [200, 200] }' --set "
+                                  "'integrator.method=\"implicit\"' --set 'integrator.linear_solver=\"cholesky\"'",
+                                  "ulimit -v 700000;");
   EXPECT_EQ(finished.code, 2) << finished.text;
   EXPECT_NE(finished.text.find("a sparse factor of 121197 rows would take"), std::string::npos) << finished.text;
 }
 
 TEST(CommandLine, ReportsTheProblemsOfAllScenesTogether) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("a.toml", "[cloth]\nstifness = 1\n");
   folder.write("b.toml", "[tiem]\n");
   const Finished finished = drape(folder, "simulate a.toml b.toml");
@@ -74,7 +60,7 @@ TEST(CommandLine, ReportsTheProblemsOfAllScenesTogether) {
 }
 
 TEST(CommandLine, QuietPrintsNothingWhenAllIsWell) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("scene.toml", scene);
   const Finished finished = drape(folder, "simulate scene.toml --quiet");
   EXPECT_EQ(finished.code, 0);
@@ -82,7 +68,7 @@ TEST(CommandLine, QuietPrintsNothingWhenAllIsWell) {
 }
 
 TEST(CommandLine, WritesAllOutputsFromOnePass) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("scene.toml", scene);
   const Finished finished =
       drape(folder, "render scene.toml -o a.gif -o b.mp4 -o frames/{frame:04}.png -o still.png --stats '{scene}.json'");
@@ -98,14 +84,14 @@ TEST(CommandLine, WritesAllOutputsFromOnePass) {
 }
 
 TEST(CommandLine, RendersIntoOutByDefault) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("scene.toml", scene);
   EXPECT_EQ(drape(folder, "render scene.toml --frames 2..3").code, 0);
   EXPECT_TRUE(fs::exists(folder.path() / "out/scene.gif"));
 }
 
 TEST(CommandLine, DrawsAFrameOfTheFilmWhicheverRangeItIsIn) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("scene.toml", scene);  // whose camera has to see the whole motion
   EXPECT_EQ(drape(folder, "render scene.toml -o all/{frame:02}.png").code, 0);
   EXPECT_EQ(drape(folder, "render scene.toml -o some/{frame:02}.png --frames 4..6").code, 0);
@@ -118,7 +104,7 @@ TEST(CommandLine, DrawsAFrameOfTheFilmWhicheverRangeItIsIn) {
 }
 
 TEST(CommandLine, StepByStepPrintsEveryStepAndEndsAtQ) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("scene.toml", scene);
   const std::string command = "simulate scene.toml --step-by-step --quiet --stats stats.json";
   folder.write("input", "\n\nq");
@@ -130,8 +116,8 @@ TEST(CommandLine, StepByStepPrintsEveryStepAndEndsAtQ) {
 }
 
 TEST(CommandLine, ADivergedRunExitsWith3AndKeepsItsFilm) {
-  const testing::SceneFolder folder;
-  folder.write("scene.toml", std::string(scene) + "[look]\nsamples = 1\n");
+  const test::SceneFolder folder;
+  folder.write("scene.toml", scene + "[look]\nsamples = 1\n");
   const Finished finished = drape(
       folder,
       "render scene.toml -o film.gif --set integrator.method=semi-implicit "
@@ -139,13 +125,13 @@ TEST(CommandLine, ADivergedRunExitsWith3AndKeepsItsFilm) {
   EXPECT_EQ(finished.code, 3) << finished.text;
   EXPECT_NE(finished.text.find("diverged at step"), std::string::npos) << finished.text;
   // Complete as far as it goes: a GIF that ends as it should, with fewer frames than were asked for.
-  const std::size_t frames = testing::read_gif(folder.path() / "film.gif").delays.size();
+  const std::size_t frames = test::read_gif(folder.path() / "film.gif").delays.size();
   EXPECT_GE(frames, 1U);
   EXPECT_LT(frames, 5001U);
 }
 
 TEST(CommandLine, SeveralScenesNeedNamesOfTheirOwn) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("a.toml", scene);
   folder.write("b.toml", scene);
   EXPECT_EQ(drape(folder, "render a.toml b.toml -o film.gif").code, 2);
@@ -155,7 +141,7 @@ TEST(CommandLine, SeveralScenesNeedNamesOfTheirOwn) {
 }
 
 TEST(CommandLine, AnUnwritableFolderExitsWith4) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("scene.toml", scene);
   folder.write("file", "");
   const Finished finished = drape(folder, "render scene.toml -o file/film.gif");
@@ -163,8 +149,8 @@ TEST(CommandLine, AnUnwritableFolderExitsWith4) {
 }
 
 TEST(CommandLine, CtrlCCompletesWhatWasDrawn) {
-  const testing::SceneFolder folder;
-  folder.write("scene.toml", std::string(scene) + "[camera]\nposition = [4, 4, 3]\ntarget = [0, 0, 0]\n");
+  const test::SceneFolder folder;
+  folder.write("scene.toml", scene + "[camera]\nposition = [4, 4, 3]\ntarget = [0, 0, 0]\n");
   const pid_t child = fork();
   if (child == 0) {
     if (chdir(folder.path().c_str()) != 0) _exit(99);

@@ -7,9 +7,9 @@
 namespace drape {
 namespace {
 
-using testing::drape;
-using testing::Finished;
-using testing::SceneFolder;
+using test::drape;
+using test::Finished;
+using test::SceneFolder;
 
 /// Makes files in the folder that the loader finds instead of the OpenGL libraries, and that are none.
 /// @returns the assignment that makes the loader look there
@@ -25,7 +25,7 @@ std::vector<std::string> both() {
   return names;
 }
 
-const std::string scene = testing::least_scene + "duration = 0.05\n[video]\nsize = [32, 32]\n";
+const std::string scene = test::least_scene + "duration = 0.05\n[video]\nsize = [32, 32]\n";
 
 TEST(Doctor, SaysInJsonWhatItFound) {
   const SceneFolder folder;

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "tests/cli/run_drape.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/gif_file.hpp"
 #include "tests/support/random.hpp"
 
@@ -19,18 +20,14 @@ namespace drape {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::drape;
-using testing::Finished;
-using testing::SceneFolder;
+using test::content;
+using test::drape;
+using test::Finished;
+using test::SceneFolder;
 
-const std::string scene = testing::least_scene +
+const std::string scene = test::least_scene +
                           "duration = 2\n[effects.gravity]\n[video]\nsize = [64, 48]\n[look]\nsamples = 1\n[camera]\n"
                           "position = [4, 4, 3]\ntarget = [0, 0, 0]\n";
-
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 std::vector<std::string> names(const SceneFolder& folder) {
   std::vector<std::string> result;
@@ -109,7 +106,7 @@ TEST(Faults, CtrlCAtAnyMomentLeavesAPlayableFilmOrNone) {
     EXPECT_EQ(end_with(start_film(folder), SIGINT, moment), 130);
     std::vector<std::string> expected{"scene.toml"};
     if (fs::exists(folder.path() / "film.gif")) {
-      EXPECT_GT(testing::read_gif(folder.path() / "film.gif").delays.size(), 0U);
+      EXPECT_GT(test::read_gif(folder.path() / "film.gif").delays.size(), 0U);
       expected.insert(expected.begin(), "film.gif");
     }
     EXPECT_EQ(names(folder), expected);

@@ -8,7 +8,7 @@
 
 #include "tests/support/scene_folder.hpp"
 
-namespace drape::testing {
+namespace drape::test {
 
 struct Finished {
   int code = -1;
@@ -30,4 +30,17 @@ inline Finished drape(const SceneFolder& folder, const std::string& arguments, c
   return finished;
 }
 
-}  // namespace drape::testing
+/// A cloth that swings for 0.4 s; a test adds tables.
+inline const std::string swinging_scene =
+    "[cloth]\n"
+    "mesh = { grid = [6, 6] }\n"
+    "stiffness = 50\n"
+    "pins = [\"corner:x-y-\", \"corner:x+y-\"]\n"
+    "[time]\n"
+    "step = 0.02\n"
+    "duration = 0.4\n"
+    "[integrator]\n"
+    "method = \"liu13\"\n"
+    "[effects.gravity]\n";
+
+}  // namespace drape::test

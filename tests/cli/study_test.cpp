@@ -5,9 +5,9 @@
 namespace drape {
 namespace {
 
-using testing::drape;
-using testing::Finished;
-using testing::SceneFolder;
+using test::drape;
+using test::Finished;
+using test::SceneFolder;
 
 TEST(Study, OfTheHomeworkWritesEverything) {
   const SceneFolder folder;

@@ -13,7 +13,7 @@ std::string one_pixel() {
   return {reinterpret_cast<const char*>(bytes), sizeof bytes - 1};
 }
 
-class AccuracyPage : public testing::InBrowser {
+class AccuracyPage : public test::InBrowser {
  protected:
   /// The page of a short study of a small cloth.
   std::string page() {

@@ -10,9 +10,9 @@
 namespace drape {
 namespace {
 
-using testing::Browser;
+using test::Browser;
 
-class CheckPage : public testing::InBrowser {
+class CheckPage : public test::InBrowser {
  protected:
   /// How much of the actual picture the slider shows, in percent from the left.
   double split() {
@@ -28,14 +28,14 @@ class CheckPage : public testing::InBrowser {
 };
 
 TEST_F(CheckPage, OfARunWhereAllIsWell) {
-  open(html_report(testing::sample_check(false)));
+  open(html_report(test::sample_check(false)));
   expect_sound();
   EXPECT_EQ(browser_->run("return document.querySelector('h1').textContent"), "All 3 scenes are as they were");
   keep_screenshots("check-passed");
 }
 
 TEST_F(CheckPage, ShowsFailedScenesFirst) {
-  open(html_report(testing::sample_check(true)));
+  open(html_report(test::sample_check(true)));
   expect_sound();
   EXPECT_EQ(browser_->run("return document.querySelector('h1').textContent"), "1 of 3 scenes changed, 1 had no golden");
   EXPECT_EQ(browser_->run("return [...document.querySelectorAll('main h2')].map((h) => h.firstChild.textContent)"),
@@ -49,7 +49,7 @@ TEST_F(CheckPage, ShowsFailedScenesFirst) {
 }
 
 TEST_F(CheckPage, SliderMovesByMouseAndByKey) {
-  open(html_report(testing::sample_check(true)));
+  open(html_report(test::sample_check(true)));
   browser_->click(".comparison .views input[value=slider]");
   EXPECT_FALSE(is_shown(".difference"));
   EXPECT_TRUE(is_shown(".split"));
@@ -74,7 +74,7 @@ TEST_F(CheckPage, SliderMovesByMouseAndByKey) {
 }
 
 TEST_F(CheckPage, KeysChooseViewAndFrame) {
-  open(html_report(testing::sample_check(true)));
+  open(html_report(test::sample_check(true)));
   browser_->run("document.querySelector('.comparison .moments input:checked').focus()");
   const auto shown_moment = [&] {
     return browser_->run("return document.querySelector('.comparison .moment:not([hidden])').dataset.moment");
@@ -99,7 +99,7 @@ TEST_F(CheckPage, KeysChooseViewAndFrame) {
 }
 
 TEST_F(CheckPage, BlinksUntilItIsStopped) {
-  open(html_report(testing::sample_check(true)));
+  open(html_report(test::sample_check(true)));
   browser_->click(".comparison .views input[value=blink]");
   const std::string wait_for_swap =
       "const root = document.querySelector('.comparison'); const before = root.dataset.phase;"
@@ -117,7 +117,7 @@ TEST_F(CheckPage, BlinksUntilItIsStopped) {
 }
 
 TEST_F(CheckPage, CurveTellsItsValues) {
-  open(html_report(testing::sample_check(true)));
+  open(html_report(test::sample_check(true)));
   browser_->point_at(".chart > svg .point:nth-of-type(3) .sign");
   EXPECT_TRUE(browser_->run("return !document.getElementById('tip').hidden"));
   EXPECT_NE(browser_->run("return document.getElementById('tip').textContent").get<std::string>().find("step "),

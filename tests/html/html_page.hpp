@@ -7,11 +7,11 @@
 #include "tests/support/browser.hpp"
 #include "tests/support/scratch_folder.hpp"
 
-namespace drape::testing {
+namespace drape::test {
 
 /// Opens pages in a headless Chromium; skipped where there is none. A picture of each is kept in the folder that
 /// DRAPE_SCREENSHOTS names, for people to look at.
-class InBrowser : public ScratchFolder {
+class InBrowser : public InScratchFolder {
  protected:
   void SetUp() override {
     if (const std::string why = Browser::missing(); !why.empty()) GTEST_SKIP() << why;
@@ -61,4 +61,4 @@ class InBrowser : public ScratchFolder {
   std::unique_ptr<Browser> browser_;
 };
 
-}  // namespace drape::testing
+}  // namespace drape::test

@@ -9,7 +9,7 @@
 #include "scene/scene.hpp"
 #include "sim/simulation.hpp"
 
-namespace drape::testing {
+namespace drape::test {
 namespace {
 
 constexpr std::array<int, 2> size{320, 240};
@@ -156,4 +156,4 @@ CheckReport sample_check(bool failing) {
   return report;
 }
 
-}  // namespace drape::testing
+}  // namespace drape::test

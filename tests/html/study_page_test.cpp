@@ -6,7 +6,7 @@
 namespace drape {
 namespace {
 
-using testing::Browser;
+using test::Browser;
 
 HomeworkStudy sample_study() {
   HomeworkStudy study;
@@ -33,7 +33,7 @@ HomeworkStudy sample_study() {
   return study;
 }
 
-class StudyPage : public testing::InBrowser {
+class StudyPage : public test::InBrowser {
  protected:
   std::string tip() {
     return browser_->run("const t = document.getElementById('tip'); return t.hidden ? '' : t.textContent");

@@ -25,8 +25,8 @@ SimulationSettings settings(const Case& c, Method method) {
   result.cloth = c.cloth;
   result.step = 0.02;
   result.integrator = {.method = method, .stop = StoppingRule::gradient, .tolerance = 1e-9, .max_iterations = 100000};
-  result.effects = {testing::gravity()};
-  if (c.with_sphere) result.effects.push_back(testing::sphere(true));
+  result.effects = {test::gravity()};
+  if (c.with_sphere) result.effects.push_back(test::sphere(true));
   return result;
 }
 
@@ -92,19 +92,19 @@ TEST_P(Agreement, NoIterationRaisesTheObjective) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Agreement,
-                         ::testing::Values(Case{"soft_grid", testing::grid_cloth(20, 18), false, 1e-8},
-                                           Case{"grid", testing::grid_cloth(20, 180), false, 1e-8},
-                                           Case{"stiff_grid", testing::grid_cloth(20, 1800), false, 1e-7},
-                                           Case{"grid_on_sphere", testing::grid_cloth(10, 180), true, 1e-8},
-                                           Case{"irregular", testing::irregular_cloth(), true, 1e-8},
+                         ::testing::Values(Case{"soft_grid", test::grid_cloth(20, 18), false, 1e-8},
+                                           Case{"grid", test::grid_cloth(20, 180), false, 1e-8},
+                                           Case{"stiff_grid", test::grid_cloth(20, 1800), false, 1e-7},
+                                           Case{"grid_on_sphere", test::grid_cloth(10, 180), true, 1e-8},
+                                           Case{"irregular", test::irregular_cloth(), true, 1e-8},
                                            Case{"irregular_obj", disc_from_obj(), false, 1e-8},
-                                           Case{"non_manifold", testing::non_manifold_cloth(), false, 1e-8}),
+                                           Case{"non_manifold", test::non_manifold_cloth(), false, 1e-8}),
                          [](const auto& tested) { return tested.param.name; });
 
 // The homework's cloth on its sphere, solved for: the touching vertices lie still and do not sink in.
 TEST(Contact, SolvedForItNeitherJittersNorSinks) {
   for (const Method method : {Method::implicit, Method::quasi_newton}) {
-    Case c{"sphere", testing::grid_cloth(20), true, 0};
+    Case c{"sphere", test::grid_cloth(20), true, 0};
     SimulationSettings s = settings(c, method);
     s.integrator.tolerance = 1e-3;
     Simulation simulation(s);

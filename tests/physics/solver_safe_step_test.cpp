@@ -39,10 +39,10 @@ TEST(SafeStep, OfClothWithoutFreeSpringsIsInfinite) {
 
 SimulationSettings settings(double factor) {
   SimulationSettings s;
-  s.cloth = testing::grid_cloth(20);
+  s.cloth = test::grid_cloth(20);
   s.step = factor * safe_step(System(s.cloth, 1));
   s.integrator.method = Method::semi_implicit;
-  s.effects = {testing::gravity()};
+  s.effects = {test::gravity()};
   return s;
 }
 

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "render/texture_image.hpp"
 #include "tests/render/drawing.hpp"
+#include "tests/support/files.hpp"
 
 namespace drape::test {
 namespace {
@@ -92,8 +93,7 @@ TEST(Texture, LevelsHalveUntilOnePixelInEitherDirection) {
 TEST(Texture, ThatIsMissingOrCutOrNoImageIsNamed) {
   EXPECT_NE(message_of("no/such/plaid.png").find("no/such/plaid.png"), std::string::npos);
 
-  std::ifstream stream(data_folder() / "textures/plaid.png", std::ios::binary);
-  const std::string whole{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::string whole = test::content(data_folder() / "textures/plaid.png");
   ASSERT_GT(whole.size(), 1000);
   const TemporaryFile cut("cut.png", whole.substr(0, whole.size() / 2));
   EXPECT_NE(message_of(cut.path()).find(cut.path().string()), std::string::npos);

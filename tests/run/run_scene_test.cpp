@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "run/run_scene.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape {
@@ -25,14 +26,8 @@ method = "liu13"
 [effects.gravity]
 )";
 
-std::string read(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 std::vector<std::string> lines(const fs::path& file) {
-  std::istringstream text(read(file));
+  std::istringstream text(test::content(file));
   std::vector<std::string> result;
   for (std::string line; std::getline(text, line);) result.push_back(line);
   return result;
@@ -45,7 +40,7 @@ RunResult run(const Scene& scene, const RunOptions& options) {
 }
 
 TEST(RunScene, WritesEveryRecordThatIsAskedFor) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   RunOptions options;
   const auto path = [&](const char* name) { return (folder.path() / name).string(); };
   options.records = {path("stats.json"), path("energies.csv"), path("positions.csv"), path("trace.csv")};
@@ -64,7 +59,7 @@ TEST(RunScene, WritesEveryRecordThatIsAskedFor) {
   EXPECT_EQ(positions.size(), 1u + 25u);
   EXPECT_EQ(positions[1], "0,-1,-1,0");  // the pin
 
-  const auto stats = nlohmann::json::parse(read(path("stats.json")));
+  const auto stats = nlohmann::json::parse(test::content(path("stats.json")));
   EXPECT_EQ(stats["method"], "liu13");
   EXPECT_EQ(stats["vertices"], 25);
   EXPECT_EQ(stats["springs"], 56);
@@ -79,7 +74,7 @@ TEST(RunScene, WritesEveryRecordThatIsAskedFor) {
 }
 
 TEST(RunScene, PositionsReadBackHaveTheSameBits) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   const Scene scene = folder.load(swinging);
   RunOptions options;
   options.records.positions = (folder.path() / "positions.csv").string();
@@ -98,7 +93,7 @@ TEST(RunScene, PositionsReadBackHaveTheSameBits) {
 }
 
 TEST(RunScene, ADivergedRunKeepsTheRecordsOfItsFiniteSteps) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   const std::string stiff = R"(
 [cloth]
 mesh = { grid = [4, 4] }
@@ -121,13 +116,13 @@ allow_unstable = true
   const RunResult result = run(folder.load(stiff), options);
   EXPECT_EQ(result.outcome, Outcome::diverged);
   EXPECT_NE(result.divergence.find("step"), std::string::npos);
-  EXPECT_EQ(nlohmann::json::parse(read(options.records.stats))["outcome"], "diverged");
+  EXPECT_EQ(nlohmann::json::parse(test::content(options.records.stats))["outcome"], "diverged");
   const auto rows = lines(options.records.energies);
   EXPECT_EQ(rows.size(), 2u + static_cast<std::size_t>(result.statistics.steps()));
 }
 
 TEST(RunScene, StopsWhenItIsToldToAndKeepsTheRecords) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   RunOptions options;
   options.records.stats = (folder.path() / "stats.json").string();
   options.steps = 1'000'000'000;
@@ -135,16 +130,30 @@ TEST(RunScene, StopsWhenItIsToldToAndKeepsTheRecords) {
   Progress progress;
   const RunResult result = run_scene(folder.load(swinging), options, stop, progress, [&] { stop = true; });
   EXPECT_EQ(result.outcome, Outcome::interrupted);
-  EXPECT_EQ(nlohmann::json::parse(read(options.records.stats))["outcome"], "interrupted");
+  EXPECT_EQ(nlohmann::json::parse(test::content(options.records.stats))["outcome"], "interrupted");
 }
 
 TEST(RunScene, AnUnwritableRecordIsKnownBeforeAnythingIsSimulated) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   folder.write("file", "");
   RunOptions options;
   options.records.stats = (folder.path() / "file" / "stats.json").string();
   options.steps = 1'000'000'000;  // would take hours
   EXPECT_THROW(run(folder.load(swinging), options), OutputError);
+}
+
+TEST(RunScene, CountsTheStepsThatDidNotConvergeAndTheirWorstResidual) {
+  const Scene scene = load_scene(DRAPE_SOURCE_DIR "/scenes/hard/stiffest.toml");
+  RunOptions options;
+  options.steps = 5;
+  const RunResult result = run(scene, options);
+  // liu13 takes a hundred iterations at most, and a hundred thousand would not be enough here.
+  EXPECT_GE(result.statistics.not_converged(), 4);
+  EXPECT_GT(result.statistics.worst_residual(), scene.simulation.integrator.tolerance);
+  const std::string json = result.statistics.to_json("completed");
+  EXPECT_NE(json.find("\"steps_not_converged\""), std::string::npos);
+  EXPECT_NE(json.find("\"worst_residual\""), std::string::npos);
+  EXPECT_EQ(result.outcome, Outcome::completed);
 }
 
 }  // namespace

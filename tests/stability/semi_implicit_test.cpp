@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(SemiImplicit, HardScenes, ::testing::ValuesIn(hard_case
 /// The case with a step that semi-implicit Euler stands; nothing where its effects cannot be evaluated explicitly.
 std::optional<HardRun> safe_run(const HardCase& hard) {
   const auto refused = [&](const std::vector<std::string>& more) {
-    return testing::usage_error([&] { static_cast<void>(load(hard, semi_implicit, more)); });
+    return test::usage_error([&] { static_cast<void>(load(hard, semi_implicit, more)); });
   };
   const std::string reason = refused({"integrator.allow_unstable=true"});
   if (reason.find("response: semi-implicit Euler evaluates every force") != std::string::npos) return std::nullopt;
@@ -117,7 +117,7 @@ TEST(SafeStep, IsTheTrueBorderWhereSpringsAreStretched) {
 }
 
 TEST(SafeStep, CountsWhatIsPushedBesideTheSprings) {
-  SimulationSettings settings = setup(testing::grid_cloth(8), semi_implicit, 0.0055);
+  SimulationSettings settings = setup(test::grid_cloth(8), semi_implicit, 0.0055);
   EXPECT_FALSE(stability_problem(settings, make_system(settings)));
   // Each of them alone would be stable, (h√k)² = 3.9 and (hω)² = 3.8, but not the two together.
   settings.effects = {
@@ -127,7 +127,7 @@ TEST(SafeStep, CountsWhatIsPushedBesideTheSprings) {
 
 /// A cloth that hangs under gravity, with a step beyond the safe one.
 SimulationSettings unstable(double factor) {
-  SimulationSettings settings = setup(testing::grid_cloth(8), semi_implicit, 1);
+  SimulationSettings settings = setup(test::grid_cloth(8), semi_implicit, 1);
   settings.effects = {effect("gravity")};
   settings.step = factor * safe_step(make_system(settings));
   settings.integrator.allow_unstable = true;
@@ -189,7 +189,7 @@ TEST(BlowUp, IsReportedWithAllThatExplainsIt) {
 // Springs that hang crumpled pass through zero length all the time: over many steps the homework's second scene gains
 // energy out of nothing at 0.95 of its safe step, and does not at half of it.
 TEST(BlowUp, IsFoundWhereACrumpledClothHeatsUpBelowTheSafeStep) {
-  SimulationSettings settings = setup(testing::grid_cloth(20, 18), semi_implicit, 1);
+  SimulationSettings settings = setup(test::grid_cloth(20, 18), semi_implicit, 1);
   settings.effects = {effect("gravity")};
   const double safe = safe_step(make_system(settings));
   settings.step = 0.95 * safe;

@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-using testing::SceneFolder;
+using test::SceneFolder;
 
 /// A small soft cloth that has begun to swing.
 const std::string small_scene = R"([cloth]
@@ -140,7 +140,7 @@ TEST(AccuracyOptions, MustFitTheMotion) {
   const SceneFolder folder;
   const Scene scene = folder.load(small_scene);
   const auto problem = [&](const AccuracyOptions& options) {
-    return testing::usage_error([&] { static_cast<void>(complete(options, scene)); });
+    return test::usage_error([&] { static_cast<void>(complete(options, scene)); });
   };
   AccuracyOptions late, uneven;
   late.times = {5};

@@ -13,7 +13,7 @@ namespace drape {
 namespace {
 
 TEST(Animation, HasAPanelForEachMotionAndAFrameForEachMoment) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   const std::string file = folder
                                .write("small.toml",
                                       "[cloth]\nmesh = { grid = [3, 3] }\nstiffness = 20\n[time]\nstep = 0.02\n"
@@ -30,7 +30,7 @@ TEST(Animation, HasAPanelForEachMotionAndAFrameForEachMoment) {
                                     GlBackend::automatic, {}, progress);
   ASSERT_TRUE(bytes);
   EXPECT_EQ(bytes->size(), std::filesystem::file_size(gif_file));
-  const testing::GifFile gif = testing::read_gif(gif_file);
+  const test::GifFile gif = test::read_gif(gif_file);
   EXPECT_EQ(gif.delays.size(), 5U);  // 0 to 0.4 s, 10 a second
   EXPECT_EQ(gif.width, 2 * 340 + 6);
   EXPECT_GT(gif.height, 2 * 170);

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace drape::testing {
+namespace drape::test {
 namespace {
 
 using Json = nlohmann::json;
@@ -190,4 +190,4 @@ void Browser::save_screenshot(const std::filesystem::path& png) {
   std::ofstream(png, std::ios::binary) << decode_base64(picture.at("data"));
 }
 
-}  // namespace drape::testing
+}  // namespace drape::test

@@ -12,7 +12,7 @@ namespace httplib {
 class Client;
 }
 
-namespace drape::testing {
+namespace drape::test {
 
 /// A headless Chromium, driven through chromedriver by the WebDriver protocol (W3C).
 class Browser {
@@ -66,4 +66,4 @@ class Browser {
   std::string session_, page_;
 };
 
-}  // namespace drape::testing
+}  // namespace drape::test

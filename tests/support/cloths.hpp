@@ -8,7 +8,7 @@
 #include "sim/settings.hpp"
 #include "tests/support/effects.hpp"
 
-namespace drape::testing {
+namespace drape::test {
 
 /// A grid as the homework has it, 1 kg, pinned at two corners.
 inline Cloth grid_cloth(int cells, double stiffness = 180) {
@@ -61,4 +61,4 @@ inline ActiveEffect sphere(bool implicit) {
                                  {"response", std::string(implicit ? "implicit" : "explicit")}});
 }
 
-}  // namespace drape::testing
+}  // namespace drape::test

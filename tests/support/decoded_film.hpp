@@ -8,7 +8,7 @@
 
 #include "render/image.hpp"
 
-namespace drape::testing {
+namespace drape::test {
 
 /// The frames of a video or GIF, as a player shows them.
 inline std::vector<Image> decoded_film(const std::filesystem::path& file) {
@@ -30,4 +30,4 @@ inline double psnr(const Image& a, const Image& b) {
   return 10 * std::log10(255.0 * 255.0 * static_cast<double>(a.pixels.size()) / std::max(sum, 1e-9));
 }
 
-}  // namespace drape::testing
+}  // namespace drape::test

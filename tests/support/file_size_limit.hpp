@@ -4,7 +4,7 @@
 
 #include <csignal>
 
-namespace drape::testing {
+namespace drape::test {
 
 /// While it lives, no file of this process can grow beyond a size: writing fails, as it does on a full disk.
 class FileSizeLimit {
@@ -26,4 +26,4 @@ class FileSizeLimit {
   rlimit before_{};
 };
 
-}  // namespace drape::testing
+}  // namespace drape::test

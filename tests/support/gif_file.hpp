@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace drape::testing {
+namespace drape::test {
 
 /// What the blocks of a GIF say about how it is played (GIF89a specification, 1990). Does not decode pictures.
 struct GifFile {
@@ -45,4 +45,4 @@ inline GifFile read_gif(const std::filesystem::path& file) {
   return gif;
 }
 
-}  // namespace drape::testing
+}  // namespace drape::test

@@ -1,40 +1,19 @@
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/usage_error.hpp"
 
-namespace drape::testing {
+namespace drape::test {
 
-/// A folder of the running test's own, for scene files that it writes. Deleted with the object.
-class SceneFolder {
+/// A folder for scene files that a test writes.
+class SceneFolder : public ScratchFolder {
  public:
-  SceneFolder() {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(::testing::TempDir()) /
-            (std::string("drape_") + test->test_suite_name() + "_" + test->name() + "_" + std::to_string(getpid()));
-    std::filesystem::create_directories(path_);
-  }
-  ~SceneFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  SceneFolder(const SceneFolder&) = delete;
-  SceneFolder& operator=(const SceneFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
   std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
+    return put(folder_ / name, text);
   }
 
   [[nodiscard]] Scene load(const std::string& text, const std::vector<std::string>& overrides = {}) const {
@@ -47,13 +26,10 @@ class SceneFolder {
   }
 
   [[nodiscard]] std::string without_folder(std::string text) const {
-    const std::string prefix = path_.string() + "/";
+    const std::string prefix = folder_.string() + "/";
     for (std::size_t at = 0; (at = text.find(prefix, at)) != std::string::npos;) text.erase(at, prefix.size());
     return text;
   }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// The least that a scene must say; a test adds lines. It has five.
@@ -64,4 +40,4 @@ inline const std::string least_scene =
     "[time]\n"
     "step = 0.01\n";
 
-}  // namespace drape::testing
+}  // namespace drape::test

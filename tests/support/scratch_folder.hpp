@@ -1,19 +1,18 @@
 #pragma once
 
 #include <gtest/gtest.h>
-
 #include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
-namespace drape::testing {
+namespace drape::test {
 
-/// An empty folder of its own for each test, removed with it.
-class ScratchFolder : public ::testing::Test {
- protected:
+/// An empty folder of the running test's own, removed with the object.
+class ScratchFolder {
+ public:
   ScratchFolder() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     std::string name = std::string(test->test_suite_name()) + "-" + test->name() + "-" + std::to_string(::getpid());
@@ -22,17 +21,21 @@ class ScratchFolder : public ::testing::Test {
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }
-  ~ScratchFolder() override { std::filesystem::remove_all(folder_); }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
 
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
   [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  [[nodiscard]] static std::string content(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  }
-
-  static void put(const std::filesystem::path& file, const std::string& bytes) {
+  /// Makes the file's folder too. Returns the file.
+  static std::filesystem::path put(const std::filesystem::path& file, const std::string& bytes) {
+    std::filesystem::create_directories(file.parent_path());
     std::ofstream(file, std::ios::binary) << bytes;
+    return file;
   }
 
   /// Everything in the folder, hidden files too.
@@ -44,7 +47,11 @@ class ScratchFolder : public ::testing::Test {
     return count;
   }
 
+ protected:
   std::filesystem::path folder_;
 };
 
-}  // namespace drape::testing
+/// A test that has one.
+class InScratchFolder : public ::testing::Test, protected ScratchFolder {};
+
+}  // namespace drape::test

@@ -6,7 +6,7 @@
 
 #include "render/image.hpp"
 
-namespace drape::testing {
+namespace drape::test {
 
 using Color = std::array<std::uint8_t, 3>;
 
@@ -48,4 +48,4 @@ inline Image synthetic_frame(int k, int width, int height, Color background = {2
   return image;
 }
 
-}  // namespace drape::testing
+}  // namespace drape::test

@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 
-namespace drape::testing {
+namespace drape::test {
 
 /// The message of the UsageError that a call throws; "(no error)" if it throws none.
 template <class Call>
@@ -17,4 +17,4 @@ std::string usage_error(Call&& call) {
   return "(no error)";
 }
 
-}  // namespace drape::testing
+}  // namespace drape::test

@@ -13,8 +13,8 @@
 namespace drape {
 namespace {
 
+using test::usage_error;
 using ::testing::TempDir;
-using testing::usage_error;
 
 std::string write(const std::string& name, const std::string& text) {
   const std::string path = TempDir() + "drape_mesh_file_" + name;

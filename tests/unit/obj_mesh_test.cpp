@@ -11,7 +11,7 @@
 namespace drape {
 namespace {
 
-using testing::usage_error;
+using test::usage_error;
 
 Mesh parse(const std::string& text) { return read_obj_mesh(SourceText("cloth.obj", text)); }
 

@@ -6,6 +6,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "tests/support/file_size_limit.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace fs = std::filesystem;
@@ -13,7 +14,7 @@ using namespace drape;
 
 namespace {
 
-class AtomicFile : public drape::testing::ScratchFolder {};
+class AtomicFile : public drape::test::InScratchFolder {};
 
 template <class Call>
 std::string output_error(Call&& call) {
@@ -28,13 +29,13 @@ std::string output_error(Call&& call) {
 TEST_F(AtomicFile, HasItsBytesAndLeavesNothingElse) {
   const std::string bytes("a\0b\n", 4);
   EXPECT_EQ(write_file_atomically(path("x.bin"), bytes), 4u);
-  EXPECT_EQ(content(path("x.bin")), bytes);
+  EXPECT_EQ(test::content(path("x.bin")), bytes);
   EXPECT_EQ(file_count(), 1u);
 }
 
 TEST_F(AtomicFile, MakesTheFoldersItNeeds) {
   write_file_atomically(path("a/b/c.txt"), "c");
-  EXPECT_EQ(content(path("a/b/c.txt")), "c");
+  EXPECT_EQ(test::content(path("a/b/c.txt")), "c");
 }
 
 TEST_F(AtomicFile, TakesAPathRelativeToTheWorkingFolderOfItsBeginning) {
@@ -44,33 +45,33 @@ TEST_F(AtomicFile, TakesAPathRelativeToTheWorkingFolderOfItsBeginning) {
   file.write("x");
   fs::current_path(before);
   file.commit();
-  EXPECT_EQ(content(path("x.txt")), "x");
+  EXPECT_EQ(test::content(path("x.txt")), "x");
 }
 
 TEST_F(AtomicFile, AppearsOnlyWhenCommitted) {
   put(path("x.txt"), "old");
   PartialFile file(path("x.txt"));
   file.write("new");
-  EXPECT_EQ(content(path("x.txt")), "old");
+  EXPECT_EQ(test::content(path("x.txt")), "old");
   EXPECT_EQ(file.commit(), 3u);
-  EXPECT_EQ(content(path("x.txt")), "new");
+  EXPECT_EQ(test::content(path("x.txt")), "new");
 }
 
 TEST_F(AtomicFile, LeavesTheOldFileAndNothingElseWithoutACommit) {
   put(path("x.txt"), "old");
   { PartialFile(path("x.txt")).write("new"); }
-  EXPECT_EQ(content(path("x.txt")), "old");
+  EXPECT_EQ(test::content(path("x.txt")), "old");
   EXPECT_EQ(file_count(), 1u);
 }
 
 TEST_F(AtomicFile, LeavesTheOldFileOnAFullDisk) {
   put(path("x.txt"), "old");
   const std::string message = output_error([this] {
-    const drape::testing::FileSizeLimit limit(1000);
+    const drape::test::FileSizeLimit limit(1000);
     write_file_atomically(path("x.txt"), std::string(5000, 'x'));
   });
   EXPECT_EQ(message, "cannot write " + path("x.txt") + ": File too large");
-  EXPECT_EQ(content(path("x.txt")), "old");
+  EXPECT_EQ(test::content(path("x.txt")), "old");
   EXPECT_EQ(file_count(), 1u);
 }
 
@@ -80,13 +81,13 @@ TEST_F(AtomicFile, ReplacesWhatASymbolicLinkPointsTo) {
   fs::create_symlink("real/x.txt", path("link.txt"));
   write_file_atomically(path("link.txt"), "new");
   EXPECT_TRUE(fs::is_symlink(path("link.txt")));
-  EXPECT_EQ(content(path("real/x.txt")), "new");
+  EXPECT_EQ(test::content(path("real/x.txt")), "new");
 }
 
 TEST_F(AtomicFile, FillsASymbolicLinkThatPointsToNothing) {
   fs::create_symlink("later/x.txt", path("link.txt"));
   write_file_atomically(path("link.txt"), "new");
-  EXPECT_EQ(content(path("later/x.txt")), "new");
+  EXPECT_EQ(test::content(path("later/x.txt")), "new");
 }
 
 TEST_F(AtomicFile, KeepsThePermissionsOfTheFileItReplaces) {
@@ -99,7 +100,7 @@ TEST_F(AtomicFile, KeepsThePermissionsOfTheFileItReplaces) {
 TEST_F(AtomicFile, TakesTheLongestNameAFolderTakes) {
   const std::string name(255, 'n');
   write_file_atomically(path(name), "x");
-  EXPECT_EQ(content(path(name)), "x");
+  EXPECT_EQ(test::content(path(name)), "x");
 }
 
 TEST_F(AtomicFile, SaysWhyItCannotBeWritten) {
@@ -121,14 +122,14 @@ TEST_F(AtomicFile, CanBeWrittenTwiceAtOnceAndTheLastCommitWins) {
   second.write("second");
   second.commit();
   first.commit();
-  EXPECT_EQ(content(path("x.txt")), "first");
+  EXPECT_EQ(test::content(path("x.txt")), "first");
   EXPECT_EQ(file_count(), 1u);
 }
 
 TEST_F(AtomicFile, SaysThatTheDiskIsFullWhenAskedAfterASilentFailure) {
   PartialFile file(path("x.txt"));
   EXPECT_NO_THROW(file.require_space());
-  const drape::testing::FileSizeLimit limit(1000);
+  const drape::test::FileSizeLimit limit(1000);
   EXPECT_THROW(file.require_space(), OutputError);
 }
 

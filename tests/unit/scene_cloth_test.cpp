@@ -8,7 +8,7 @@
 namespace drape {
 namespace {
 
-using testing::SceneFolder;
+using test::SceneFolder;
 
 constexpr double tiny = 1e-15;
 

@@ -14,8 +14,8 @@ namespace drape {
 namespace {
 
 using Eigen::Vector3d;
-using testing::least_scene;
-using testing::SceneFolder;
+using test::least_scene;
+using test::SceneFolder;
 
 /// The effect's table follows the five lines of the least scene, from line 7 on.
 std::string with(const std::string& effect, const std::string& lines) {

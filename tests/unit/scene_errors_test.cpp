@@ -11,9 +11,9 @@
 namespace drape {
 namespace {
 
-using testing::least_scene;
-using testing::SceneFolder;
-using testing::usage_error;
+using test::least_scene;
+using test::SceneFolder;
+using test::usage_error;
 
 /// A scene that lacks nothing, with one line of a table, which is line 5.
 std::string with(const std::string& table, const std::string& line) {

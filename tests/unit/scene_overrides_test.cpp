@@ -10,8 +10,8 @@
 namespace drape {
 namespace {
 
-using testing::least_scene;
-using testing::SceneFolder;
+using test::least_scene;
+using test::SceneFolder;
 
 const std::string one_sphere = least_scene + "[effects.sphere]\ncenter = [0, 0, 1]\nradius = 1\n";
 const std::string item = "[[effects.sphere]]\ncenter = [0, 0, 1]\nradius = 1\n";

@@ -7,19 +7,15 @@
 
 #include "scene/color.hpp"
 #include "scene/tables.hpp"
+#include "tests/support/files.hpp"
 
 namespace drape {
 namespace {
 
 constexpr const char* page_file = DRAPE_SOURCE_DIR "/docs/scene-format.md";
 
-std::string page() {
-  std::ifstream stream(page_file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 TEST(SceneReference, ThePageHasTheProgramsOwnDescriptionOfItsKeys) {
-  const std::string text = page();
+  const std::string text = test::content(page_file);
   const std::string begin = "<!-- reference: begin -->\n\n", end = "<!-- reference: end -->";
   const std::size_t from = text.find(begin) + begin.size(), to = text.find(end);
   ASSERT_NE(text.find(begin), std::string::npos);
@@ -49,7 +45,7 @@ TEST(SceneReference, EveryKeyAndEffectHasARow) {
 }
 
 TEST(SceneReference, ThePageNamesEveryNamedColour) {
-  const std::string text = page();
+  const std::string text = test::content(page_file);
   for (const std::string& name : color_names()) EXPECT_NE(text.find("`\"" + name + "\"`"), std::string::npos) << name;
 }
 

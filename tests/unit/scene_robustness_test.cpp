@@ -13,8 +13,8 @@
 namespace drape {
 namespace {
 
-using testing::least_scene;
-using testing::SceneFolder;
+using test::least_scene;
+using test::SceneFolder;
 
 const std::string everything =
     "# every form once: größer\n"
@@ -110,7 +110,7 @@ TEST(DataFolder, IsTheSourceTreeUnlessTheEnvironmentNamesAnother) {
   ASSERT_EQ(setenv("DRAPE_DATA", folder.path().c_str(), 1), 0);
   EXPECT_EQ(data_folder(), folder.path());
   ASSERT_EQ(setenv("DRAPE_DATA", (folder.path() / "none").c_str(), 1), 0);
-  EXPECT_EQ(testing::usage_error([] { data_folder(); }),
+  EXPECT_EQ(test::usage_error([] { data_folder(); }),
             "DRAPE_DATA: no such folder: " + (folder.path() / "none").string());
   ASSERT_EQ(unsetenv("DRAPE_DATA"), 0);
 }

@@ -25,8 +25,8 @@ Vertices wave(Eigen::Index rows, double frequency) {
 class Derivatives : public ::testing::TestWithParam<Case> {
  protected:
   // The sphere lies so that some vertices are within its reach and some are not.
-  Derivatives() : cloth_(testing::disturbed(GetParam().cloth)), system_(cloth_, 0.02) {
-    testing::sphere(true).effect->install(system_);
+  Derivatives() : cloth_(test::disturbed(GetParam().cloth)), system_(cloth_, 0.02) {
+    test::sphere(true).effect->install(system_);
     test::effect("ground", {{"height", -0.02}, {"normal", Eigen::Vector3d(1, -2, 5)}, {"response", "implicit"}})
         .effect->install(system_);
     Vertices& x = cloth_.positions;
@@ -108,14 +108,13 @@ TEST_P(Derivatives, BothLinearSolversSolveTheSameEquations) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Derivatives,
-                         ::testing::Values(Case{"grid", testing::grid_cloth(20)},
-                                           Case{"wide_grid", testing::grid_cloth(70)},
-                                           Case{"irregular", testing::irregular_cloth()},
-                                           Case{"non_manifold", testing::non_manifold_cloth()}),
+                         ::testing::Values(Case{"grid", test::grid_cloth(20)}, Case{"wide_grid", test::grid_cloth(70)},
+                                           Case{"irregular", test::irregular_cloth()},
+                                           Case{"non_manifold", test::non_manifold_cloth()}),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(SpringKernels, ASpringOfZeroLengthPullsNowhere) {
-  Cloth cloth = testing::grid_cloth(4);
+  Cloth cloth = test::grid_cloth(4);
   cloth.positions.setZero();
   const SpringNetwork springs(cloth.springs, cloth.vertex_count());
   Vertices gradient = Vertices::Zero(cloth.positions.rows(), 3);

@@ -11,7 +11,7 @@
 namespace drape {
 namespace {
 
-using testing::usage_error;
+using test::usage_error;
 using Uv = std::array<float, 2>;
 
 const std::string kData = DRAPE_SOURCE_DIR "/tests/data/";

@@ -15,7 +15,7 @@ namespace drape {
 namespace {
 
 using Eigen::Vector3d;
-using testing::usage_error;
+using test::usage_error;
 
 const std::string kHeader =
     "#usda 1.0\n( metersPerUnit = 1\nupAxis = \"Z\"\nstartTimeCode = 10\ntimeCodesPerSecond = 20 )\n";

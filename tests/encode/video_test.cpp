@@ -7,15 +7,16 @@
 #include "render/encode/encoder.hpp"
 #include "tests/support/decoded_film.hpp"
 #include "tests/support/file_size_limit.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/synthetic_film.hpp"
 
 using namespace drape;
-using namespace drape::testing;
+using namespace drape::test;
 
 namespace {
 
-class Video : public ScratchFolder, public ::testing::WithParamInterface<std::string> {
+class Video : public InScratchFolder, public ::testing::WithParamInterface<std::string> {
  protected:
   [[nodiscard]] std::unique_ptr<Encoder> encoder(double fps = 25) const {
     return make_encoder({.path = file(), .scene = "test", .fps = fps, .progress = {}});
@@ -83,7 +84,7 @@ TEST_P(Video, RepeatsTheLastColumnAndRowOfAnOddSize) {
 TEST_P(Video, LeavesTheOldFileAndNothingElseWithoutFinish) {
   put(file(), "old");
   encoder()->add(synthetic_frame(0, 64, 48));
-  EXPECT_EQ(content(file()), "old");
+  EXPECT_EQ(test::content(file()), "old");
   EXPECT_EQ(file_count(), 1u);
 }
 
@@ -97,7 +98,7 @@ TEST_P(Video, LeavesTheOldFileOnAFullDisk) {
     } catch (const OutputError& error) {
       EXPECT_EQ(std::string(error.what()), "cannot write " + file() + ": File too large");
     }
-    EXPECT_EQ(content(file()), "old");
+    EXPECT_EQ(test::content(file()), "old");
     EXPECT_EQ(file_count(), 1u);
   }
 }

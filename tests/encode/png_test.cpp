@@ -7,15 +7,16 @@
 #include "core/error.hpp"
 #include "render/encode/encoder.hpp"
 #include "tests/support/file_size_limit.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/synthetic_film.hpp"
 
 using namespace drape;
-using namespace drape::testing;
+using namespace drape::test;
 
 namespace {
 
-class Png : public ScratchFolder {
+class Png : public InScratchFolder {
  protected:
   [[nodiscard]] static Image read(const std::string& file) {
     const cv::Mat bgr = cv::imread(file);
@@ -76,8 +77,8 @@ TEST_F(Png, SequenceLeavesAloneWhatItDoesNotReplace) {
   const auto png = make_encoder({.path = path("{frame}.png"), .scene = "flag", .progress = {}});
   png->add(Image(4, 4));
   png->finish();
-  EXPECT_NE(content(path("0.png")), "old");
-  EXPECT_EQ(content(path("1.png")), "old");
+  EXPECT_NE(test::content(path("0.png")), "old");
+  EXPECT_EQ(test::content(path("1.png")), "old");
 }
 
 TEST_F(Png, HasTheSameBytesEveryTime) {
@@ -85,7 +86,7 @@ TEST_F(Png, HasTheSameBytesEveryTime) {
     const auto png = make_encoder({.path = path("x.png"), .scene = "flag", .progress = {}});
     png->add(synthetic_frame(0, 120, 100));
     png->finish();
-    return content(path("x.png"));
+    return test::content(path("x.png"));
   };
   const std::string first = bytes();
   EXPECT_EQ(bytes(), first);
@@ -104,8 +105,8 @@ TEST_F(Png, LeavesTheOldFileOnAFullDisk) {
         },
         OutputError);
   }
-  EXPECT_EQ(content(path("x.png")), "old");
-  EXPECT_EQ(content(path("0.png")), "old");
+  EXPECT_EQ(test::content(path("x.png")), "old");
+  EXPECT_EQ(test::content(path("0.png")), "old");
   EXPECT_EQ(file_count(), 2u);
 }
 

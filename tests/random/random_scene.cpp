@@ -1,4 +1,4 @@
-#include "tests/stability/random_scene.hpp"
+#include "tests/random/random_scene.hpp"
 
 #include <fmt/format.h>
 

@@ -8,16 +8,17 @@
 #include "render/encode/encoder.hpp"
 #include "tests/support/decoded_film.hpp"
 #include "tests/support/file_size_limit.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/gif_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/synthetic_film.hpp"
 
 using namespace drape;
-using namespace drape::testing;
+using namespace drape::test;
 
 namespace {
 
-class Gif : public ScratchFolder {
+class Gif : public InScratchFolder {
  protected:
   [[nodiscard]] std::unique_ptr<Encoder> encoder(double fps = 25) const {
     return make_encoder({.path = path("x.gif"), .scene = "test", .fps = fps, .progress = {}});
@@ -173,9 +174,9 @@ TEST_F(Gif, OfEightSecondsStaysUnderSixMegabytes) {
 TEST_F(Gif, HasTheSameBytesEveryTime) {
   const std::vector<Image> film = synthetic_film(10, 120, 100);
   write(film);
-  const std::string first = content(path("x.gif"));
+  const std::string first = test::content(path("x.gif"));
   write(film);
-  EXPECT_EQ(content(path("x.gif")), first);
+  EXPECT_EQ(test::content(path("x.gif")), first);
 }
 
 TEST_F(Gif, ReportsItsProgress) {
@@ -193,7 +194,7 @@ TEST_F(Gif, ReportsItsProgress) {
 TEST_F(Gif, LeavesTheOldFileAndNothingElseWithoutFinish) {
   put(path("x.gif"), "old");
   encoder()->add(synthetic_frame(0, 64, 48));
-  EXPECT_EQ(content(path("x.gif")), "old");
+  EXPECT_EQ(test::content(path("x.gif")), "old");
   EXPECT_EQ(file_count(), 1u);
 }
 
@@ -210,7 +211,7 @@ TEST_F(Gif, LeavesTheOldFileOnAFullDisk) {
       EXPECT_EQ(message.find("cannot write " + path("x.gif") + ": "), 0u) << message;
       EXPECT_NE(message.find("File too large"), std::string::npos) << message;
     }
-    EXPECT_EQ(content(path("x.gif")), "old");
+    EXPECT_EQ(test::content(path("x.gif")), "old");
     EXPECT_EQ(file_count(), 1u);
   }
 }

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "run/run_scene.hpp"
-#include "tests/stability/random_scene.hpp"
+#include "tests/random/random_scene.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape::test {
@@ -41,7 +41,7 @@ void expect_places(const std::string& message) {
   }
 }
 
-std::string outcome(const testing::SceneFolder& folder, const std::string& text) {
+std::string outcome(const test::SceneFolder& folder, const std::string& text) {
   RunOptions options;
   options.records.energies = (folder.path() / "energies.csv").string();
   std::filesystem::remove(options.records.energies);
@@ -72,7 +72,7 @@ class RandomScenes : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Shard, RandomScenes, ::testing::Range(0, shards));
 
 TEST_P(RandomScenes, EndWell) {
-  const testing::SceneFolder folder;
+  const test::SceneFolder folder;
   const int only = environment("DRAPE_RANDOM_SEED", -1);
   const int count = only >= 0 ? only + 1 : environment("DRAPE_RANDOM_SCENES", 200);
   std::map<std::string, int> outcomes;

@@ -10,7 +10,7 @@
 #include "tests/support/usage_error.hpp"
 
 using namespace drape;
-using drape::testing::usage_error;
+using drape::test::usage_error;
 
 namespace {
 
@@ -52,7 +52,7 @@ TEST(PathTemplate, RefusesSingleBraces) {
             "a '}' without '{' in the output path a}.gif; write '}}' for a brace");
 }
 
-class MakeEncoder : public drape::testing::ScratchFolder {
+class MakeEncoder : public drape::test::InScratchFolder {
  protected:
   [[nodiscard]] std::string error(const std::string& name, double fps = 25) const {
     return usage_error([&] { make_encoder({.path = path(name), .scene = "flag", .fps = fps, .progress = {}}); });
