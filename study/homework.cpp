@@ -108,18 +108,33 @@ html::ChartSeries height_of(const Measured& measured, const std::string& name, s
   return series;
 }
 
-/// Table 3's column by tolerance, of one method.
-template <class Value>
-html::ChartSeries by_tolerance(const std::vector<HomeworkRow>& rows, const std::vector<Measured>& measured,
-                               const std::string& method, const std::string& name, Value value) {
-  html::ChartSeries series{name, {}};
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].table != 3 || rows[i].method != method) continue;
-    const double y = value(rows[i], measured[i]);
-    series.points.push_back({std::stod(rows[i].tolerance), y, fmt::format("ε = {}: {:.5g}", rows[i].tolerance, y),
-                             measured[i].what.command()});
+NamedChart over_time(const char* name, const char* title, const char* y_title, std::vector<html::ChartSeries> series) {
+  using enum html::Scale;
+  return {name, {title, "time [s]", y_title, linear, linear, std::move(series), {}}};
+}
+
+/// A column of table 3 by tolerance, for every method that has one, and the report's own beside it.
+/// @param ours, reported  the value of a row
+template <class Ours, class Reported>
+NamedChart by_tolerance(const char* name, const char* title, const char* y_title, const std::vector<HomeworkRow>& rows,
+                        const std::vector<Measured>& measured, Ours ours, Reported reported) {
+  using enum html::Scale;
+  NamedChart chart{name, {title, "tolerance ε [m]", y_title, logarithmic, logarithmic, {}, {}}};
+  const auto add = [&](const std::string& method, const char* source, const auto& value) {
+    html::ChartSeries series{method + source, {}};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i].table != 3 || rows[i].method != method) continue;
+      const double y = value(i);
+      series.points.push_back({std::stod(rows[i].tolerance), y, fmt::format("ε = {}: {:.5g}", rows[i].tolerance, y),
+                               measured[i].what.command()});
+    }
+    chart.chart.series.push_back(std::move(series));
+  };
+  for (const char* method : {"implicit", "liu13"}) add(method, "", [&](std::size_t i) { return ours(measured[i]); });
+  for (const char* method : {"implicit", "liu13"}) {
+    add(method, ", report", [&](std::size_t i) { return reported(rows[i].reported); });
   }
-  return series;
+  return chart;
 }
 
 void add_charts(HomeworkStudy& study, const std::vector<HomeworkRow>& rows, const std::vector<Measured>& measured,
@@ -128,60 +143,21 @@ void add_charts(HomeworkStudy& study, const std::vector<HomeworkRow>& rows, cons
   const Measured& soft_liu13 = measured[find_row(rows, 1, "liu13")];
   const Measured& newton = measured[find_row(rows, 3, "implicit", "1e-3")];
   const Measured& liu13 = measured[find_row(rows, 3, "liu13", "1e-3")];
-  study.charts.push_back({"iterations-k18",
-                          {"Iterations of every step over the motion, k = 18 N/m, ε = 1e-3 m.",
-                           "time [s]",
-                           "iterations",
-                           html::Scale::linear,
-                           html::Scale::linear,
-                           {iterations_of(soft, "implicit"), iterations_of(soft_liu13, "liu13")},
-                           {}}});
-  study.charts.push_back(
-      {"height-k18",
-       {"Height of the centre of mass, k = 18 N/m: the swings, by both methods.",
-        "time [s]",
-        "height [m]",
-        html::Scale::linear,
-        html::Scale::linear,
-        {height_of(soft, "implicit", 1),
-         height_of(extras.at(static_cast<std::size_t>(Extra::undamped)), "semi-implicit, undamped", 20)},
-        {}}});
-  study.charts.push_back({"iterations-k180",
-                          {"Iterations of every step over the motion, k = 180 N/m, ε = 1e-3 m.",
-                           "time [s]",
-                           "iterations",
-                           html::Scale::linear,
-                           html::Scale::linear,
-                           {iterations_of(newton, "implicit"), iterations_of(liu13, "liu13")},
-                           {}}});
-  const auto iterations = [](const HomeworkRow&, const Measured& m) { return m.mean_iterations(); };
-  const auto reported_iterations = [](const HomeworkRow& r, const Measured&) {
-    return r.reported.iterations.value_or(0);
-  };
-  const auto time = [](const HomeworkRow&, const Measured& m) { return m.time().median; };
-  const auto reported_time = [](const HomeworkRow& r, const Measured&) { return r.reported.microseconds; };
-  study.charts.push_back({"iterations-by-tolerance",
-                          {"Mean iterations a step by tolerance (table 3).",
-                           "tolerance ε [m]",
-                           "iterations a step",
-                           html::Scale::logarithmic,
-                           html::Scale::logarithmic,
-                           {by_tolerance(rows, measured, "implicit", "implicit", iterations),
-                            by_tolerance(rows, measured, "liu13", "liu13", iterations),
-                            by_tolerance(rows, measured, "implicit", "implicit, report", reported_iterations),
-                            by_tolerance(rows, measured, "liu13", "liu13, report", reported_iterations)},
-                           {}}});
-  study.charts.push_back({"time-by-tolerance",
-                          {"Time a step by tolerance (table 3).",
-                           "tolerance ε [m]",
-                           "µs a step",
-                           html::Scale::logarithmic,
-                           html::Scale::logarithmic,
-                           {by_tolerance(rows, measured, "implicit", "implicit", time),
-                            by_tolerance(rows, measured, "liu13", "liu13", time),
-                            by_tolerance(rows, measured, "implicit", "implicit, report", reported_time),
-                            by_tolerance(rows, measured, "liu13", "liu13, report", reported_time)},
-                           {}}});
+  const Measured& undamped = extras.at(static_cast<std::size_t>(Extra::undamped));
+  study.charts = {
+      over_time("iterations-k18", "Iterations of every step over the motion, k = 18 N/m, ε = 1e-3 m.", "iterations",
+                {iterations_of(soft, "implicit"), iterations_of(soft_liu13, "liu13")}),
+      over_time("height-k18", "Height of the centre of mass, k = 18 N/m: the swings, by both methods.", "height [m]",
+                {height_of(soft, "implicit", 1), height_of(undamped, "semi-implicit, undamped", 20)}),
+      over_time("iterations-k180", "Iterations of every step over the motion, k = 180 N/m, ε = 1e-3 m.", "iterations",
+                {iterations_of(newton, "implicit"), iterations_of(liu13, "liu13")}),
+      by_tolerance(
+          "iterations-by-tolerance", "Mean iterations a step by tolerance (table 3).", "iterations a step", rows,
+          measured, [](const Measured& m) { return m.mean_iterations(); },
+          [](const Reported& r) { return r.iterations.value_or(0); }),
+      by_tolerance(
+          "time-by-tolerance", "Time a step by tolerance (table 3).", "µs a step", rows, measured,
+          [](const Measured& m) { return m.time().median; }, [](const Reported& r) { return r.microseconds; })};
 }
 
 }  // namespace
