@@ -9,15 +9,23 @@ using test::drape;
 using test::Finished;
 using test::SceneFolder;
 
+/// The results have a page, its Markdown, and these files.
+void expect_results(const SceneFolder& folder, const std::vector<std::string>& names) {
+  for (const char* name : {"report.html", "report.md"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "results" / name)) << name;
+  }
+  for (const std::string& name : names) {
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "results" / name)) << name;
+  }
+}
+
 TEST(Study, OfTheHomeworkWritesEverything) {
   const SceneFolder folder;
   const Finished finished = drape(folder, "study homework -o results --runs 1");
   EXPECT_EQ(finished.code, 0) << finished.text;
   EXPECT_NE(finished.text.find("Table 3"), std::string::npos) << finished.text;
-  for (const char* name : {"report.html", "report.md", "table1.csv", "table2.csv", "table3.csv", "energies.csv",
-                           "energy-log.csv", "iterations-k18.csv", "iterations-k18.gp", "time-by-tolerance.gp"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder.path() / "results" / name)) << name;
-  }
+  expect_results(folder, {"table1.csv", "table2.csv", "table3.csv", "energies.csv", "energy-log.csv",
+                          "iterations-k18.csv", "iterations-k18.gp", "time-by-tolerance.gp"});
 }
 
 TEST(Study, NeedsAKindThatThereIs) {
@@ -49,11 +57,9 @@ TEST(Study, OfAccuracyWritesEverythingForEveryScene) {
             "--tolerances 1e-2,1e-4 --times 0.1,0.2 --steps 0.02,0.01");
   EXPECT_EQ(finished.code, 0) << finished.text;
   EXPECT_NE(finished.text.find("for an error"), std::string::npos) << finished.text;
-  for (const char* name : {"report.html", "report.md", "b-a-solve.csv", "b-a-solve.gp", "b-a-motion-1.gp",
-                           "b-a-motion-2.gp", "b-a-step.gp", "b-a-by-methods.gif", "b-a-step-cost.gp", "b-a-apart.gp",
-                           "b-a-tolerances.csv", "b-a-steps.csv", "b-a-cheapest.csv"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder.path() / "results" / name)) << name;
-  }
+  expect_results(folder, {"b-a-solve.csv", "b-a-solve.gp", "b-a-motion-1.gp", "b-a-motion-2.gp", "b-a-step.gp",
+                          "b-a-by-methods.gif", "b-a-step-cost.gp", "b-a-apart.gp", "b-a-tolerances.csv",
+                          "b-a-steps.csv", "b-a-cheapest.csv"});
 }
 
 TEST(Study, OfAccuracySaysWhatItCannotMeasure) {
@@ -76,10 +82,26 @@ TEST(Study, OfScalingWritesEverything) {
   const SceneFolder folder;
   const Finished finished = drape(folder, "study scaling --largest 10 --runs 1 -o results");
   EXPECT_EQ(finished.code, 0) << finished.text;
-  for (const char* name : {"report.html", "report.md", "scaling-times.csv", "scaling-growth.csv", "scaling-shares.csv",
-                           "scaling-step.gp", "scaling-iteration.gp", "scaling-memory.gp"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder.path() / "results" / name)) << name;
-  }
+  expect_results(folder, {"scaling-times.csv", "scaling-growth.csv", "scaling-shares.csv", "scaling-step.gp",
+                          "scaling-iteration.gp", "scaling-memory.gp"});
+}
+
+TEST(Study, OfStabilityWritesEverything) {
+  const SceneFolder folder;
+  const Finished finished = drape(folder, "study stability --per-decade 1 --steps 5 -o results");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  EXPECT_NE(finished.text.find("Where a method becomes unstable"), std::string::npos) << finished.text;
+  expect_results(folder, {"border.csv", "semi-implicit-springs.csv", "semi-implicit-springs.gp", "liu13-springs.gp",
+                          "implicit-explicit-push.gp", "quasi-newton-implicit-push.gp"});
+}
+
+TEST(Study, ThatIsInterruptedWritesNothing) {
+  const SceneFolder folder;
+  const Finished finished =
+      drape(folder, "study stability --per-decade 20 -o results", "timeout --preserve-status --signal=INT 3");
+  EXPECT_EQ(finished.code, 130) << finished.text;
+  EXPECT_NE(finished.text.find("interrupted; there is no report"), std::string::npos) << finished.text;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "results"));
 }
 
 }  // namespace
