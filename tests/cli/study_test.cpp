@@ -97,8 +97,9 @@ TEST(Study, OfStabilityWritesEverything) {
 
 TEST(Study, ThatIsInterruptedWritesNothing) {
   const SceneFolder folder;
-  const Finished finished =
-      drape(folder, "study stability --per-decade 20 -o results", "timeout --preserve-status --signal=INT 3");
+  // In the foreground timeout sends one signal; else two, and the second ends drape at once.
+  const Finished finished = drape(folder, "study stability --per-decade 20 -o results",
+                                  "timeout --foreground --preserve-status --signal=INT 3");
   EXPECT_EQ(finished.code, 130) << finished.text;
   EXPECT_NE(finished.text.find("interrupted; there is no report"), std::string::npos) << finished.text;
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "results"));
