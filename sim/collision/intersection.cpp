@@ -40,7 +40,7 @@ std::optional<std::pair<Edge, Triangle>> find_intersection(const std::vector<Tri
   SpatialHash hash;
   hash.build(boxes);
   for (const Edge& edge : unique_edges(triangles)) {
-    const auto& [i, j] = edge;
+    const int i = edge[0], j = edge[1];  // clang 14 lets no lambda capture a structured binding
     std::optional<std::size_t> found;
     hash.for_overlapping(box_of(edge, x), [&](int k) {
       const auto number = static_cast<std::size_t>(k);
