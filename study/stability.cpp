@@ -93,6 +93,23 @@ StabilityMap empty_map(Method method, StabilityAxis axis, const StabilityDetail&
   return map;
 }
 
+/// The borders of every map that has one.
+std::vector<StabilityBorder> measure_borders(std::size_t threads, const std::stop_token& stop) {
+  std::vector<StabilityBorder> borders;
+  for (const double stiffness : {1e-2, 1.0, 1e2, 1e4, 1e6, 1e8}) {
+    borders.push_back({Method::semi_implicit, StabilityAxis::springs, stiffness});
+  }
+  for (const Method method : all_methods) {
+    for (const double stiffness : {1e2, 1e4, 1e6, 1e8}) {
+      borders.push_back({method, StabilityAxis::explicit_push, stiffness});
+    }
+  }
+  for_each_in_parallel(threads, borders.size(), stop, [&](std::size_t, std::size_t i) {
+    borders[i] = stability_border(borders[i].method, borders[i].axis, borders[i].stiffness);
+  });
+  return borders;
+}
+
 }  // namespace
 
 const char* outcome_name(StabilityOutcome outcome) {
@@ -132,30 +149,31 @@ StabilityCell stability_cell(Method method, StabilityAxis axis, double step, dou
   StabilityCell cell{.step = step, .stiffness = stiffness};
   if (method != Method::semi_implicit) cell.outcome = StabilityOutcome::converged;
   // What gravity and the push hold together.
-  const auto potential = [&](const Simulation& simulation) {
-    const double push =
-        axis == StabilityAxis::springs ? 0 : push_energy(settings.cloth, simulation.state().x, stiffness);
-    return simulation.energies().gravity + push;
+  const auto potential = [&](const Energies& energies, const Vertices& x) {
+    return energies.gravity + (axis == StabilityAxis::springs ? 0 : push_energy(settings.cloth, x, stiffness));
+  };
+  const auto blown_up = [&] {
+    cell.outcome = StabilityOutcome::blown_up;
+    cell.energy_error = std::numeric_limits<double>::infinity();
+    return cell;
   };
   try {
     Simulation simulation(settings);
     const Energies begin = simulation.energies();
-    const double had = begin.kinetic + begin.elastic, level = potential(simulation);
+    const double had = begin.kinetic + begin.elastic, level = potential(begin, simulation.state().x);
     double moved = had, differed = 0, given = 0;
     for (int step_number = 0; step_number < steps; ++step_number) {
       if (!simulation.step().converged) ++cell.not_converged;
       const Energies now = simulation.energies();
-      const double has = now.kinetic + now.elastic, got = level - potential(simulation);
+      const double has = now.kinetic + now.elastic, got = level - potential(now, simulation.state().x);
       given = std::max(given, got);
-      if (!(has <= BlowUpWatch::limit_of_unstable_steps * (had + given))) throw DivergedError("more energy than it had and was given");
+      if (!(has <= BlowUpWatch::limit_of_unstable_steps * (had + given))) return blown_up();
       differed = std::max(differed, std::abs(has - had - got));
       moved = std::max({moved, now.kinetic, std::abs(got), now.elastic});
     }
     cell.energy_error = moved > 0 ? differed / moved : 0;
   } catch (const DivergedError&) {
-    cell.outcome = StabilityOutcome::blown_up;
-    cell.energy_error = std::numeric_limits<double>::infinity();
-    return cell;
+    return blown_up();
   }
   if (cell.not_converged > 0) cell.outcome = StabilityOutcome::not_converged;
   return cell;
@@ -179,27 +197,6 @@ StabilityBorder stability_border(Method method, StabilityAxis axis, double stiff
                     });
   return border;
 }
-
-namespace {
-
-/// Of every map that has one.
-std::vector<StabilityBorder> measure_borders(std::size_t threads, const std::stop_token& stop) {
-  std::vector<StabilityBorder> borders;
-  for (const double stiffness : {1e-2, 1.0, 1e2, 1e4, 1e6, 1e8}) {
-    borders.push_back({Method::semi_implicit, StabilityAxis::springs, stiffness});
-  }
-  for (const Method method : all_methods) {
-    for (const double stiffness : {1e2, 1e4, 1e6, 1e8}) {
-      borders.push_back({method, StabilityAxis::explicit_push, stiffness});
-    }
-  }
-  for_each_in_parallel(threads, borders.size(), stop, [&](std::size_t, std::size_t i) {
-    borders[i] = stability_border(borders[i].method, borders[i].axis, borders[i].stiffness);
-  });
-  return borders;
-}
-
-}  // namespace
 
 std::optional<StabilityStudy> study_stability(const StabilityDetail& detail, const std::stop_token& stop,
                                               Progress& progress) {

@@ -10,10 +10,10 @@ namespace drape {
 ///
 /// Where an iteration stops ∇g is not quite zero, and with Δx = x' − x and v' = Δx/h the energy of a step changes by
 ///   ΔK + ΔE = W − ½‖v' − v‖²_M − B + ∇g·Δx,   B = E(x) − E(x') − ∇E(x')·(x − x'),
-/// W the work of the forces (∇g written out, times Δx). Only the last term comes from stopping early. While it makes the
-/// energy grow by more than three hundredths, small changes do not end a step; and at the cap it goes back towards x until
-/// nothing is gained. So a method that is far from its minimum, as liu13 is with very stiff springs, loses energy and
-/// gains none. A step that stops at a gradient keeps that promise and no other.
+/// W the work of the forces (∇g written out, times Δx). Only the last term comes from stopping early. While it makes
+/// the energy grow by more than three hundredths, small changes do not end a step; and at the cap it goes back towards
+/// x until nothing is gained. So a method that is far from its minimum, as liu13 is with very stiff springs, loses
+/// energy and gains none. A step that stops at a gradient keeps that promise and no other.
 ///
 /// A cloth that nothing holds has Σ∇g = Σ m(x' − y)/h², since what it solves for pulls with opposite forces. Every
 /// exact solve makes that zero; what the rounding of a factor leaves of it is taken out by a translation, which keeps
