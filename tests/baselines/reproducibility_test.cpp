@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <thread>

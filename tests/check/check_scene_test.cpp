@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "check/json_report.hpp"
