@@ -13,7 +13,7 @@
 namespace drape {
 namespace {
 
-std::string read_bytes(const std::filesystem::path& file) {
+std::string png_bytes(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -31,7 +31,7 @@ FrameResult compare_frame(const std::filesystem::path& golden_file, const Image&
   const PictureComparison comparison = compare_pictures(expected, actual, limits);
   FrameResult result;
   result.difference = comparison.difference;
-  result.expected = read_bytes(golden_file);
+  result.expected = png_bytes(golden_file);
   if (result.difference.verdict == PictureVerdict::exact) return result;
   result.actual = encode_png(actual);
   result.amplified = encode_png(amplified_difference(expected, actual, amplification(result.difference)));

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "check/machine.hpp"
 #include "check/motion_file.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -77,12 +78,6 @@ View view_from(const Json& json) {
   read_into(json.at("up"), view.up);
   json.at("field_of_view").get_to(view.field_of_view);
   return view;
-}
-
-Json to_json(const Machine& machine) {
-  return {{"drape", machine.drape},         {"compiler", machine.compiler},   {"system", machine.system},
-          {"processor", machine.processor}, {"cpu_flags", machine.cpu_flags}, {"kernels", machine.kernels},
-          {"renderer", machine.renderer}};
 }
 
 Machine machine_from(const Json& json) {

@@ -2,17 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "check/machine.hpp"
 #include "core/atomic_file.hpp"
 
 namespace drape {
 using Json = nlohmann::ordered_json;
 namespace {
-
-Json to_json(const Machine& machine) {
-  return {{"drape", machine.drape},         {"compiler", machine.compiler},   {"system", machine.system},
-          {"processor", machine.processor}, {"cpu_flags", machine.cpu_flags}, {"kernels", machine.kernels},
-          {"renderer", machine.renderer}};
-}
 
 Json to_json(const std::optional<Deviation>& deviation) {
   if (!deviation) return nullptr;

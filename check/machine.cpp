@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/build_info.hpp"
@@ -23,6 +24,12 @@ Machine this_machine(std::string renderer) {
           .cpu_flags = fmt::format("{}", fmt::join(facts.flags, " ")),
           .kernels = std::string(kernels().name),
           .renderer = std::move(renderer)};
+}
+
+nlohmann::ordered_json to_json(const Machine& machine) {
+  return {{"drape", machine.drape},         {"compiler", machine.compiler},   {"system", machine.system},
+          {"processor", machine.processor}, {"cpu_flags", machine.cpu_flags}, {"kernels", machine.kernels},
+          {"renderer", machine.renderer}};
 }
 
 std::string utc_now() {

@@ -14,7 +14,6 @@ namespace drape {
 namespace {
 
 constexpr std::int64_t states = 12;              // along the reference, from which steps are solved
-constexpr std::int64_t finer = 4;                // how many times the smallest step the reference's is
 constexpr double shortest_part = 1e-9;           // of a step, that rounding may make
 constexpr std::int64_t most_small_steps = 2000;  // of the smallest default step
 constexpr int most_halvings = 6;
@@ -102,8 +101,8 @@ class SceneStudy {
     }
     if (cases_.steps.empty()) return true;
     const double smallest = result_.options.steps.back();
-    small_steps_ = extrapolate_step(scene_.simulation, times.front(), finer * steps_until(times.front(), smallest),
-                                    stop, progress);
+    small_steps_ = extrapolate_step(scene_.simulation, times.front(),
+                                    reference_refinement * steps_until(times.front(), smallest), stop, progress);
     if (!small_steps_) return false;
     result_.step_reference = small_steps_->step;
     result_.step_gained = small_steps_->gained;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -11,6 +12,9 @@
 #include "study/solve_error.hpp"
 
 namespace drape {
+
+/// How many times finer than the smallest step asked for a reference in time is.
+inline constexpr std::int64_t reference_refinement = 4;
 
 /// What is asked. What is left empty has the defaults that complete() fills in.
 struct AccuracyOptions {

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t most_panels = 4;
 constexpr double usual_tolerance = 1e-3;
-constexpr std::int64_t finer = 4;  // than the smallest step shown is the reference's
 
 /// Spread over a list, its ends included.
 template <class T>
@@ -24,18 +23,18 @@ std::vector<T> spread(const std::vector<T>& all) {
   return some;
 }
 
-std::string cost(double microseconds) {
+std::string cost_label(double microseconds) {
   return fmt::format("{:.{}f} µs a step", microseconds, microseconds < 100 ? 1 : 0);
 }
 
 AnimationPanel panel(const TolerancePoint& p) {
-  return {p.measured.what,
-          fmt::format("{}, tolerance {:g}: {}", method_name(p.method), p.tolerance, cost(p.measured.time().median))};
+  return {p.measured.what, fmt::format("{}, tolerance {:g}: {}", method_name(p.method), p.tolerance,
+                                       cost_label(p.measured.time().median))};
 }
 
 AnimationPanel panel(const StepPoint& p) {
   return {p.measured.what,
-          fmt::format("{}, h = {:g} s: {}", method_name(p.method), p.step, cost(p.measured.time().median))};
+          fmt::format("{}, h = {:g} s: {}", method_name(p.method), p.step, cost_label(p.measured.time().median))};
 }
 
 /// The method whose tolerance or step is varied: that whose errors are seen best.
@@ -82,7 +81,8 @@ std::optional<StudyPicture> animate_accuracy(const SceneAccuracy& accuracy, Anim
   if (panels.size() < 2) return std::nullopt;
   const Scene scene = load_scene(accuracy.scene, accuracy.options.overrides);
   SimulationSettings reference = scene.simulation;
-  if (by == AnimatedBy::steps) reference.step = accuracy.options.steps.back() / finer;
+  if (by == AnimatedBy::steps)
+    reference.step = accuracy.options.steps.back() / static_cast<double>(reference_refinement);
   const std::string name = animated_by_names[static_cast<std::size_t>(by)];
   StudyPicture picture;
   picture.file = fmt::format("{}-by-{}.gif", accuracy.name, name);

@@ -14,9 +14,6 @@ constexpr std::array<double, 4> limits{1e-3, 1e-4, 1e-5, smallest_error};
 
 std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
 
-/// A time with three digits or all before the point.
-std::string cost(double value) { return fmt::format("{:.{}f}", value, value < 10 ? 2 : value < 100 ? 1 : 0); }
-
 ResultTable tolerance_table(const SceneAccuracy& scene) {
   ResultTable table{
       scene.name + "-tolerances",
@@ -32,10 +29,11 @@ ResultTable tolerance_table(const SceneAccuracy& scene) {
       "motion. Times and iterations are means up to the last of the times compared.");
   for (const TolerancePoint& p : scene.points) {
     const Quartiles time = p.measured.time();
-    table.rows.push_back(
-        {method_name(p.method), plain_number(p.tolerance), fmt::format("{:.2f}", p.measured.mean_iterations()),
-         fmt::format("{}", p.measured.capped), cost(time.median), cost(time.lower), cost(time.upper),
-         cost(quartiles(p.measured.setup).median), figure(p.solve.max), figure(p.solve.rms), figure(p.solve.gradient)});
+    table.rows.push_back({method_name(p.method), plain_number(p.tolerance),
+                          fmt::format("{:.2f}", p.measured.mean_iterations()), fmt::format("{}", p.measured.capped),
+                          three_digits(time.median), three_digits(time.lower), three_digits(time.upper),
+                          three_digits(quartiles(p.measured.setup).median), figure(p.solve.max), figure(p.solve.rms),
+                          figure(p.solve.gradient)});
     for (const Distance& d : p.motion) table.rows.back().push_back(figure(d.max));
     table.rows.back().push_back(fmt::format("{:.2f}", p.measured.flipped_pairs));
   }
@@ -57,9 +55,9 @@ ResultTable step_table(const SceneAccuracy& scene) {
     const bool iterates = p.method != Method::semi_implicit;
     table.rows.push_back({method_name(p.method), plain_number(p.step),
                           iterates ? fmt::format("{:.2f}", p.measured.mean_iterations()) : "–",
-                          cost(p.measured.time().median), cost(motion.median), cost(motion.lower), cost(motion.upper),
-                          figure(p.error.max), figure(p.error.rms),
-                          std::isfinite(p.order) ? fmt::format("{:.2f}", p.order) : "–"});
+                          three_digits(p.measured.time().median), three_digits(motion.median),
+                          three_digits(motion.lower), three_digits(motion.upper), figure(p.error.max),
+                          figure(p.error.rms), std::isfinite(p.order) ? fmt::format("{:.2f}", p.order) : "–"});
   }
   return table;
 }
@@ -123,9 +121,9 @@ ResultTable cheapest_table(const SceneAccuracy& scene) {
         row.emplace_back(unknown.empty() ? "none that was run" : unknown);
         row.resize(table.columns.size(), "–");
       } else {
-        row.insert(row.end(), {c.first->method, c.first->at, cost(c.first->cost.median), kinds[k].unit});
+        row.insert(row.end(), {c.first->method, c.first->at, three_digits(c.first->cost.median), kinds[k].unit});
         if (c.next != nullptr) {
-          row.insert(row.end(), {c.next->method, c.next->at, cost(c.next->cost.median)});
+          row.insert(row.end(), {c.next->method, c.next->at, three_digits(c.next->cost.median)});
         }
         row.resize(table.columns.size(), "–");
       }
@@ -144,7 +142,7 @@ std::string describe_cheapest(const SceneAccuracy& scene) {
     text += fmt::format("{} below {} is {}", limit == limits.front() ? "" : "; the cheapest", short_length(limit),
                         c.first == nullptr ? "not among what was run"
                                            : fmt::format("{} at {} with {} µs per step", c.first->method, c.first->at,
-                                                         cost(c.first->cost.median)));
+                                                         three_digits(c.first->cost.median)));
   }
   return text + ".";
 }
@@ -202,8 +200,8 @@ std::string headline(const std::vector<SceneAccuracy>& scenes) {
     most = std::max(most, c.first->cost.median);
   }
   if (!(most > 0)) return "What accuracy costs";
-  if (least == most) return fmt::format("A step solved to 1 µm costs {} µs", cost(most));
-  return fmt::format("A step solved to 1 µm costs {} to {} µs", cost(least), cost(most));
+  if (least == most) return fmt::format("A step solved to 1 µm costs {} µs", three_digits(most));
+  return fmt::format("A step solved to 1 µm costs {} to {} µs", three_digits(least), three_digits(most));
 }
 
 }  // namespace

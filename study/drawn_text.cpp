@@ -8,8 +8,8 @@ namespace drape {
 namespace {
 
 constexpr int font = cv::FONT_HERSHEY_SIMPLEX;
-constexpr double capital = 21;  // height of a capital letter at scale 1 [pixels]
-constexpr int finer = 4;        // drawn larger and averaged: strokes are smooth at any size
+constexpr double capital = 21;    // height of a capital letter at scale 1 [pixels]
+constexpr int supersampling = 4;  // drawn larger and averaged: strokes are smooth at any size
 
 /// The letters that the font has: µ is a u to which a stem is added.
 std::string plain(const std::string& text, std::vector<std::size_t>& stems) {
@@ -35,7 +35,8 @@ struct Stroke {
   double scale;
   int thickness;
   explicit Stroke(double height)
-      : scale(finer * height / capital), thickness(std::max(1, static_cast<int>(std::lround(finer * height / 8.5)))) {}
+      : scale(supersampling * height / capital),
+        thickness(std::max(1, static_cast<int>(std::lround(supersampling * height / 8.5)))) {}
 };
 
 }  // namespace
@@ -43,7 +44,7 @@ struct Stroke {
 int text_width(const std::string& text, double height) {
   std::vector<std::size_t> stems;
   const Stroke stroke(height);
-  return width_of(plain(text, stems), stroke.scale, stroke.thickness) / finer;
+  return width_of(plain(text, stems), stroke.scale, stroke.thickness) / supersampling;
 }
 
 void draw_text(Image& image, int left, int base, const std::string& text, double height, const Rgb& color) {
@@ -52,8 +53,8 @@ void draw_text(Image& image, int left, int base, const std::string& text, double
   const Stroke stroke(height);
   const int below = static_cast<int>(std::ceil(0.5 * height)), above = static_cast<int>(std::ceil(1.3 * height));
   const int width = text_width(text, height) + below;
-  cv::Mat large = cv::Mat::zeros(finer * (above + below), finer * width, CV_8UC1);
-  const cv::Point origin(0, finer * above);
+  cv::Mat large = cv::Mat::zeros(supersampling * (above + below), supersampling * width, CV_8UC1);
+  const cv::Point origin(0, supersampling * above);
   cv::putText(large, letters, origin, font, stroke.scale, 255, stroke.thickness, cv::LINE_AA);
   for (const std::size_t stem : stems) {
     const int x = width_of(letters.substr(0, stem), stroke.scale, 1) + static_cast<int>(4 * stroke.scale);

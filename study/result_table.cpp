@@ -42,6 +42,8 @@ std::string escaped(const std::string& cell) {
 
 }  // namespace
 
+std::string three_digits(double value) { return fmt::format("{:.{}f}", value, value < 10 ? 2 : value < 100 ? 1 : 0); }
+
 std::string to_text(const ResultTable& table) {
   std::vector<std::size_t> widths;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {

@@ -16,6 +16,9 @@ struct ResultTable {
   std::vector<std::string> notes;  ///< sentences below it
 };
 
+/// A cell with three digits, or all before the point: "2.35", "23.5", "2347".
+std::string three_digits(double value);
+
 /// For a terminal: columns in line, those that are numbers to the right.
 std::string to_text(const ResultTable& table);
 std::string to_markdown(const ResultTable& table);

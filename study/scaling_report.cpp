@@ -10,7 +10,6 @@
 namespace drape {
 namespace {
 
-std::string cost(double value) { return fmt::format("{:.{}f}", value, value < 10 ? 2 : value < 100 ? 1 : 0); }
 std::string percent(double share) { return share > 0 ? fmt::format("{:.1f}", 100 * share) : "–"; }
 std::string exponent(double value) { return std::isfinite(value) ? fmt::format("{:.2f}", value) : "–"; }
 
@@ -62,8 +61,9 @@ ResultTable time_table(const ScalingStudy& study) {
   for (const ScalingPoint& p : study.points) {
     table.rows.push_back({p.method, fmt::format("{0}×{0}", p.cells), fmt::format("{}", p.vertices),
                           fmt::format("{:g}", p.step), p.iterations > 0 ? fmt::format("{:.1f}", p.iterations) : "–",
-                          cost(p.time.median), cost(p.time.lower), cost(p.time.upper), cost(per_iteration(p)),
-                          cost(p.setup.median), p.factor > 0 ? cost(p.factor) : "–", cost(1e-6 * p.memory)});
+                          three_digits(p.time.median), three_digits(p.time.lower), three_digits(p.time.upper),
+                          three_digits(per_iteration(p)), three_digits(p.setup.median),
+                          p.factor > 0 ? three_digits(p.factor) : "–", three_digits(1e-6 * p.memory)});
   }
   return table;
 }
@@ -112,7 +112,7 @@ NamedChart chart_of(const ScalingStudy& study, const std::string& name, const st
       if (p.method != method) continue;
       series.points.push_back({p.vertices,
                                value(p),
-                               fmt::format("{0}×{0}: {1} {2}", p.cells, cost(value(p)), y_title),
+                               fmt::format("{0}×{0}: {1} {2}", p.cells, three_digits(value(p)), y_title),
                                p.what.command(),
                                {}});
     }
@@ -155,9 +155,9 @@ StudyReport scaling_report(const ScalingStudy& study) {
         {html::Tone::neutral, "",
          fmt::format("{}: time per step grows like n to the power of {}.", g.method, exponent(g.step)),
          fmt::format("On {0}×{0} cells a step takes {1} µs{2}, most of it {3}, and the simulation {4} MB.", last->cells,
-                     cost(last->time.median),
+                     three_digits(last->time.median),
                      last->iterations > 0 ? fmt::format(" in {:.1f} iterations", last->iterations) : "",
-                     largest_share(last->shares), cost(1e-6 * last->memory))});
+                     largest_share(last->shares), three_digits(1e-6 * last->memory))});
   }
   report.sections = {
       {"Growth",

@@ -22,9 +22,9 @@ struct GroundSurface {
   }
 };
 
-struct Pose final : ColliderMotion {
+struct RestingGround final : ColliderMotion {
   GroundShape shape;
-  explicit Pose(const GroundShape& s) : shape(s) {}
+  explicit RestingGround(const GroundShape& s) : shape(s) {}
   [[nodiscard]] Collider at(double) const override { return shape; }
 };
 
@@ -53,7 +53,7 @@ class Ground final : public Effect {
 
   void install(System& system) const override {
     const Eigen::Vector3d normal = normal_.stableNormalized();
-    system.colliders.push_back(std::make_unique<Pose>(GroundShape{normal, height_, thickness_}));
+    system.colliders.push_back(std::make_unique<RestingGround>(GroundShape{normal, height_, thickness_}));
     install_contact(GroundSurface{normal, height_ + thickness_}, contact_, system);
   }
 

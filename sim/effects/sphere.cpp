@@ -39,9 +39,9 @@ struct SphereSurface {
   }
 };
 
-struct Pose final : ColliderMotion {
+struct TrackedSphere final : ColliderMotion {
   std::shared_ptr<const SphereTrack> track;
-  explicit Pose(std::shared_ptr<const SphereTrack> t) : track(std::move(t)) {}
+  explicit TrackedSphere(std::shared_ptr<const SphereTrack> t) : track(std::move(t)) {}
   [[nodiscard]] Collider at(double time) const override { return track->at(time); }
 };
 
@@ -86,7 +86,7 @@ class Sphere final : public Effect {
 
   void install(System& system) const override {
     const std::shared_ptr<const SphereTrack> track = make_track();
-    system.colliders.push_back(std::make_unique<Pose>(track));
+    system.colliders.push_back(std::make_unique<TrackedSphere>(track));
     install_contact(SphereSurface{track, scale_}, contact_, system);
   }
 

@@ -6,7 +6,7 @@
 namespace drape {
 namespace {
 
-constexpr int default_max_iterations = 20;  // the homework's
+constexpr int newton_iterations = 20;  // the homework's
 
 std::unique_ptr<NewtonSolver> make_solver(LinearSolver choice, const System& system, const StepObjective& objective) {
   if (choice == LinearSolver::cholesky) return std::make_unique<NewtonSystem>(system, objective);
@@ -16,7 +16,7 @@ std::unique_ptr<NewtonSolver> make_solver(LinearSolver choice, const System& sys
 }  // namespace
 
 ImplicitNewton::ImplicitNewton(const System& system, const IntegratorSettings& settings)
-    : ImplicitEuler(system, settings, default_max_iterations),
+    : ImplicitEuler(system, settings, newton_iterations),
       solver_(make_solver(settings.linear_solver, system, objective())),
       direction_(system.cloth.vertex_count(), 3) {}
 

@@ -3,12 +3,12 @@
 namespace drape {
 namespace {
 
-constexpr int default_max_iterations = 500;
+constexpr int quasi_newton_iterations = 500;
 
 }  // namespace
 
 QuasiNewton::QuasiNewton(const System& system, const IntegratorSettings& settings)
-    : ImplicitEuler(system, settings, default_max_iterations),
+    : ImplicitEuler(system, settings, quasi_newton_iterations),
       factor_(system, Precision::automatic),
       history_(system.cloth.vertex_count()),
       preconditioned_(Vertices::Zero(system.cloth.vertex_count(), 3)),

@@ -4,7 +4,7 @@
 
 #include "tests/support/synthetic_film.hpp"
 
-namespace drape {
+namespace drape::picture {
 namespace {
 
 constexpr int width = 100, height = 80;  // 0.5 % are 40 pixels
@@ -82,4 +82,4 @@ TEST(PictureDifference, IsAmplifiedToWhite) {
 }
 
 }  // namespace
-}  // namespace drape
+}  // namespace drape::picture

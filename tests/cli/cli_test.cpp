@@ -10,7 +10,7 @@
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/gif_file.hpp"
 
-namespace drape {
+namespace drape::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,4 +170,4 @@ TEST(CommandLine, CtrlCCompletesWhatWasDrawn) {
 }
 
 }  // namespace
-}  // namespace drape
+}  // namespace drape::cli

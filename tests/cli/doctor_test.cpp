@@ -4,7 +4,7 @@
 
 #include "tests/cli/run_drape.hpp"
 
-namespace drape {
+namespace drape::doctor {
 namespace {
 
 using test::drape;
@@ -104,4 +104,4 @@ TEST(Backend, OfAnUnknownNameIsAUsageError) {
 }
 
 }  // namespace
-}  // namespace drape
+}  // namespace drape::doctor

@@ -15,7 +15,7 @@
 #include "tests/support/gif_file.hpp"
 #include "tests/support/random.hpp"
 
-namespace drape {
+namespace drape::faults {
 namespace {
 
 namespace fs = std::filesystem;
@@ -146,4 +146,4 @@ TEST(Faults, ThirtyTwoAtOnceWriteTheSameFilm) {
 }
 
 }  // namespace
-}  // namespace drape
+}  // namespace drape::faults

@@ -11,7 +11,7 @@
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"
 
-namespace drape::test {
+namespace drape::test::one_step {
 namespace {
 
 struct Case {
@@ -75,4 +75,4 @@ TEST_P(OneStep, EndsAtTheSamePlaceWithEveryMethod) {
 INSTANTIATE_TEST_SUITE_P(Of, OneStep, testing::ValuesIn(cases), [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
-}  // namespace drape::test
+}  // namespace drape::test::one_step

@@ -14,8 +14,6 @@
 namespace drape::test {
 namespace {
 
-constexpr Real unit = std::numeric_limits<double>::epsilon();
-
 /// What a run did.
 struct Record {
   Real growth = 0;            // Σ (ΔK + ΔE − W) [J]

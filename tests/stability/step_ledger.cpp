@@ -1,12 +1,9 @@
 #include "tests/stability/step_ledger.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace drape::test {
 namespace {
-
-constexpr Real unit = std::numeric_limits<double>::epsilon();
 
 Real squared(const RealVertices& v, const Eigen::Matrix<Real, Eigen::Dynamic, 1>& weights) {
   return weights.dot(v.rowwise().squaredNorm());

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "sim/simulation.hpp"
 
 namespace drape::test {
 
 using Real = long double;
+/// From 1 to the next double.
+inline constexpr Real unit = std::numeric_limits<double>::epsilon();
 using RealVertices = Eigen::Matrix<Real, Eigen::Dynamic, 3>;
 
 /// What a step of implicit Euler did, computed from the states before and after it in extended precision and as the

@@ -8,7 +8,7 @@
 #include "tests/support/scene_folder.hpp"
 #include "tests/support/usage_error.hpp"
 
-namespace drape {
+namespace drape::scene_errors {
 namespace {
 
 using test::least_scene;
@@ -299,4 +299,4 @@ TEST(SceneErrors, AFolderAndAMissingFileAreNoScenes) {
 }
 
 }  // namespace
-}  // namespace drape
+}  // namespace drape::scene_errors

@@ -10,7 +10,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
 
-namespace drape::test {
+namespace drape::test::sim_spring_network {
 namespace {
 
 struct Case {
@@ -199,4 +199,4 @@ TEST(SpringNetwork, OfRestLengthZeroIsLinear) {
 }
 
 }  // namespace
-}  // namespace drape::test
+}  // namespace drape::test::sim_spring_network

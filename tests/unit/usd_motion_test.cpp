@@ -11,7 +11,7 @@
 
 #include "tests/support/usage_error.hpp"
 
-namespace drape {
+namespace drape::usd_motion {
 namespace {
 
 using Eigen::Vector3d;
@@ -219,4 +219,4 @@ TEST_F(AnimatedSphere, IsASphereOfRadiusOne) {
 }
 
 }  // namespace
-}  // namespace drape
+}  // namespace drape::usd_motion
