@@ -4,8 +4,8 @@
 
 #include "check/flip.hpp"
 #include "check/report.hpp"
-#include "check/settings.hpp"
 #include "render/image.hpp"
+#include "scene/check_settings.hpp"
 
 namespace drape {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "check/settings.hpp"
+#include "scene/check_settings.hpp"
 
 // What a check found, as plain data: the terminal's lines, the JSON, the JUnit XML and the HTML page are all made from
 // it.

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "check/settings.hpp"
 #include "render/settings.hpp"
+#include "scene/check_settings.hpp"
 #include "sim/settings.hpp"
 
 namespace drape {

@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/files.hpp"
+
+// ARCHITECTURE.md's table of folders is a promise: which may include which. It is read, and held against every include.
+
+namespace drape::layers {
+namespace {
+
+namespace fs = std::filesystem;
+using Layers = std::map<std::string, std::set<std::string>>;  // a folder, and those that it may include
+
+const fs::path root = DRAPE_SOURCE_DIR;
+
+/// The names in a cell of the table that are folders: `sim/`.
+std::set<std::string> folders_in(const std::string& cell) {
+  static const std::regex folder("`([a-z/]+)/`");
+  std::set<std::string> names;
+  for (std::sregex_iterator match(cell.begin(), cell.end(), folder), end; match != end; ++match) {
+    names.insert((*match)[1]);
+  }
+  return names;
+}
+
+Layers table() {
+  static const std::regex row(R"(^\|([^|]*)\|[^|]*\|([^|]*)\|$)");
+  Layers layers;
+  std::istringstream text(test::content(root / "ARCHITECTURE.md"));
+  for (std::string line; std::getline(text, line);) {
+    std::smatch cells;
+    if (!std::regex_match(line, cells, row)) continue;
+    if (cells[2].str().find("everything") != std::string::npos) continue;
+    for (const std::string& folder : folders_in(cells[1])) layers[folder] = folders_in(cells[2]);
+  }
+  return layers;
+}
+
+/// The folder of the table that a file is in: the longest that its path begins with; none: "".
+std::string layer_of(const std::string& file, const Layers& layers) {
+  std::string longest;
+  for (const auto& [folder, uses] : layers) {
+    if (file.starts_with(folder + "/") && folder.size() > longest.size()) longest = folder;
+  }
+  return longest;
+}
+
+std::vector<fs::path> sources_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp") files.push_back(entry.path());
+  }
+  return files;
+}
+
+/// Whether a folder can be reached from another over what folders may include.
+bool reaches(const Layers& layers, const std::string& from, const std::string& to, std::set<std::string>& seen) {
+  if (!seen.insert(from).second) return false;
+  const auto uses = layers.find(from);
+  if (uses == layers.end()) return false;
+  for (const std::string& next : uses->second) {
+    if (next == to || reaches(layers, next, to, seen)) return true;
+  }
+  return false;
+}
+
+TEST(Layers, AreAcyclic) {
+  const Layers layers = table();
+  ASSERT_GE(layers.size(), 10U) << "the table of ARCHITECTURE.md was not found";
+  for (const auto& [folder, uses] : layers) {
+    std::set<std::string> seen;
+    EXPECT_FALSE(reaches(layers, folder, folder, seen)) << folder << "/ may include itself over others";
+  }
+}
+
+TEST(Layers, HoldInEveryInclude) {
+  const Layers layers = table();
+  static const std::regex include(R"re(#include "([a-z_]+/[a-z_/]+\.hpp)")re");
+  int found = 0;
+  for (const auto& [folder, uses] : layers) {
+    for (const fs::path& file : sources_in(root / folder)) {
+      const std::string name = fs::relative(file, root).string();
+      if (layer_of(name, layers) != folder) continue;  // of a folder within this one, which has a row of its own
+      const std::string text = test::content(file);
+      for (std::sregex_iterator match(text.begin(), text.end(), include), end; match != end; ++match, ++found) {
+        const std::string used = layer_of((*match)[1], layers);
+        EXPECT_TRUE(used == folder || uses.contains(used)) << name << " includes " << (*match)[1];
+      }
+    }
+  }
+  EXPECT_GT(found, 500);
+}
+
+}  // namespace
+}  // namespace drape::layers
