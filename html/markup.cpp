@@ -8,18 +8,19 @@ extern "C" {
 #include <array>
 #include <cstdint>
 
+#include "core/text.hpp"
+
 namespace drape::html {
 namespace {
 
 constexpr std::array<std::string_view, 6> void_elements{"br", "hr", "img", "input", "link", "meta"};
-constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
 
 }  // namespace
 
 std::string escape(std::string_view text) {
   std::string escaped;
   escaped.reserve(text.size());
-  for (const char c : text) {
+  for (const char c : printable(text)) {
     switch (c) {
       case '&':
         escaped += "&amp;";
@@ -37,11 +38,7 @@ std::string escape(std::string_view text) {
         escaped += "&#39;";
         break;
       default:
-        if ((static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7f) {
-          escaped += replacement;
-        } else {
-          escaped += c;
-        }
+        escaped += c;
     }
   }
   return escaped;
