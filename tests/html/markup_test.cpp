@@ -14,6 +14,7 @@ TEST(Markup, EscapesTextAndAttributes) {
   EXPECT_EQ(Markup(std::string("a\0b", 3)).html(),
             "a\xEF\xBF\xBD"
             "b");
+  EXPECT_EQ(Markup("\xFF").html(), "\xEF\xBF\xBD");  // the name of a file need not be UTF-8
 }
 
 TEST(Markup, IsEscapedOnce) { EXPECT_EQ(element("p", element("b", "<")).html(), "<p><b>&lt;</b></p>"); }
