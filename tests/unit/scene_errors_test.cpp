@@ -273,6 +273,20 @@ TEST(SceneErrors, TheOrderDoesNotDependOnTheNumberOfDigitsOfALine) {
             "scene.toml:12:13: stiffness must be above 0, found 0");
 }
 
+TEST(SceneErrors, ComparedFramesBeyondTheFilmAreNamed) {
+  const SceneFolder folder;
+  const std::string scene = least_scene + "duration = 0.4\n[video]\nfps = 25\n[check]\nframes = [0, 10";
+  EXPECT_EQ(folder.problems(scene + "]\n"), "(no error)");
+  EXPECT_EQ(folder.problems(scene + ", 99]\n"), "scene.toml:10:18: frames: the film ends with frame 10, found 99");
+  EXPECT_EQ(folder.problems(scene + "]\n", {"check.frames=[11]"}),
+            "--set check.frames=[11]: frames: the film ends with frame 10, found 11");
+  // A film that is made shorter for once has nothing to do with what is compared.
+  EXPECT_EQ(folder.problems(scene + "]\n", {"time.duration=0.1"}), "(no error)");
+  EXPECT_EQ(folder.problems(scene + "]\n", {"video.fps=5"}), "(no error)");
+  EXPECT_EQ(folder.problems(scene + "]\n", {"time.duration=0.1", "check.frames=[0, 9]"}),
+            "--set check.frames=[0, 9]: frames: the film ends with frame 2, found 9");
+}
+
 TEST(SceneErrors, ASyntaxErrorHasItsPlace) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems("[cloth]\nmesh = { grid = [2, 2 }\n").substr(0, 17), "scene.toml:2:23: ");
