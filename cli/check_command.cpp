@@ -90,11 +90,11 @@ std::string describe(const SceneResult& scene) {
 const std::array<const char*, 3> report_files{"report.html", "report.json", "junit.xml"};
 
 void write_reports(const CheckReport& report, const std::filesystem::path& folder) {
-  write_frame_files(report, folder);
   const auto& [html, json, junit] = report_files;
   write_html_report(report, folder / html);
   write_file_atomically(folder / json, json_report(report));
   write_file_atomically(folder / junit, junit_report(report));
+  write_frame_files(report, folder);
 }
 
 /// Prints the verdicts, and remembers if one could not be printed.
@@ -131,15 +131,9 @@ void tell(const SceneResult& result, const CommonOptions& common, Verdicts& verd
 
 /// Judges every scene, whatever is wrong with another one.
 /// @returns whether it was interrupted
-bool check_all(const std::vector<Scene>& scenes, const CheckArguments& arguments, const CommonOptions& common,
-               Verdicts& verdicts, CheckReport& report) {
+bool check_all(const std::vector<Scene>& scenes, const CheckArguments& arguments, const CheckOptions& options,
+               const CommonOptions& common, Verdicts& verdicts, CheckReport& report) {
   const std::vector<std::string> names = unique_names(scenes, {report_files.begin(), report_files.end()});
-  const CheckOptions options{.frames = parse_frame_list(arguments.frames),
-                             .backend = arguments.backend,
-                             .end_to_end = arguments.end_to_end,
-                             .update = parse_update(arguments.update),
-                             .threads = arguments.threads,
-                             .artefacts = arguments.report};
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const Scene& scene = scenes[i];
     const CheckSettings settings = settings_of(scene, arguments);
@@ -166,8 +160,12 @@ bool check_all(const std::vector<Scene>& scenes, const CheckArguments& arguments
 
 ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   const auto begin = std::chrono::steady_clock::now();
-  parse_update(arguments.update);
-  parse_frame_list(arguments.frames);
+  const CheckOptions options{.frames = parse_frame_list(arguments.frames),
+                             .backend = arguments.backend,
+                             .end_to_end = arguments.end_to_end,
+                             .update = parse_update(arguments.update),
+                             .threads = arguments.threads,
+                             .artefacts = arguments.report};
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, arguments.overrides);
   const std::filesystem::path folder = arguments.report;
   for (const char* file : report_files) const PartialFile writable(folder / file);  // or it throws
@@ -178,7 +176,7 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   for (const std::string& scene : arguments.scenes) report.command += " " + shell_word(scene);
   report.command += command_options(arguments);
   Verdicts verdicts;
-  if (check_all(scenes, arguments, common, verdicts, report)) {
+  if (check_all(scenes, arguments, options, common, verdicts, report)) {
     spdlog::error("interrupted; there is no report");
     return ExitCode::interrupted;
   }
