@@ -12,7 +12,8 @@ void ContactValues::describe(Keys& keys, const std::string& without_restitution)
            "Coulomb's coefficient µ: what rests on a slope of tan θ ≤ µ stays there; 0 is slippery.")
       .at_least(0);
   keys.add("restitution", &restitution, "",
-           "As which share of the speed of its arrival a vertex leaves: 1 bounces, 0 stays" + without_restitution + ".")
+           "The share of the speed of its arrival with which a vertex leaves again: 1 all of it, 0 none" +
+               without_restitution + ".")
       .at_least(0)
       .at_most(1);
 }
