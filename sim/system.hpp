@@ -86,8 +86,8 @@ struct MotionFilter {
   /// time + h [s]. Leaves the rows of pinned vertices as they are. What it keeps between calls is memory only: the
   /// result depends on the arguments alone.
   virtual void apply(const Vertices& x, double time, double h, Vertices& v) = 0;
-  /// Makes of the velocities with which the vertices have moved those that they have where they are now: what bounces on
-  /// its way ends it with another velocity than it went with on average.
+  /// Makes of the velocities with which the vertices have moved those that they have where they are now: what bounces
+  /// on its way ends it with another velocity than it went with on average.
   virtual void finish(Vertices& /*v*/) {}
   /// Whether the last call did all that the filter is for, rather than stop at its cap.
   [[nodiscard]] virtual bool converged() const { return true; }
