@@ -80,10 +80,15 @@ struct Correction {
 /// would do).
 struct MotionFilter {
   virtual ~MotionFilter() = default;
+  /// Takes note of the state in which a step begins at `time` [s], before anything has acted.
+  virtual void begin(const State& /*state*/, double /*time*/) {}
   /// Changes v, the velocities n×3 [m/s] with which the cloth is about to go from x to x + h·v, between `time` and
   /// time + h [s]. Leaves the rows of pinned vertices as they are. What it keeps between calls is memory only: the
   /// result depends on the arguments alone.
   virtual void apply(const Vertices& x, double time, double h, Vertices& v) = 0;
+  /// Makes of the velocities with which the vertices have moved those that they have where they are now: what bounces
+  /// on its way ends it with another velocity than it went with on average.
+  virtual void finish(Vertices& /*v*/) {}
   /// Whether the last call did all that the filter is for, rather than stop at its cap.
   [[nodiscard]] virtual bool converged() const { return true; }
 };
@@ -128,9 +133,19 @@ struct System {
     for (const auto& correction : corrections) correction->apply(state, step);
   }
 
+  /// Shows every filter the state in which a step begins.
+  void begin(const State& state) const {
+    for (const auto& f : filters) f->begin(state, time_after(state, 0));
+  }
+
   /// Applies every filter to the velocities with which a step is about to leave state.x.
   void filter(State& state) const {
     for (const auto& f : filters) f->apply(state.x, time_after(state, 0), step, state.v);
+  }
+
+  /// Lets every filter finish the velocities once the vertices have moved.
+  void finish(State& state) const {
+    for (const auto& f : filters) f->finish(state.v);
   }
 
   /// Gives the pins that move the velocities of the step that begins at state.step.

@@ -44,12 +44,12 @@ ActiveEffect gravity(double acceleration) {
   return {"gravity", effect};
 }
 
-/// A level ground at height 0 without friction, which pushes with this stiffness [1/s²].
+/// A level ground at height 0, without friction and a push like a spring, of this stiffness [1/s²].
 ActiveEffect ground(double stiffness, Response response) {
   std::shared_ptr<Effect> effect = make_ground();
   set(*effect, "thickness", 0.0);
   set(*effect, "friction", 0.0);
-  set(*effect, "restitution", 1.0);
+  set(*effect, "restitution", std::optional<double>());
   set(*effect, "stiffness", stiffness);
   set(*effect, "response", response);
   return {"ground", effect};

@@ -26,6 +26,7 @@ ImplicitEuler::ImplicitEuler(const System& system, const IntegratorSettings& set
       free_(system.cloth.pins.empty() && system.energies.empty()) {}
 
 StepReport ImplicitEuler::advance(State& state, const Vertices& force) {
+  system_.begin(state);
   objective_.begin(state, force);
   point_.x = objective_.y();
   point_.value = objective_.evaluate(point_.x, point_.gradient);
@@ -41,6 +42,7 @@ StepReport ImplicitEuler::advance(State& state, const Vertices& force) {
     system_.filter(state);
     state.x += system_.step * state.v;
     system_.place_pins(state, state.x);
+    system_.finish(state);
   }
   system_.correct(state);
   system_.drive_pins(state);

@@ -12,6 +12,7 @@ SemiImplicitEuler::SemiImplicitEuler(const System& system)
 StepReport SemiImplicitEuler::advance(State& state, const Vertices& force) {
   // Where nothing changes the velocity in between, both updates are one pass.
   const bool at_once = system_.corrections.empty() && system_.filters.empty() && system_.pin_motions.empty();
+  system_.begin(state);
   springs_.kick_and_drift(pull_, with_energies(state, force), at_once ? system_.step : 0, state.v, state.x);
   if (!at_once) {
     system_.correct(state);
@@ -19,6 +20,7 @@ StepReport SemiImplicitEuler::advance(State& state, const Vertices& force) {
     system_.filter(state);
     kernels().add_multiple(static_cast<std::size_t>(state.x.size()), system_.step, state.v.data(), state.x.data());
     system_.place_pins(state, state.x);
+    system_.finish(state);
   }
   return {};
 }
