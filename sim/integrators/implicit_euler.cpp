@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 namespace drape {
@@ -31,6 +32,7 @@ ImplicitEuler::ImplicitEuler(const System& system, const IntegratorSettings& set
       point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
       trial_(point_),
       start_(point_),
+      steady_(system.filters.empty() && system.pin_motions.empty() && system.energies.empty()),
       free_(system.cloth.pins.empty() && system.energies.empty()) {}
 
 StepReport ImplicitEuler::advance(State& state, const Vertices& force) {
@@ -40,11 +42,13 @@ StepReport ImplicitEuler::advance(State& state, const Vertices& force) {
   point_.value = objective_.evaluate(point_.x, point_.gradient);
   start();
   StepReport report = minimise(state);
-  if (gains_energy(state, report.converged)) {
+  // A step that a small change ended has been looked at.
+  const bool looked = report.converged && stop_ == StoppingRule::change;
+  if (!looked && gains_energy(state, report.converged)) {
     report.kept = shed_energy(state);
     report.converged = false;
   }
-  energy_ = std::max(0.0, point_.value - objective_.inertial_value(point_.x));
+  if (steady_) energy_ = std::max(0.0, point_.value - objective_.inertial_value(point_.x));
   if (free_) balance_momentum();
   state.v = (point_.x - state.x) / system_.step;
   if (system_.filters.empty()) {
@@ -98,12 +102,11 @@ double ImplicitEuler::descend(Point& point, const Vertices& direction, double sl
 
 void ImplicitEuler::begin_books(const State& state) {
   const double h = system_.step;
-  start_.x = state.x;
-  system_.place_pins(state, start_.x);
   start_kinetic_ = 0.5 * h * h * inner(objective_.free_inertia(), state.v, state.v);
-  // Where the last step ended, the energy is known, unless what pushes may have moved. None is below zero.
-  const bool known = system_.energies.empty() && start_.x == point_.x;
-  start_.value = objective_.inertial_value(start_.x) + (known ? energy_ : 0);
+  start_.value = objective_.inertial_value(state.x);
+  // Where the last step ended, the energy is known, and nowhere is it below zero.
+  const auto bytes = static_cast<std::size_t>(state.x.size()) * sizeof(double);
+  if (steady_ && std::memcmp(state.x.data(), point_.x.data(), bytes) == 0) start_.value += energy_;
   start_exact_ = false;
 }
 
@@ -113,14 +116,17 @@ bool ImplicitEuler::gains_energy(const State& state, bool tolerant) {
     return surplus > 0 && !(tolerant && surplus <= tolerated_gain(state));
   };
   if (!gains()) return false;
-  if (!start_exact_) start_.value = objective_.evaluate(start_.x, start_.gradient);
+  if (start_exact_) return true;
+  start_.x = state.x;
+  system_.place_pins(state, start_.x);
+  start_.value = objective_.evaluate(start_.x, start_.gradient);
   start_exact_ = true;
   return gains();
 }
 
 double ImplicitEuler::gain(const State& state, const Point& point) const {
   // With g written out: g(x') − g(x) = ΔK + ΔE − W + K − h⁻¹Δx·M v.
-  const double along = system_.step * inner(objective_.free_inertia(), point.x - start_.x, state.v);
+  const double along = system_.step * inner(objective_.free_inertia(), point.x - state.x, state.v);
   return point.value - start_.value - start_kinetic_ + along;
 }
 
@@ -132,10 +138,10 @@ double ImplicitEuler::gain_rounding() const {
 double ImplicitEuler::tolerated_gain(const State& state) const {
   const double h = system_.step;
   const Eigen::VectorXd& inertia = objective_.free_inertia();
-  const auto way = point_.x - start_.x;
+  const auto way = point_.x - state.x;
   if (stop_ == StoppingRule::gradient) return tolerance_ * way.norm();
-  const auto change = way - h * state.v;                      // h Δv
-  const auto push = objective_.y() - start_.x - h * state.v;  // h² M⁻¹f
+  const auto change = way - h * state.v;                     // h Δv
+  const auto push = objective_.y() - state.x - h * state.v;  // h² M⁻¹f
   const double work = inner(inertia, push, way), lost = 0.5 * inner(inertia, change, change);
   const double most = std::sqrt(inner(inertia, push, push) * inner(inertia, way, way));
   return std::min(tolerated_share * most, std::max(lost, -work));

@@ -79,9 +79,10 @@ class ImplicitEuler : public Integrator {
   StepObjective objective_;
   Point point_, trial_;
   Point start_;               // state.x with its pins where they are when the step ends, and g there…
-  bool start_exact_ = false;  // …or, where it has not been needed, a lower bound of it
+  bool start_exact_ = false;  // …or, where it has not been needed, a lower bound of g and nothing else
   double start_kinetic_ = 0;  // ½‖v‖²_M [J]
   double energy_ = 0;         // E where the last step ended [J]
+  bool steady_;               // a step starts where the last one ended, and E there is what it was
   bool free_;                 // nothing holds the cloth and nothing it solves for pushes it
 };
 
