@@ -111,6 +111,8 @@ void ImplicitEuler::begin_books(const State& state) {
 }
 
 bool ImplicitEuler::gains_energy(const State& state, bool tolerant) {
+  // What pushes may be moved, and give energy as it curves away from the cloth: only stopping early is looked at there.
+  if (!system_.energies.empty() && !(given(state) > lost(state))) return false;
   const auto gains = [&] {
     const double surplus = gain(state, point_) - gain_rounding();
     return surplus > 0 && !(tolerant && surplus <= tolerated_gain(state));
@@ -135,16 +137,28 @@ double ImplicitEuler::gain_rounding() const {
   return objective_.rounding(point_.value) + objective_.rounding(start_.value) + objective_.rounding(start_kinetic_);
 }
 
+double ImplicitEuler::given(const State& state) const {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    sum += (point_.gradient.col(axis).array() * (point_.x.col(axis) - state.x.col(axis)).array()).sum();
+  }
+  return sum;
+}
+
+double ImplicitEuler::lost(const State& state) const {
+  const auto change = point_.x - state.x - system_.step * state.v;  // h Δv
+  return 0.5 * inner(objective_.free_inertia(), change, change);
+}
+
 double ImplicitEuler::tolerated_gain(const State& state) const {
   const double h = system_.step;
   const Eigen::VectorXd& inertia = objective_.free_inertia();
   const auto way = point_.x - state.x;
   if (stop_ == StoppingRule::gradient) return tolerance_ * way.norm();
-  const auto change = way - h * state.v;                     // h Δv
   const auto push = objective_.y() - state.x - h * state.v;  // h² M⁻¹f
-  const double work = inner(inertia, push, way), lost = 0.5 * inner(inertia, change, change);
+  const double work = inner(inertia, push, way);
   const double most = std::sqrt(inner(inertia, push, push) * inner(inertia, way, way));
-  return std::min(tolerated_share * most, std::max(lost, -work));
+  return std::min(tolerated_share * most, std::max(lost(state), -work));
 }
 
 double ImplicitEuler::shed_energy(const State& state) {

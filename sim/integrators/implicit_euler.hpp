@@ -19,7 +19,7 @@ namespace drape {
 /// that the forces can do in a step, ‖h M⁻¹f‖_M ‖v'‖_M, provided that the step loses as much otherwise, ½‖v' − v‖²_M,
 /// or that the forces take as much, −W. In proportion to speed it is what a tenth of the forces' size would give if it
 /// pushed along the way; it has no share in what the cloth has, so it cannot compound. Who stops at a gradient
-/// is given what that can do, tolerance·‖Δx‖.
+/// is given what that can do, tolerance·‖Δx‖. Where something solved for pushes the cloth, B is not looked at.
 ///
 /// A cloth that nothing holds has Σ∇g = Σ m(x' − y)/h², since what it solves for pulls with opposite forces. Every
 /// exact solve makes that zero; what the rounding of a factor leaves of it is taken out by a translation, which keeps
@@ -63,6 +63,9 @@ class ImplicitEuler : public Integrator {
   [[nodiscard]] double gain(const State& state, const Point& point) const;
   /// The error that rounding can be expected to make in it [J].
   [[nodiscard]] double gain_rounding() const;
+  /// ∇g·Δx, and ½‖v' − v‖²_M [J].
+  [[nodiscard]] double given(const State& state) const;
+  [[nodiscard]] double lost(const State& state) const;
   /// What a step that meets its tolerance may gain, see above [J].
   [[nodiscard]] double tolerated_gain(const State& state) const;
   /// Goes back towards where the step started until it has gained no energy; returns the part of the way that is left.
