@@ -19,6 +19,7 @@
 #include "check/machine.hpp"
 #include "cli/command_line.hpp"
 #include "cli/frame_list.hpp"
+#include "cli/number_option.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/watched.hpp"
 #include "core/atomic_file.hpp"
@@ -191,12 +192,12 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
 
 void add_limits(CLI::App& sub, CheckArguments& arguments) {
   sub.add_option("--motion-tolerance", arguments.motion_tolerance, "How far a vertex may be from its golden place, m")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_in({.minimum = 0}));
   sub.add_option("--channel-limit", arguments.channel, "Largest difference of a pixel in any channel, of 255")
-      ->check(CLI::Range(0, 255));
+      ->check(whole_number_in({0, 255}));
   sub.add_option("--pixel-limit", arguments.pixels, "Largest fraction of pixels that differ at all")
-      ->check(CLI::Range(0.0, 1.0));
-  sub.add_option("--flip-limit", arguments.flip, "Largest FLIP error of a pixel")->check(CLI::Range(0.0, 1.0));
+      ->check(number_in({0, 1}));
+  sub.add_option("--flip-limit", arguments.flip, "Largest FLIP error of a pixel")->check(number_in({0, 1}));
 }
 
 }  // namespace

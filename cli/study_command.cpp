@@ -4,8 +4,10 @@
 #include <memory>
 #include <optional>
 
+#include "cli/number_option.hpp"
 #include "cli/studies.hpp"
 #include "cli/watched.hpp"
+#include "core/console.hpp"
 #include "study/homework_report.hpp"
 
 namespace drape {
@@ -26,7 +28,8 @@ void add_homework_study(CLI::App& study, const CommonOptions& common, Command& c
   auto arguments = std::make_shared<HomeworkArguments>();
   CLI::App* homework = study.add_subcommand("homework", "Measure the homework's tables again, beside its report");
   homework->add_option("-o,--output", arguments->folder, "Folder for the results; default out/homework");
-  homework->add_option("--runs", arguments->runs, "Timed runs of every case; default 5")->check(CLI::Range(1, 1000));
+  homework->add_option("--runs", arguments->runs, "Timed runs of every case; default 5")
+      ->check(whole_number_in({1, 1000}));
   homework->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_homework(*arguments, common); }; });
 }
@@ -43,7 +46,9 @@ ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& com
   }
   const std::string problem = write_report(*report, folder);
   if (!problem.empty()) spdlog::warn(problem);
-  if (!common.quiet) fmt::print("{}\n{}\n", to_text(*report), (folder / "report.html").string());
+  if (!common.quiet) {
+    print_text(stdout, fmt::format("{}\n{}\n", to_text(*report), (folder / "report.html").string()));
+  }
   return ExitCode::ok;
 }
 

@@ -8,6 +8,11 @@
 
 namespace drape {
 
+std::string Problems::text(const Place& place) const {
+  return place.override_number == 0 ? fmt::format("{}:{}:{}", file_.string(), place.line, place.column)
+                                    : fmt::format("--set {}", overrides_[place.override_number - 1]);
+}
+
 void Problems::throw_if_any() const {
   if (found_.empty()) return;
   std::vector<Problem> sorted = found_;
@@ -15,8 +20,7 @@ void Problems::throw_if_any() const {
   std::string text;
   for (const auto& [place, message] : sorted) {
     if (!text.empty()) text += '\n';
-    text += place.override_number == 0 ? fmt::format("{}:{}:{}: {}", file_.string(), place.line, place.column, message)
-                                       : fmt::format("--set {}: {}", overrides_[place.override_number - 1], message);
+    text += fmt::format("{}: {}", this->text(place), message);
   }
   throw UsageError(text);
 }

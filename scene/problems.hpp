@@ -22,6 +22,9 @@ class Problems {
 
   [[nodiscard]] std::size_t count() const { return found_.size(); }
 
+  /// "scene.toml:4:9" or "--set key.path=value".
+  [[nodiscard]] std::string text(const Place& place) const;
+
   /// @throws UsageError that lists the problems in the order of their places, if there are any
   void throw_if_any() const;
 

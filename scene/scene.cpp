@@ -138,6 +138,16 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
     }
   }
   const std::vector<ReadEffect> effects = read_effects(document, reader, problems);
+  scene.inputs = reader.files();
+  scene.inputs.push_back(file);
+  for (const TomlValue* mesh : {cloth_table.mesh, cloth_table.rest}) {
+    if (mesh != nullptr && mesh->as<std::string>() != nullptr) {
+      scene.inputs.push_back(folder / *mesh->as<std::string>());
+    }
+  }
+  if (const TomlValue* look = find_path(document, "look")) {
+    scene.texture_place = problems.text(place_of(*look, "texture"));
+  }
 
   for (const ReadEffect& effect : effects) scene.simulation.effects.push_back(effect.active);
 

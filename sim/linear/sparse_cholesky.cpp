@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "sim/linear/memory.hpp"
+#include "core/memory.hpp"
 
 namespace drape {
 
@@ -74,7 +74,8 @@ SparseCholesky::SparseCholesky(const LowerPattern& pattern, FactorKind kind, boo
   constexpr double blas_work = 256e6;
   require_memory("a sparse factor of " + std::to_string(pattern.size()) + " rows",
                  (too_large ? std::max(i.common.lnz, largest) * entry : i.common.lnz * (entry + caller_bytes)) +
-                     (kind == FactorKind::supernodal ? blas_work : 0));
+                     (kind == FactorKind::supernodal ? blas_work : 0),
+                 "take a coarser cloth or another method");
   if (too_large) throw UsageError("a sparse factor of this cloth has more than 2³¹ entries: take conjugate gradients");
   i.require(i.factor != nullptr);
   i.matrix.xtype = CHOLMOD_REAL;
