@@ -1,13 +1,17 @@
 #include "scene/document.hpp"
 
+// Deeper than the values of any scene: what reads them does so by recursion.
+#define TOML_MAX_NESTED_VALUES 16
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <fstream>
+#include <algorithm>
 #include <functional>
-#include <iterator>
-#include <system_error>
 
 #include "core/error.hpp"
+#include "core/printable.hpp"
+#include "core/read_file.hpp"
+#include "scene/mesh_source.hpp"
 
 namespace drape {
 namespace {
@@ -36,16 +40,52 @@ TomlValue convert(const toml::node& node, const Locate& locate) {
   return value;
 }
 
-std::string read_text(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw UsageError(file.string() + ": no such file");
-  if (std::filesystem::is_directory(status))
-    throw UsageError(file.string() + ": expected a scene file, found a folder");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad()) throw UsageError(file.string() + ": cannot be read");
-  return text;
+/// Where the string that begins at `begin` ends: its last quote, or the end of its line or of the text if it is not
+/// closed.
+std::size_t end_of_string(std::string_view text, std::size_t begin) {
+  const char quote = text[begin];
+  const std::string three(3, quote);
+  const bool multiline = text.substr(begin).starts_with(three);
+  for (std::size_t i = begin + (multiline ? 3 : 1); i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (!multiline && (text[i] == quote || text[i] == '\n')) {
+      return i;
+    } else if (multiline && text.substr(i).starts_with(three)) {
+      // Up to two quotes may stand right before the three that close it.
+      return std::min({text.find_first_not_of(quote, i), i + 5, text.size()}) - 1;
+    }
+  }
+  return text.size();
+}
+
+/// The first dot of the text that makes a key too deep: toml++ follows it by recursion, and so does what reads its
+/// tables. Between other signs a value has one dot at most, so what has many is a key. npos if there is none.
+std::size_t find_deep_key(std::string_view text) {
+  std::size_t dots = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      i = end_of_string(text, i);
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size());
+      dots = 0;
+    } else if (c == '.') {
+      if (++dots == most_nested_names) return i;
+    } else if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) {
+      dots = 0;
+    }
+  }
+  return std::string_view::npos;
+}
+
+std::string too_deep() { return fmt::format("expected a key of at most {} names, found more", most_nested_names); }
+
+std::string description_of(const toml::parse_error& error) {
+  std::string description(error.description());
+  return description.find("TOML_MAX_NESTED_VALUES") == std::string::npos
+             ? description
+             : fmt::format("expected values nested at most {} deep, found more", TOML_MAX_NESTED_VALUES);
 }
 
 }  // namespace
@@ -66,26 +106,29 @@ std::string TomlValue::kind() const {
 }
 
 TomlValue read_document(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
+  constexpr std::size_t most_bytes = 64'000'000;
+  const SourceText source(file.string(), read_text(file, most_bytes));
+  const std::size_t deep = find_deep_key(source.text());
+  if (deep != std::string_view::npos) source.fail(deep, too_deep());
   try {
-    const toml::table table = toml::parse(text);
+    const toml::table table = toml::parse(source.text());
     return convert(table, [](const toml::source_region& source) {
       return Place{.line = source.begin.line, .column = source.begin.column};
     });
   } catch (const toml::parse_error& error) {
     const toml::source_position& at = error.source().begin;
-    throw UsageError(file.string() + ':' + std::to_string(at.line) + ':' + std::to_string(at.column) + ": " +
-                     std::string(error.description()));
+    throw UsageError(printable(fmt::format("{}:{}:{}: {}", file.string(), at.line, at.column, description_of(error))));
   }
 }
 
 TomlValue parse_value(std::string_view text, const Place& place) {
+  if (find_deep_key(text) != std::string_view::npos) throw UsageError(too_deep());
   try {
     const toml::table table = toml::parse("value = " + std::string(text));
     if (table.size() != 1) throw UsageError("expected one value, found several lines");
     return convert(table.begin()->second, [&place](const toml::source_region&) { return place; });
   } catch (const toml::parse_error& error) {
-    throw UsageError(std::string(error.description()));
+    throw UsageError(description_of(error));
   }
 }
 

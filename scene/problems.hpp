@@ -22,7 +22,8 @@ class Problems {
 
   [[nodiscard]] std::size_t count() const { return found_.size(); }
 
-  /// @throws UsageError that lists the problems in the order of their places, if there are any
+  /// @throws UsageError that lists the problems in the order of their places, if there are any; of many the first
+  /// hundred and how many more there are
   void throw_if_any() const;
 
  private:
