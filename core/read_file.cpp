@@ -71,7 +71,7 @@ std::string read_file(const std::filesystem::path& file, std::size_t limit) {
     }
     size += static_cast<std::size_t>(got);
   }
-  fail(file, fmt::format("the file is too large: expected at most {} MB", limit / 1'000'000));
+  fail(file, fmt::format("the file is too large: expected at most {} bytes", limit));
 }
 
 std::string read_text(const std::filesystem::path& file, std::size_t limit) {
