@@ -11,12 +11,13 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/printable.hpp"
 
 namespace drape {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& message) {
-  throw UsageError(file.string() + ": " + message);
+  throw UsageError(printable(file.string() + ": " + message));
 }
 
 [[noreturn]] void fail_by_system(const std::filesystem::path& file) {

@@ -1,7 +1,5 @@
 #include "scene/document.hpp"
 
-// Deeper than the values of any scene: what reads them does so by recursion.
-#define TOML_MAX_NESTED_VALUES 16
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
@@ -59,10 +57,13 @@ std::size_t end_of_string(std::string_view text, std::size_t begin) {
   return text.size();
 }
 
-/// The first dot of the text that makes a key too deep: toml++ follows it by recursion, and so does what reads its
-/// tables. Between other signs a value has one dot at most, so what has many is a key. npos if there is none.
-std::size_t find_deep_key(std::string_view text) {
-  std::size_t dots = 0;
+/// Calls fail(offset, message) where a key or a value is nested deeper than any scene's: toml++ follows it by
+/// recursion, and so does what reads its tables. Between other signs a value has one dot at most, so what has many is a
+/// key.
+template <class Fail>
+void refuse_depth(std::string_view text, const Fail& fail) {
+  constexpr std::size_t most_open = 16;
+  std::size_t dots = 0, open = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (c == '"' || c == '\'') {
@@ -71,21 +72,16 @@ std::size_t find_deep_key(std::string_view text) {
       i = std::min(text.find('\n', i), text.size());
       dots = 0;
     } else if (c == '.') {
-      if (++dots == most_nested_names) return i;
+      if (++dots == most_nested_names) {
+        fail(i, fmt::format("expected a key of at most {} names, found more", most_nested_names));
+      }
     } else if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) {
       dots = 0;
+      if (c == '[' || c == '{') ++open;
+      if ((c == ']' || c == '}') && open > 0) --open;
+      if (open > most_open) fail(i, fmt::format("expected values nested at most {} deep, found more", most_open));
     }
   }
-  return std::string_view::npos;
-}
-
-std::string too_deep() { return fmt::format("expected a key of at most {} names, found more", most_nested_names); }
-
-std::string description_of(const toml::parse_error& error) {
-  std::string description(error.description());
-  return description.find("TOML_MAX_NESTED_VALUES") == std::string::npos
-             ? description
-             : fmt::format("expected values nested at most {} deep, found more", TOML_MAX_NESTED_VALUES);
 }
 
 }  // namespace
@@ -108,8 +104,7 @@ std::string TomlValue::kind() const {
 TomlValue read_document(const std::filesystem::path& file) {
   constexpr std::size_t most_bytes = 64'000'000;
   const SourceText source(file.string(), read_text(file, most_bytes));
-  const std::size_t deep = find_deep_key(source.text());
-  if (deep != std::string_view::npos) source.fail(deep, too_deep());
+  refuse_depth(source.text(), [&](std::size_t offset, const std::string& message) { source.fail(offset, message); });
   try {
     const toml::table table = toml::parse(source.text());
     return convert(table, [](const toml::source_region& source) {
@@ -117,18 +112,18 @@ TomlValue read_document(const std::filesystem::path& file) {
     });
   } catch (const toml::parse_error& error) {
     const toml::source_position& at = error.source().begin;
-    throw UsageError(printable(fmt::format("{}:{}:{}: {}", file.string(), at.line, at.column, description_of(error))));
+    throw UsageError(printable(fmt::format("{}:{}:{}: {}", file.string(), at.line, at.column, error.description())));
   }
 }
 
 TomlValue parse_value(std::string_view text, const Place& place) {
-  if (find_deep_key(text) != std::string_view::npos) throw UsageError(too_deep());
+  refuse_depth(text, [](std::size_t, const std::string& message) { throw UsageError(message); });
   try {
     const toml::table table = toml::parse("value = " + std::string(text));
     if (table.size() != 1) throw UsageError("expected one value, found several lines");
     return convert(table.begin()->second, [&place](const toml::source_region&) { return place; });
   } catch (const toml::parse_error& error) {
-    throw UsageError(description_of(error));
+    throw UsageError(std::string(error.description()));
   }
 }
 

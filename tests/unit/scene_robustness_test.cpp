@@ -100,7 +100,7 @@ TEST(SceneRobustness, DeepKeysAreRefusedWithTheirPlace) {
   EXPECT_EQ(folder.problems("[" + deep + "]\n"), "scene.toml:1:33: " + more);
   EXPECT_EQ(folder.problems("[[" + deep + "]]\n"), "scene.toml:1:34: " + more);
   EXPECT_EQ(folder.problems("x = { y = [{ " + deep + " = 1 }] }\n"), "scene.toml:1:45: " + more);
-  EXPECT_EQ(folder.problems(repeated("\"ö.=#\" . ", 17) + "b = 1\n"), "scene.toml:1:142: " + more);
+  EXPECT_EQ(folder.problems(repeated("\"ö.=#\" . ", 17) + "b = 1\n"), "scene.toml:1:143: " + more);
   EXPECT_EQ(folder.problems(least_scene, {deep + "=1"}),
             "--set " + deep + "=1: expected names with dots between them before the '='");
   EXPECT_TRUE(folder.problems(least_scene, {"look={" + deep + "=1}"}).ends_with(more));
