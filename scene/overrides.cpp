@@ -31,7 +31,7 @@ bool is_bare_word(std::string_view text) {
   return !text.empty() && text.find_first_of(" \t\r\n\"'[]{},=\\") == std::string_view::npos;
 }
 
-/// "cloth.mesh" into its names. Empty if a name is missing.
+/// "cloth.mesh" into its names. Empty if a name is missing, or there are more than in any scene.
 std::vector<std::string> split_path(std::string_view text) {
   std::vector<std::string> path;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -39,6 +39,7 @@ std::vector<std::string> split_path(std::string_view text) {
     const std::string_view name = trimmed(text.substr(begin, end - begin));
     if (!is_bare_word(name)) return {};
     path.emplace_back(name);
+    if (path.size() > most_nested_names) return {};
     begin = end + 1;
   }
   return path;

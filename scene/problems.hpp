@@ -25,7 +25,8 @@ class Problems {
   /// "scene.toml:4:9" or "--set key.path=value".
   [[nodiscard]] std::string text(const Place& place) const;
 
-  /// @throws UsageError that lists the problems in the order of their places, if there are any
+  /// @throws UsageError that lists the problems in the order of their places, if there are any; of many the first
+  /// hundred and how many more there are
   void throw_if_any() const;
 
  private:
