@@ -6,6 +6,7 @@
 
 #include "cli/studies.hpp"
 #include "cli/watched.hpp"
+#include "core/atomic_file.hpp"
 #include "study/homework_report.hpp"
 
 namespace drape {
@@ -35,6 +36,7 @@ void add_homework_study(CLI::App& study, const CommonOptions& common, Command& c
 
 ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& common,
                    const std::function<std::optional<StudyReport>(const std::stop_token&, Progress&)>& measure) {
+  require_writable(folder / report_page);  // not only after the measurements
   std::optional<StudyReport> report;
   run_watched(common, [&](const std::stop_token& stop, Progress& progress) { report = measure(stop, progress); });
   if (!report) {
@@ -43,7 +45,7 @@ ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& com
   }
   const std::string problem = write_report(*report, folder);
   if (!problem.empty()) spdlog::warn(problem);
-  if (!common.quiet) fmt::print("{}\n{}\n", to_text(*report), (folder / "report.html").string());
+  if (!common.quiet) fmt::print("{}\n{}\n", to_text(*report), (folder / report_page).string());
   return ExitCode::ok;
 }
 

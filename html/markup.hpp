@@ -50,7 +50,8 @@ requires std::convertible_to<Content, Markup> Markup element(std::string_view ta
 /// The pieces one after another.
 Markup join(const std::vector<Markup>& pieces);
 
-/// The text with & < > " ' written as entities, and control characters, which HTML does not allow, replaced.
+/// The text with & < > " ' written as entities, and what neither HTML nor XML allows replaced: control characters, and
+/// bytes that are not UTF-8.
 std::string escape(std::string_view text);
 
 /// "data:TYPE;base64,…"

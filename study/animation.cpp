@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "render/encode/encoder.hpp"
+#include "render/encode/path_template.hpp"
 #include "render/montage.hpp"
 #include "render/renderer.hpp"
 #include "run/frame_sampler.hpp"
@@ -156,7 +157,7 @@ std::optional<std::string> animate_errors(const Scene& scene, const SimulationSe
   PanelPainter painter(scene, view_of(scene, size, motions), size, backend);
   const int columns = panels.size() == 3 ? 3 : 2;
   OutputSpec spec;
-  spec.path = file.string();
+  spec.path = template_of(file.string());
   spec.scene = scene.name;
   spec.fps = video.fps;
   spec.expected_frames = static_cast<int>(exact.size());

@@ -79,4 +79,10 @@ std::string PathTemplate::path(std::string_view scene, int frame, int default_wi
   return result;
 }
 
+std::string template_of(std::string_view path) {
+  std::string text;
+  for (const char c : path) text.append(c == '{' || c == '}' ? 2 : 1, c);
+  return text;
+}
+
 }  // namespace drape

@@ -31,4 +31,7 @@ class PathTemplate {
   std::vector<Piece> pieces_;
 };
 
+/// The template of this very path: braces in it are braces.
+std::string template_of(std::string_view path);
+
 }  // namespace drape

@@ -18,6 +18,12 @@ std::string expanded(const std::string& text, int frame = 7, int width = 3) {
   return PathTemplate(text).path("flag", frame, width);
 }
 
+TEST(PathTemplate, OfAPathGivesThatPath) {
+  for (const char* path : {"out/{scene}/{frame}.gif", "{", "a}}b{{", "plain"}) {
+    EXPECT_EQ(expanded(template_of(path)), path);
+  }
+}
+
 TEST(PathTemplate, ReplacesTheScenesName) { EXPECT_EQ(expanded("out/{scene}/{scene}.gif"), "out/flag/flag.gif"); }
 
 TEST(PathTemplate, PadsFrameNumbersWithZeros) {
