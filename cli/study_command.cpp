@@ -50,7 +50,7 @@ ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& com
 }
 
 void add_study_command(CLI::App& app, const CommonOptions& common, Command& command) {
-  CLI::App* study = app.add_subcommand("study", "Measure what accuracy costs, and write tables, plots and a page");
+  CLI::App* study = app.add_subcommand("study", "Measure what accuracy costs, and write tables, diagrams and a page");
   study->require_subcommand(1);
   add_homework_study(*study, common, command);
   add_accuracy_study(*study, common, command);

@@ -52,8 +52,8 @@ Markup levels(const Chart& chart, const Frame& frame) {
   Markup parts;
   for (const ChartLevel& level : chart.levels) {
     const double y = frame.down(level.y);
-    parts += svg_line("level", left, y, width - right, y) +
-             svg_text(width - right - 4, y > top + 16 ? y - 5 : y + 14, "end", level.label);
+    parts += svg_text(width - right - 4, y > top + 16 ? y - 5 : y + 14, "end", level.label) +
+             svg_line("level", left, y, width - right, y);
   }
   return element("g", {{"class", "levels"}}, parts);
 }

@@ -55,6 +55,22 @@ TEST(Doctor, SaysWhatToInstallAndExitsWith4IfNothingCanDraw) {
   EXPECT_EQ(json.at("missing_packages"), (nlohmann::json{"libosmesa6", "libegl1", "libgl1-mesa-dri"}));
 }
 
+TEST(Doctor, NoticesThatTextWouldBeMissing) {
+  const SceneFolder folder;
+  const auto optional = [&](const std::string& environment) {
+    return nlohmann::json::parse(drape(folder, "doctor --json", environment).text).at("optional");
+  };
+  const auto here = optional("");
+  if (!here.at(0).at("works")) GTEST_SKIP() << here.at(0).at("problem");
+  EXPECT_EQ(here.at(0).at("name"), "diagrams");
+  // No folder has fonts.
+  const auto file = folder.write("fonts.conf", "<fontconfig></fontconfig>");
+  const auto without = optional("FONTCONFIG_FILE='" + file.string() + "'");
+  EXPECT_EQ(without.at(1).at("name"), "fonts");
+  EXPECT_FALSE(without.at(1).at("works")) << without;
+  EXPECT_EQ(without.at(1).at("packages"), "fonts-dejavu-core");
+}
+
 TEST(Doctor, DrawsWithEglIfThereIsNoOsMesa) {
   const SceneFolder folder;
   const auto present = nlohmann::json::parse(drape(folder, "doctor --json").text);
