@@ -185,11 +185,11 @@ Markup map_figure(const StabilityMap& map) {
 Markup map_legend() { return element("p", "Energy error, relative to the energy exchanged:") + legend(cell_entries()); }
 
 std::string map_csv(const StabilityMap& map) {
-  std::string table = "step,stiffness,outcome,energy_error,steps_not_converged,predicted_limit,band\n";
+  std::string table = "step,stiffness,outcome,energy_error,steps_not_converged,predicted_limit\n";
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
     const StabilityCell& c = map.cells[i];
-    table += fmt::format("{:.6g},{:.6g},{},{:.6g},{},{:.6g},{}\n", c.step, c.stiffness, outcome_name(c.outcome),
-                         c.energy_error, c.not_converged, map.limits[i / map.steps.size()], band_of(c));
+    table += fmt::format("{:.6g},{:.6g},{},{:.6g},{},{:.6g}\n", c.step, c.stiffness, outcome_name(c.outcome),
+                         c.energy_error, c.not_converged, map.limits[i / map.steps.size()]);
   }
   return table;
 }

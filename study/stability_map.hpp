@@ -21,7 +21,7 @@ html::Markup map_figure(const StabilityMap& map);
 /// The colours and signs of all maps.
 html::Markup map_legend();
 
-/// step,stiffness,outcome,energy_error,steps_not_converged,predicted_limit,band
+/// step,stiffness,outcome,energy_error,steps_not_converged,predicted_limit
 std::string map_csv(const StabilityMap& map);
 
 }  // namespace drape
