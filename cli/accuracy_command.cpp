@@ -9,6 +9,7 @@
 #include "cli/studies.hpp"
 #include "core/nearest.hpp"
 #include "core/shell.hpp"
+#include "render/gl/inspect.hpp"
 #include "study/accuracy_animation.hpp"
 #include "study/accuracy_report.hpp"
 
@@ -81,7 +82,9 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
   options.methods = parse_methods(arguments.methods);
   const std::vector<AnimatedBy> animations = parse_animations(arguments.animations);
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, options.overrides);
-  for (const Scene& scene : scenes) complete(options, scene);  // what is wrong is said before hours of work
+  // What is wrong is said before hours of work.
+  for (const std::string& file : arguments.scenes) check_accuracy(file, options);
+  if (!animations.empty()) inspect_backend(arguments.backend);
   const std::vector<std::string> names = unique_names(scenes);
   return run_study(
       arguments.folder, common, [&](const std::stop_token& stop, Progress& progress) -> std::optional<StudyReport> {

@@ -7,6 +7,7 @@
 #include "cli/number_option.hpp"
 #include "cli/studies.hpp"
 #include "cli/watched.hpp"
+#include "core/atomic_file.hpp"
 #include "core/console.hpp"
 #include "study/homework_report.hpp"
 
@@ -38,6 +39,7 @@ void add_homework_study(CLI::App& study, const CommonOptions& common, Command& c
 
 ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& common,
                    const std::function<std::optional<StudyReport>(const std::stop_token&, Progress&)>& measure) {
+  require_writable(folder / report_page);  // not only after the measurements
   std::optional<StudyReport> report;
   run_watched(common, [&](const std::stop_token& stop, Progress& progress) { report = measure(stop, progress); });
   if (!report) {
@@ -47,13 +49,13 @@ ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& com
   const std::string problem = write_report(*report, folder);
   if (!problem.empty()) spdlog::warn(problem);
   if (!common.quiet) {
-    print_text(stdout, fmt::format("{}\n{}\n", to_text(*report), (folder / "report.html").string()));
+    print_text(stdout, fmt::format("{}\n{}\n", to_text(*report), (folder / report_page).string()));
   }
   return ExitCode::ok;
 }
 
 void add_study_command(CLI::App& app, const CommonOptions& common, Command& command) {
-  CLI::App* study = app.add_subcommand("study", "Measure what accuracy costs, and write tables, plots and a page");
+  CLI::App* study = app.add_subcommand("study", "Measure what accuracy costs, and write tables, diagrams and a page");
   study->require_subcommand(1);
   add_homework_study(*study, common, command);
   add_accuracy_study(*study, common, command);

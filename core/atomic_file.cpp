@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/file_identity.hpp"
@@ -149,6 +150,17 @@ std::uintmax_t PartialFile::commit(Ending ending) {
 }
 
 void PartialFile::fail(int error_number) const { fail_to_write(file_, std::generic_category().message(error_number)); }
+
+void require_writable(const fs::path& file) {
+  std::error_code ignored;
+  std::vector<fs::path> missing;  // folders, the innermost first
+  for (fs::path folder = fs::absolute(file).parent_path(); !fs::exists(folder, ignored);
+       folder = folder.parent_path()) {
+    missing.push_back(folder);
+  }
+  { const PartialFile probe(file); }
+  for (const fs::path& folder : missing) fs::remove(folder, ignored);
+}
 
 std::uintmax_t write_file_atomically(const fs::path& file, std::string_view bytes) {
   PartialFile partial(file);

@@ -60,6 +60,10 @@ class PartialFile {
   int descriptor_ = -1;
 };
 
+/// Finds out now whether a file can be written, for who writes it after hours of work. Leaves nothing behind.
+/// @throws OutputError as PartialFile
+void require_writable(const std::filesystem::path& file);
+
 /// Writes a whole file, or leaves everything as it was. @returns its size [bytes] @throws OutputError as PartialFile
 std::uintmax_t write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
 

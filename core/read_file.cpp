@@ -11,13 +11,13 @@
 #include <system_error>
 
 #include "core/error.hpp"
-#include "core/printable.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& message) {
-  throw UsageError(printable(file.string() + ": " + message));
+  throw UsageError(escape_controls(file.string() + ": " + message));
 }
 
 [[noreturn]] void fail_by_system(const std::filesystem::path& file) {

@@ -9,4 +9,8 @@ namespace drape {
 /// XML does not allow, which are the control characters but for newline and tab.
 std::string printable(std::string_view text);
 
+/// A text that may come from a file, as a message shows it: control characters but line feeds are written as \x1b, so
+/// that they neither end the message nor talk to the terminal.
+std::string escape_controls(std::string_view text);
+
 }  // namespace drape

@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "core/error.hpp"
-#include "core/printable.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 #include "scene/mesh_source.hpp"
 
 namespace drape {
@@ -112,7 +112,8 @@ TomlValue read_document(const std::filesystem::path& file) {
     });
   } catch (const toml::parse_error& error) {
     const toml::source_position& at = error.source().begin;
-    throw UsageError(printable(fmt::format("{}:{}:{}: {}", file.string(), at.line, at.column, error.description())));
+    throw UsageError(
+        escape_controls(fmt::format("{}:{}:{}: {}", file.string(), at.line, at.column, error.description())));
   }
 }
 

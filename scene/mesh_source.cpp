@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "core/printable.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -43,7 +43,7 @@ std::string in_quotes(std::string_view piece) {
   constexpr std::size_t longest = 40;
   std::size_t cut = std::min({piece.find('\n'), longest, piece.size()});
   while (cut > 0 && cut < piece.size() && continues_character(piece[cut])) --cut;
-  return '\'' + printable(piece.substr(0, cut)) + (cut < piece.size() ? "…'" : "'");
+  return '\'' + escape_controls(piece.substr(0, cut)) + (cut < piece.size() ? "…'" : "'");
 }
 
 }  // namespace drape

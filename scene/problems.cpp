@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/error.hpp"
-#include "core/printable.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 
@@ -29,7 +29,7 @@ void Problems::throw_if_any() const {
     text += fmt::format("{}: {}", this->text(place), message);
   }
   if (sorted.size() > most_told) text += fmt::format("\nand {} more", sorted.size() - most_told);
-  throw UsageError(printable(text));
+  throw UsageError(escape_controls(text));
 }
 
 }  // namespace drape

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/printable.hpp"
+#include "core/text.hpp"
 #include "scene/mesh_builder.hpp"
 #include "scene/usd_layer.hpp"
 #include "scene/usd_xform.hpp"
@@ -231,7 +231,7 @@ const UsdPrim* find_mesh(const std::vector<UsdPrim>& prims, const UsdPrim*& unus
   for (const UsdPath& path : std::span(meshes).first(std::min(most_told, meshes.size()))) {
     const UsdAttribute* points = path.back()->find("points");
     const std::size_t numbers = points == nullptr || points->first() == nullptr ? 0 : points->first()->numbers.size();
-    list += fmt::format("{} {} ({} vertices)", list.empty() ? "" : ",", printable(path_text(path)), numbers / 3);
+    list += fmt::format("{} {} ({} vertices)", list.empty() ? "" : ",", escape_controls(path_text(path)), numbers / 3);
   }
   if (meshes.size() > most_told) list += fmt::format(" and {} more", meshes.size() - most_told);
   source.fail(fmt::format("expected one Mesh in the file, found {}:{}; export the cloth alone", meshes.size(), list));

@@ -63,6 +63,16 @@ TEST_F(AtomicFile, AppearsOnlyWhenCommitted) {
   EXPECT_EQ(test::content(path("x.txt")), "new");
 }
 
+TEST_F(AtomicFile, ThatIsOnlyAskedAboutLeavesNothingBehind) {
+  put(path("old/x.txt"), "old");
+  require_writable(path("old/x.txt"));
+  require_writable(path("a/b/x.txt"));
+  EXPECT_EQ(test::content(path("old/x.txt")), "old");
+  EXPECT_FALSE(fs::exists(path("a")));
+  EXPECT_EQ(file_count(), 1u);
+  EXPECT_NE(output_error([&] { require_writable(path("old/x.txt/y")); }).find("Not a directory"), std::string::npos);
+}
+
 TEST_F(AtomicFile, LeavesTheOldFileAndNothingElseWithoutACommit) {
   put(path("x.txt"), "old");
   { PartialFile(path("x.txt")).write("new"); }
