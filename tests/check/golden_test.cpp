@@ -31,7 +31,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std:
 std::vector<GoldenWindow> unpacked(std::string_view bytes) { return unpack_motion(bytes, quantum, enough); }
 
 /// What is wrong with bytes that unpack_motion() refuses; empty if it does not.
-std::string refusal(std::string_view bytes, double of_quantum = quantum, std::uint64_t most_words = enough) {
+std::string motion_refusal(std::string_view bytes, double of_quantum = quantum, std::uint64_t most_words = enough) {
   try {
     unpack_motion(bytes, of_quantum, most_words);
   } catch (const std::invalid_argument& error) {
@@ -123,7 +123,8 @@ TEST(MotionFile, RefusesWhatIsNotFinite) {
       GoldenWindow bad = window(0, 0, 3, 1);
       bad.shown = bad.start.x;
       places[i](bad, value);
-      EXPECT_EQ(refusal(pack_motion({bad}, quantum)), "it holds a number that is not finite") << i << ": " << value;
+      EXPECT_EQ(motion_refusal(pack_motion({bad}, quantum)), "it holds a number that is not finite")
+          << i << ": " << value;
     }
   }
 }
@@ -132,15 +133,15 @@ TEST(MotionFile, RefusesPositionsThatAreTooFarAway) {
   GoldenWindow far = window(0, 0, 3, 1);
   far.start.x(1, 1) = 1e11;
   const std::string bytes = pack_motion({far}, quantum);
-  EXPECT_EQ(refusal(bytes), "");
+  EXPECT_EQ(motion_refusal(bytes), "");
   // A quantum from a damaged manifest.
   for (const double of_quantum : {1e-10, 1e-300, 5e-324, 0.0}) {
-    EXPECT_EQ(refusal(bytes, of_quantum), "it holds a position that is too far away") << of_quantum;
+    EXPECT_EQ(motion_refusal(bytes, of_quantum), "it holds a position that is too far away") << of_quantum;
   }
   far = window(0, 0, 3, 1);
   far.shown = far.start.x;
   (*far.shown)(0, 0) = 1e300;
-  EXPECT_EQ(refusal(pack_motion({far}, quantum)), "it holds a position that is too far away");
+  EXPECT_EQ(motion_refusal(pack_motion({far}, quantum)), "it holds a position that is too far away");
 }
 
 /// A motion.bin with one vertex that is at the origin, and two steps whose positions have these differences.
@@ -160,21 +161,21 @@ TEST(MotionFile, RefusesStepsThatLeadOutOfAllBounds) {
   EXPECT_EQ(unpacked(two_steps(2, 6))[0].steps[1].x, (Vertices(1, 3) << 5 * quantum, 0, 0).finished());
   constexpr std::uint64_t largest = ~std::uint64_t{1}, smallest = ~std::uint64_t{0};  // ±2⁶³
   for (const std::uint64_t first : {largest, smallest}) {
-    EXPECT_EQ(refusal(two_steps(first, 0)), "it holds a position that is too far away") << first;
+    EXPECT_EQ(motion_refusal(two_steps(first, 0)), "it holds a position that is too far away") << first;
   }
-  EXPECT_EQ(refusal(two_steps(2, 6), 1e308), "it holds a position that is too far away");
+  EXPECT_EQ(motion_refusal(two_steps(2, 6), 1e308), "it holds a position that is too far away");
 }
 
 TEST(MotionFile, RefusesNumbersOfNothing) {
   const std::vector<std::uint64_t> good{2, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0};
-  EXPECT_EQ(refusal(test::motion_bytes(good)), "");
+  EXPECT_EQ(motion_refusal(test::motion_bytes(good)), "");
   constexpr std::size_t count = 0, frame = 1, step = 3, vertices = 4, shown = 11, steps = 12;
   for (const std::size_t place : {count, frame, step, vertices, shown, steps}) {
     for (const std::uint64_t value : {3ULL, 1ULL << 33, 1ULL << 62, ~0ULL, ~1ULL}) {  // −2, 2³², 2⁶¹, −2⁶³, 2⁶³ − 1
       std::vector<std::uint64_t> bad = good;
       bad[place] = value;
       if (place == step && (value == 1ULL << 33 || value == 1ULL << 62)) continue;  // the manifest knows better
-      EXPECT_NE(refusal(test::motion_bytes(bad)), "") << place << ": " << value;
+      EXPECT_NE(motion_refusal(test::motion_bytes(bad)), "") << place << ": " << value;
     }
   }
 }
@@ -182,18 +183,18 @@ TEST(MotionFile, RefusesNumbersOfNothing) {
 TEST(MotionFile, UnpacksNoMoreThanItMay) {
   const std::string bytes = pack_motion({window(0, 0, 12, 3)}, quantum);
   const std::uint64_t words = most_motion_words(1, 12, 3);
-  EXPECT_EQ(refusal(bytes, quantum, words), "");
-  EXPECT_EQ(refusal(bytes, quantum, words / 2), "it holds more than belongs to the manifest beside it");
+  EXPECT_EQ(motion_refusal(bytes, quantum, words), "");
+  EXPECT_EQ(motion_refusal(bytes, quantum, words / 2), "it holds more than belongs to the manifest beside it");
 }
 
 TEST(MotionFile, RefusesEveryDamage) {
   const std::string good = pack_motion({window(0, 0, 12, 3)}, quantum);
-  EXPECT_NE(refusal(""), "");
-  EXPECT_NE(refusal("drape motion 1\n99999999999999\n"), "");
-  EXPECT_EQ(refusal(good + "x"), "it is damaged");
+  EXPECT_NE(motion_refusal(""), "");
+  EXPECT_NE(motion_refusal("drape motion 1\n99999999999999\n"), "");
+  EXPECT_EQ(motion_refusal(good + "x"), "it is damaged");
   std::size_t refused = 0;
   for (std::size_t i = 0; i < good.size(); ++i) {
-    EXPECT_NE(refusal(good.substr(0, i)), "") << "cut off at " << i;
+    EXPECT_NE(motion_refusal(good.substr(0, i)), "") << "cut off at " << i;
     std::string bad = good;
     bad[i] = static_cast<char>(bad[i] ^ 0x10);
     try {

@@ -86,7 +86,7 @@ TEST(PictureDifference, IsAmplifiedToWhite) {
 }
 
 /// What is wrong with a PNG file; empty if nothing is.
-std::string refusal(std::string_view png, const Eigen::Vector2i& size = {width, height}) {
+std::string png_refusal(std::string_view png, const Eigen::Vector2i& size = {width, height}) {
   try {
     const Image image = decode_png(png, size);
     EXPECT_EQ(image.width, size.x());
@@ -101,16 +101,16 @@ TEST(DecodePng, IsTheInverseOfEncoding) { EXPECT_EQ(decode_png(encode_png(base()
 
 TEST(DecodePng, RefusesWhatIsCutOff) {
   const std::string png = encode_png(base());
-  for (const std::size_t bytes : {0, 7, 8, 23}) EXPECT_EQ(refusal(png.substr(0, bytes)), "is no PNG") << bytes;
-  for (const std::size_t bytes : {24, 33, 60, 500}) EXPECT_EQ(refusal(png.substr(0, bytes)), "is damaged") << bytes;
-  EXPECT_EQ(refusal("GIF89a" + png), "is no PNG");
+  for (const std::size_t bytes : {0, 7, 8, 23}) EXPECT_EQ(png_refusal(png.substr(0, bytes)), "is no PNG") << bytes;
+  for (const std::size_t bytes : {24, 33, 60, 500}) EXPECT_EQ(png_refusal(png.substr(0, bytes)), "is damaged") << bytes;
+  EXPECT_EQ(png_refusal("GIF89a" + png), "is no PNG");
 }
 
 TEST(DecodePng, RefusesAnotherSizeBeforeItUnpacksIt) {
   std::string png = encode_png(base());
-  EXPECT_EQ(refusal(png, {width, height + 1}), "has 100x80 pixels, expected 100x81");
+  EXPECT_EQ(png_refusal(png, {width, height + 1}), "has 100x80 pixels, expected 100x81");
   png.replace(16, 8, "\x7F\xFF\xFF\xFF\x7F\xFF\xFF\xFF");
-  EXPECT_EQ(refusal(png), "has 2147483647x2147483647 pixels, expected 100x80");
+  EXPECT_EQ(png_refusal(png), "has 2147483647x2147483647 pixels, expected 100x80");
 }
 
 TEST(DecodePng, RefusesDamage) {
@@ -118,7 +118,7 @@ TEST(DecodePng, RefusesDamage) {
   for (std::size_t i = 0; i < good.size(); i += 7) {
     std::string png = good;
     png[i] = static_cast<char>(png[i] ^ 0x10);
-    const std::string problem = refusal(png);  // or it is one that does not matter, as in the name of a comment
+    const std::string problem = png_refusal(png);  // or it is one that does not matter, as in the name of a comment
     EXPECT_TRUE(problem.empty() || problem == "is damaged" || problem == "is no PNG" || problem.starts_with("has "))
         << problem;
   }

@@ -19,32 +19,32 @@ namespace drape {
 namespace {
 
 namespace fs = std::filesystem;
-using test::content;
+
 using test::drape;
 
-const std::string scene = test::swinging_scene + "[check]\nframes = [0, 10]\nsize = [64, 48]\n";
+const std::string golden_scene = test::swinging_scene + "[check]\nframes = [0, 10]\nsize = [64, 48]\n";
 
 /// The files of a folder.
 std::map<std::string, std::string> files(const fs::path& folder) {
   std::map<std::string, std::string> all;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) all[fs::relative(entry.path(), folder)] = content(entry.path());
+    if (entry.is_regular_file()) all[fs::relative(entry.path(), folder)] = test::content(entry.path());
   }
   return all;
 }
 
-nlohmann::json report(const test::SceneFolder& folder) {
-  return nlohmann::json::parse(content(folder.path() / "out/check/report.json"));
+nlohmann::json json_of(const test::SceneFolder& folder) {
+  return nlohmann::json::parse(test::content(folder.path() / "out/check/report.json"));
 }
 
 bool is_xml(const fs::path& file) {
   tinyxml2::XMLDocument xml;
-  return xml.Parse(content(file).c_str()) == tinyxml2::XML_SUCCESS;
+  return xml.Parse(test::content(file).c_str()) == tinyxml2::XML_SUCCESS;
 }
 
 TEST(GoldenFaults, EverySceneIsJudgedWhateverIsWrongWithAnotherOne) {
   const test::SceneFolder folder;
-  for (const char* name : {"a", "b", "c"}) folder.write(std::string(name) + ".toml", scene);
+  for (const char* name : {"a", "b", "c"}) folder.write(std::string(name) + ".toml", golden_scene);
   ASSERT_EQ(drape(folder, "bless a.toml b.toml c.toml").code, 0);
   folder.write("a.golden/motion.bin", "nonsense");
   fs::remove(folder.path() / "b.golden/frames/0010.png");
@@ -55,7 +55,7 @@ TEST(GoldenFaults, EverySceneIsJudgedWhateverIsWrongWithAnotherOne) {
     EXPECT_NE(checked.text.find(line), std::string::npos) << checked.text;
   }
   std::vector<std::string> verdicts;
-  const nlohmann::json all = report(folder);
+  const nlohmann::json all = json_of(folder);
   for (const auto& of : all.at("scenes")) verdicts.push_back(of.at("verdict"));
   EXPECT_EQ(verdicts, (std::vector<std::string>{"passed", "error", "error"}));
   EXPECT_TRUE(is_xml(folder.path() / "out/check/junit.xml"));
@@ -64,7 +64,7 @@ TEST(GoldenFaults, EverySceneIsJudgedWhateverIsWrongWithAnotherOne) {
 
 TEST(GoldenFaults, WhatIsNoGoldenIsNeitherReplacedNorChecked) {
   const test::SceneFolder folder;
-  folder.write("swing.toml", scene);
+  folder.write("swing.toml", golden_scene);
   folder.write("swing.golden/letter.txt", "a letter");
   for (const char* command : {"bless swing.toml", "check swing.toml", "check swing.toml --update changed",
                               "check swing.toml --update all", "check swing.toml --update none"}) {
@@ -77,20 +77,20 @@ TEST(GoldenFaults, WhatIsNoGoldenIsNeitherReplacedNorChecked) {
 
 TEST(GoldenFaults, NothingIsRecordedIfOneOfTheGoldensCannotBe) {
   const test::SceneFolder folder;
-  for (const char* name : {"a", "b"}) folder.write(std::string(name) + ".toml", scene);
+  for (const char* name : {"a", "b"}) folder.write(std::string(name) + ".toml", golden_scene);
   folder.write("b.golden", "a letter");
   const auto finished = drape(folder, "bless a.toml b.toml");
   EXPECT_EQ(finished.code, 2) << finished.text;
   EXPECT_NE(finished.text.find("b.golden: is a file"), std::string::npos) << finished.text;
   EXPECT_FALSE(fs::exists(folder.path() / "a.golden"));
-  EXPECT_EQ(content(folder.path() / "b.golden"), "a letter");
+  EXPECT_EQ(test::content(folder.path() / "b.golden"), "a letter");
 }
 
 TEST(GoldenFaults, Kill9LeavesOneGoldenOrTheOther) {
   test::Random random(static_cast<std::uint64_t>(getpid()));
   const test::SceneFolder folder;
   const fs::path golden = folder.path() / "swing.golden";
-  folder.write("swing.toml", scene);
+  folder.write("swing.toml", golden_scene);
   ASSERT_EQ(drape(folder, "bless swing.toml").code, 0);
   fs::copy(golden, folder.path() / "first", fs::copy_options::recursive);
   const auto first = files(golden);
@@ -115,14 +115,14 @@ TEST(GoldenFaults, Kill9LeavesOneGoldenOrTheOther) {
 
 TEST(GoldenFaults, AMotionThatGoesTooFarIsRefused) {
   const test::SceneFolder folder;
-  folder.write("swing.toml", scene);
+  folder.write("swing.toml", golden_scene);
   for (const char* command : {"check swing.toml --set cloth.transform.translate=[1e12,0,0]",
                               "check swing.toml --update all --set cloth.transform.translate=[1e12,0,0]"}) {
     const auto finished = drape(folder, command);
     EXPECT_EQ(finished.code, 2) << finished.text;
     EXPECT_NE(finished.text.find("swing.golden: the motion goes too far from the origin"), std::string::npos)
         << finished.text;
-    EXPECT_EQ(report(folder).at("scenes")[0].at("verdict"), "error");
+    EXPECT_EQ(json_of(folder).at("scenes")[0].at("verdict"), "error");
     EXPECT_FALSE(fs::exists(folder.path() / "swing.golden"));
   }
 }
@@ -135,7 +135,7 @@ TEST(GoldenFaults, ScenesOfAnyNameAreReportedBelowTheReport) {
                                        "b/a-swing.toml", "sw\xE4ng.toml"};
   std::string all;
   for (const std::string& name : names) {
-    folder.write("scenes/" + name, scene);
+    folder.write("scenes/" + name, golden_scene);
     all += " 'scenes/" + name + "'";
   }
   ASSERT_EQ(drape(folder, "bless" + all).code, 0);
@@ -147,7 +147,7 @@ TEST(GoldenFaults, ScenesOfAnyNameAreReportedBelowTheReport) {
   EXPECT_EQ(std::distance(fs::directory_iterator(out), {}), 1);
   EXPECT_TRUE(is_xml(out / "check/junit.xml"));
   std::set<std::string> reported;
-  const nlohmann::json found = report(folder);
+  const nlohmann::json found = json_of(folder);
   for (const auto& of : found.at("scenes")) {
     const std::string name = of.at("name");
     EXPECT_TRUE(reported.insert(name).second) << name;
@@ -160,7 +160,7 @@ TEST(GoldenFaults, ScenesOfAnyNameAreReportedBelowTheReport) {
 
 TEST(GoldenFaults, AReportGoesIntoAFolderOfAnyName) {
   const test::SceneFolder folder;
-  folder.write("swing.toml", scene);
+  folder.write("swing.toml", golden_scene);
   ASSERT_EQ(drape(folder, "bless swing.toml").code, 0);
   for (const char* name : {"{x}", "a{scene}", "{frame}"}) {
     const auto finished = drape(folder, std::string("check swing.toml --set look.color=red --report '") + name + "'");
@@ -173,17 +173,17 @@ TEST(GoldenFaults, AReportGoesIntoAFolderOfAnyName) {
 TEST(GoldenFaults, AVerdictThatCannotBePrintedIsAnError) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   const test::SceneFolder folder;
-  folder.write("swing.toml", scene);
+  folder.write("swing.toml", golden_scene);
   ASSERT_EQ(drape(folder, "bless swing.toml").code, 0);
   const auto finished = drape(folder, "check swing.toml 2>err >/dev/full; exit $? #");
   EXPECT_EQ(finished.code, 4);
-  EXPECT_NE(content(folder.path() / "err").find("standard output"), std::string::npos);
-  EXPECT_EQ(report(folder).at("passed"), true);  // the report is there all the same
+  EXPECT_NE(test::content(folder.path() / "err").find("standard output"), std::string::npos);
+  EXPECT_EQ(json_of(folder).at("passed"), true);  // the report is there all the same
 }
 
 TEST(GoldenFaults, AReportThatCannotBeWrittenIsSaidBeforeAnythingIsComputed) {
   const test::SceneFolder folder;
-  folder.write("swing.toml", scene);
+  folder.write("swing.toml", golden_scene);
   folder.write("out/check", "a file where the folder should be");
   const auto finished = drape(folder, "check swing.toml");
   EXPECT_EQ(finished.code, 4) << finished.text;
@@ -193,7 +193,7 @@ TEST(GoldenFaults, AReportThatCannotBeWrittenIsSaidBeforeAnythingIsComputed) {
 
 TEST(GoldenFaults, ThreadsAreANumber) {
   const test::SceneFolder folder;
-  folder.write("swing.toml", scene);
+  folder.write("swing.toml", golden_scene);
   for (const char* number : {"-1", "0", "1.5", "18446744073709551615", "many"}) {
     const auto finished = drape(folder, std::string("check swing.toml --threads ") + number);
     EXPECT_EQ(finished.code, 2) << finished.text;
