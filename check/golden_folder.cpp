@@ -150,7 +150,7 @@ std::uintmax_t write_files(const fs::path& folder, const Golden& golden, const s
 }
 
 /// Hidden, beside a folder, and of this process alone.
-fs::path partial_name(const fs::path& folder) {
+fs::path partial_folder(const fs::path& folder) {
   constexpr std::size_t longest = 200;  // a name has at most 255 bytes
   return folder.parent_path() /
          fmt::format(".{}.partial-{}", folder.filename().string().substr(0, longest), ::getpid());
@@ -179,7 +179,7 @@ std::uintmax_t write_golden(const fs::path& folder, const Golden& golden, const 
   std::error_code error;
   const bool exists = fs::exists(folder);
   const fs::path target = exists ? fs::canonical(folder) : folder;
-  const fs::path partial = partial_name(target);
+  const fs::path partial = partial_folder(target);
   fs::remove_all(partial, error);  // of a process that was killed and had the same number
   try {
     fs::create_directories(partial / "frames");

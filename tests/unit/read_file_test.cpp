@@ -60,14 +60,14 @@ TEST_F(ReadFile, ReadsAPipeToItsEndOrItsLimit) {
   const auto read_with_writer = [&](std::size_t limit) {
     std::string read;
     std::thread writer([&] {
-      const int descriptor = open(pipe.c_str(), O_WRONLY);
+      const int descriptor = ::open(pipe.c_str(), O_WRONLY);
       const std::size_t size = std::min(bytes.size(), limit + 1);
       for (std::size_t done = 0; done < size;) {
-        const ssize_t written = write(descriptor, bytes.data() + done, size - done);
+        const ssize_t written = ::write(descriptor, bytes.data() + done, size - done);
         if (written <= 0) break;
         done += static_cast<std::size_t>(written);
       }
-      close(descriptor);
+      ::close(descriptor);
     });
     const std::string message = usage_error([&] { read = read_file(pipe, limit); });
     writer.join();
