@@ -293,7 +293,7 @@ TEST_F(GoldenFolder, SaysWhichFileIsNone) {
     fs::remove(file);
     std::ofstream(file).close();
     fs::resize_file(file, std::uintmax_t{1} << 40);
-    EXPECT_NE(message().find(file.string() + ": has 1099511627776 bytes"), std::string::npos) << message();
+    EXPECT_NE(message().find(file.string() + ": the file is too large"), std::string::npos) << message();
   }
 }
 
