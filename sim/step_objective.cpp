@@ -43,6 +43,14 @@ double StepObjective::evaluate(const Vertices& x, Vertices& gradient) const {
   return value;
 }
 
+double StepObjective::inertial_value(const Vertices& x) const {
+  double twice = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    twice += (free_inertia_.array() * (x.col(axis) - y_.col(axis)).array().square()).sum();
+  }
+  return twice / 2;
+}
+
 double StepObjective::rounding(double value) const {
   constexpr double units = 4;  // roundings on the way to each term
   return units * std::numeric_limits<double>::epsilon() * (value + std::sqrt(2 * value * scale_));

@@ -24,6 +24,9 @@ class StepObjective {
   /// Computes gradient = ∇g(x), n×3 and zero on pins [N], and returns g(x) [J], in one pass.
   double evaluate(const Vertices& x, Vertices& gradient) const;
 
+  /// The part of g(x) that is inertia's, 1/(2h²) ‖x − y‖²_M [J].
+  [[nodiscard]] double inertial_value(const Vertices& x) const;
+
   /// The error that rounding can be expected to make where g has this value [J]. A length L is known to ε·L, which
   /// changes the energy of a spring by k·|‖d‖ − L|·ε·L; the sum of these is at most ε √(2g) √(Σ k L²), and so for
   /// inertia.

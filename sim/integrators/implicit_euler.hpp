@@ -10,10 +10,16 @@ namespace drape {
 ///
 /// Where an iteration stops ∇g is not quite zero, and with Δx = x' − x and v' = Δx/h the energy of a step changes by
 ///   ΔK + ΔE = W − ½‖v' − v‖²_M − B + ∇g·Δx,   B = E(x) − E(x') − ∇E(x')·(x − x'),
-/// W the work of the forces (∇g written out, times Δx). Only the last term comes from stopping early. While it makes
-/// the energy grow by more than three hundredths, small changes do not end a step; and at the cap it goes back towards
-/// x until nothing is gained. So a method that is far from its minimum, as liu13 is with very stiff springs, loses
-/// energy and gains none. A step that stops at a gradient keeps that promise and no other.
+/// W the work of the forces (∇g written out, times Δx). That is positive where a step stops early (∇g·Δx) and may be
+/// where springs end compressed, so that E is concave (B < 0). Such a step is not over, however small the changes have
+/// become; and at the cap it goes back towards x until nothing is gained. So a method that is far from its minimum, as
+/// liu13 is with very stiff springs, or has found one of a crumpled cloth, loses energy and gains none.
+///
+/// One gain is tolerated where the tolerance is met, since the homework's tolerances stop there: a tenth of the most
+/// that the forces can do in a step, ‖h M⁻¹f‖_M ‖v'‖_M, provided that the step loses as much otherwise, ½‖v' − v‖²_M,
+/// or that the forces take as much, −W. In proportion to speed it is what a tenth of the forces' size would give if it
+/// pushed along the way; it has no share in what the cloth has, so it cannot compound. Who stops at a gradient
+/// is given what that can do, tolerance·‖Δx‖.
 ///
 /// A cloth that nothing holds has Σ∇g = Σ m(x' − y)/h², since what it solves for pulls with opposite forces. Every
 /// exact solve makes that zero; what the rounding of a factor leaves of it is taken out by a translation, which keeps
@@ -48,11 +54,17 @@ class ImplicitEuler : public Integrator {
 
  private:
   StepReport minimise(const State& state);
-  /// Whether the energy has grown by more than the work and by more than a share of what it is now, because of what is
-  /// left of ∇g.
-  [[nodiscard]] bool gains_energy(const State& state, double share);
-  /// ΔK + ΔE − W of a point [J].
-  [[nodiscard]] double gain(const State& state, const Point& point);
+  /// Notes what the cloth has at the start of a step.
+  void begin_books(const State& state);
+  /// Whether ΔK + ΔE − W at the point is more than rounding explains.
+  /// @param tolerant and more than is tolerated
+  [[nodiscard]] bool gains_energy(const State& state, bool tolerant);
+  /// ΔK + ΔE − W of a point [J], or an upper bound of it as long as start_ is not exact.
+  [[nodiscard]] double gain(const State& state, const Point& point) const;
+  /// The error that rounding can be expected to make in it [J].
+  [[nodiscard]] double gain_rounding() const;
+  /// What a step that meets its tolerance may gain, see above [J].
+  [[nodiscard]] double tolerated_gain(const State& state) const;
   /// Goes back towards where the step started until it has gained no energy; returns the part of the way that is left.
   double shed_energy(const State& state);
   /// Moves the cloth as a whole to where Σ∇g = 0.
@@ -66,8 +78,10 @@ class ImplicitEuler : public Integrator {
   int max_iterations_;
   StepObjective objective_;
   Point point_, trial_;
-  Point start_;               // state.x with its pins where they are when the step ends
-  bool start_known_ = false;  // whether start_ is of this step
+  Point start_;               // state.x with its pins where they are when the step ends, and g there…
+  bool start_exact_ = false;  // …or, where it has not been needed, a lower bound of it
+  double start_kinetic_ = 0;  // ½‖v‖²_M [J]
+  double energy_ = 0;         // E where the last step ended [J]
   bool free_;                 // nothing holds the cloth and nothing it solves for pushes it
 };
 

@@ -18,14 +18,16 @@ class Writer {
  public:
   explicit Writer(std::uint64_t seed) : random_(seed * 7919 + 17), wild_(random_.number() < 0.25 ? 0.12 : 0.0) {
     for (int i = 0; i < 10; ++i) random_.number();  // near seeds begin alike
+    stiff_ = random_.number() < 0.2;
   }
 
   std::string scene() {
-    columns_ = 1 + random_.below(18);
-    rows_ = 1 + random_.below(18);
+    columns_ = 1 + random_.below(stiff_ ? 8 : 18);
+    rows_ = 1 + random_.below(stiff_ ? 8 : 18);
     for (int pin = 0; pin < random_.below(4); ++pin) pins_.push_back(random_.below((columns_ + 1) * (rows_ + 1)));
     cloth();
-    step_ = random_.number() < wild_ ? std::pow(10, random_.between(-8, 2)) : std::pow(10, random_.between(-3.5, -1.5));
+    step_ = random_.number() < wild_ ? std::pow(10, random_.between(-8, 2))
+                                     : std::pow(10, random_.between(-3.5, stiff_ ? 0 : -1.5));
     text_ += fmt::format("[time]\nstep = {}\nduration = {}\n", number(step_), number(step_ * random_.below(51)));
     Scene scene;
     ClothTable cloth_table;
@@ -34,7 +36,8 @@ class Writer {
         add(table, "[" + table.name);
     }
     for (const EffectType& type : effect_types()) {
-      if (random_.number() > 0.3 || (!wild() && type.name == "moving_pins" && pins_.empty())) continue;
+      const double often = !stiff_ ? 0.3 : type.name == "gravity" ? 0.8 : 0.05;
+      if (random_.number() > often || (!wild() && type.name == "moving_pins" && pins_.empty())) continue;
       // Pins can be moved by one table only.
       const int count = type.repeatable && (wild() || type.name != "moving_pins") ? 1 + random_.below(2) : 1;
       for (int i = 0; i < count; ++i) {
@@ -50,10 +53,14 @@ class Writer {
   void cloth() {
     text_ += fmt::format("[cloth]\nmesh = {{ grid = [{}, {}] }}\n", columns_, rows_);
     if (random_.number() < 0.3) text_ += fmt::format("rest = {{ grid = [{}, {}] }}\n", columns_, rows_);
-    text_ += fmt::format("mass = {}\nstiffness = {}\n", positive(1), positive(200));
+    text_ += fmt::format("mass = {}\nstiffness = {}\n", positive(stiff_ ? 0.1 : 1),
+                         positive(stiff_ ? std::pow(10, random_.between(3, 9)) : 200));
     text_ += pins_.empty() ? "" : fmt::format("pins = [{}]\n", fmt::join(pins_, ", "));
-    if (random_.number() < 0.3) text_ += "velocity = " + vector(3) + "\n";
-    if (random_.number() < 0.4) {
+    if (random_.number() < (stiff_ ? 0.6 : 0.3)) text_ += "velocity = " + vector(3) + "\n";
+    if (stiff_) {
+      const double scale = 1 + 0.3 * random_.number();
+      text_ += fmt::format("[cloth.transform]\nscale = [{}, 1, 1]\nrotate = {}\n", number(scale), vector(90));
+    } else if (random_.number() < 0.4) {
       text_ += fmt::format("[cloth.transform]\nscale = {}\nrotate = {}\ntranslate = {}\n", positive(1), vector(90),
                            vector(1));
     }
@@ -175,6 +182,7 @@ class Writer {
   Random random_;
   double wild_;  // the part of the values that are not near their defaults
   int columns_ = 1, rows_ = 1;
+  bool stiff_ = false;  // few vertices, which the springs hold far more than inertia does, stretched and thrown
   std::vector<int> pins_;
   double step_ = 0.01;
   std::string text_;

@@ -1,5 +1,6 @@
-// Random scenes: each ends in "ok", "diverged" with its message, or "scene error" with its line. DRAPE_RANDOM_SCENES
-// says how many there are, DRAPE_RANDOM_SEED runs one of them alone and prints it.
+// Random scenes: each ends in "ok", "diverged" with its message, or "scene error" with its line, and no step of an
+// implicit method gains energy. DRAPE_RANDOM_SCENES says how many there are, DRAPE_RANDOM_SEED runs one of them alone
+// and prints it.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,8 +11,11 @@
 #include <sstream>
 
 #include "run/run_scene.hpp"
+#include "sim/simulation.hpp"
+#include "sim/stability.hpp"
 #include "tests/random/random_scene.hpp"
 #include "tests/support/scene_folder.hpp"
+#include "tests/support/step_ledger.hpp"
 
 namespace drape::test {
 namespace {
@@ -41,6 +45,24 @@ void expect_places(const std::string& message) {
   }
 }
 
+/// Keeps books of an implicit motion, if nothing moves the cloth but what forces and energies do.
+void expect_no_energy_out_of_nothing(const Scene& scene) {
+  const SimulationSettings& settings = scene.simulation;
+  if (settings.integrator.method == Method::semi_implicit) return;
+  const System system = make_system(settings);
+  if (!system.filters.empty() || !system.pin_motions.empty() || !system.pin_releases.empty()) return;
+  if (condition_bound(system) > largest_condition) return;  // run all the same, and rounding
+  const StepLedger ledger(settings);
+  Simulation simulation(settings);
+  for (std::int64_t step = 0; step < scene.step_count(); ++step) {
+    const State before = simulation.state();
+    const bool converged = simulation.step().converged;
+    const StepBalance b = ledger.balance(before, simulation.state());
+    ASSERT_LE(b.gain(), (converged ? b.tolerated : 0) + b.gain_rounding())
+        << "step " << step << (converged ? "" : ", which did not converge");
+  }
+}
+
 std::string outcome(const test::SceneFolder& folder, const std::string& text) {
   RunOptions options;
   options.records.energies = (folder.path() / "energies.csv").string();
@@ -57,6 +79,7 @@ std::string outcome(const test::SceneFolder& folder, const std::string& text) {
       EXPECT_EQ(result.divergence.find('\n'), std::string::npos) << result.divergence;
     }
     EXPECT_TRUE(std::filesystem::exists(options.records.energies));
+    if (result.outcome != Outcome::diverged) expect_no_energy_out_of_nothing(scene);
   } catch (const UsageError& error) {
     how = "scene error";
     expect_places(error.what());

@@ -9,11 +9,11 @@
 #include "sim/stability.hpp"
 #include "study/stability.hpp"
 #include "tests/stability/hard_cases.hpp"
-#include "tests/stability/step_ledger.hpp"
 #include "tests/stability/traps.hpp"
 #include "tests/support/cloths.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"
+#include "tests/support/step_ledger.hpp"
 #include "tests/support/usage_error.hpp"
 
 namespace drape::test {

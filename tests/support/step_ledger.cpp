@@ -1,5 +1,6 @@
-#include "tests/stability/step_ledger.hpp"
+#include "tests/support/step_ledger.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace drape::test {
@@ -10,6 +11,11 @@ Real squared(const RealVertices& v, const Eigen::Matrix<Real, Eigen::Dynamic, 1>
 }
 
 }  // namespace
+
+Real StepBalance::gain_rounding() const {
+  return energy_rounding + kinetic_rounding +
+         16 * unit * (kinetic_before + kinetic_after + inertial_loss + std::abs(work) + std::abs(imbalance));
+}
 
 StepLedger::StepLedger(const SimulationSettings& settings)
     : settings_(settings), system_(make_system(settings)), masses_(settings.cloth.masses.cast<Real>()) {
@@ -107,7 +113,22 @@ StepBalance StepLedger::balance(const State& before, const State& after) const {
       4 * (new_value.energy_rounding + old_value.energy_rounding + start_value.energy_rounding) +
       8 * unit * (b.start_value + b.end_value + b.energy_before) +
       8 * unit * std::sqrt(squared(reach, masses_) * squared(after.x.cast<Real>() - y, masses_)) / (h * h);
+  b.kinetic_rounding = 8 * unit * std::sqrt(squared(reach, masses_) * squared(change, masses_)) / (h * h);
+  b.tolerated = tolerated(b, f, change);
   return b;
+}
+
+Real StepLedger::tolerated(const StepBalance& b, const RealVertices& force, const RealVertices& change) const {
+  Real way = 0, push = 0;
+  for (Eigen::Index i = 0; i < change.rows(); ++i) {
+    if (masses_[i] == 0) continue;
+    way += change.row(i).squaredNorm();
+    push += force.row(i).squaredNorm() / masses_[i];
+  }
+  const IntegratorSettings& integrator = settings_.integrator;
+  if (integrator.stop == StoppingRule::gradient) return integrator.tolerance * std::sqrt(way);
+  const Real most = settings_.step * std::sqrt(push) * std::sqrt(2 * b.kinetic_after);
+  return std::min(most / 10, std::max(b.inertial_loss, -b.work));
 }
 
 Eigen::Matrix<Real, 1, 3> StepLedger::momentum(const State& state) const {

@@ -28,11 +28,16 @@ struct StepBalance {
   Real imbalance = 0;                          ///< ∇g·Δx [J]
   Real gradient_norm = 0;                      ///< ‖∇g‖ [N]
   Real start_value = 0, end_value = 0;         ///< g(y) and g(x') [J]
-  /// What one rounding of every position changes at most in ‖∇g‖ [N], and in E and g [J].
-  Real gradient_rounding = 0, energy_rounding = 0;
+  /// What the step may gain if it met its tolerance [J]: at a gradient, tolerance·‖Δx‖; at a change, a tenth of
+  /// ‖h M⁻¹f‖_M ‖w‖_M, and no more than the inertial loss or than the forces took, −W_ext.
+  Real tolerated = 0;
+  /// What one rounding of every position changes at most in ‖∇g‖ [N], in E and g, and in K [J].
+  Real gradient_rounding = 0, energy_rounding = 0, kinetic_rounding = 0;
 
   /// ΔK + ΔE − W_ext [J].
   [[nodiscard]] Real gain() const { return kinetic_after - kinetic_before + energy_after - energy_before - work; }
+  /// What rounding can make of it [J].
+  [[nodiscard]] Real gain_rounding() const;
 };
 
 /// Keeps books of the steps of a simulation, from its own knowledge of what acts on the cloth.
@@ -59,6 +64,7 @@ class StepLedger {
   [[nodiscard]] Value value_of(const Vertices& x, double time) const;
   [[nodiscard]] RealVertices force(const State& state) const;
   [[nodiscard]] RealVertices aim(const State& before) const;
+  [[nodiscard]] Real tolerated(const StepBalance& b, const RealVertices& force, const RealVertices& change) const;
 
   const SimulationSettings& settings_;
   System system_;

@@ -1,0 +1,94 @@
+// No energy out of nothing: what the implicit methods promise of a cloth that hangs, at the default tolerance and at
+// the loosest.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "sim/simulation.hpp"
+#include "tests/support/methods.hpp"
+#include "tests/support/setups.hpp"
+#include "tests/support/step_ledger.hpp"
+
+namespace drape::test {
+namespace {
+
+/// What a cloth did that fell from rest and then hung.
+struct Fall {
+  double above_start = 0;   // the most that K + E + gravity's energy was above what it was at first [J]
+  double above_lowest = 0;  // and above what it had already been [J]
+  double work = 0;          // the most that gravity gave [J]
+};
+
+Fall fall(const SimulationSettings& settings, int steps) {
+  Simulation simulation(settings);
+  const auto total = [](const Energies& e) { return e.kinetic + e.elastic + e.gravity; };
+  const Energies start = simulation.energies();
+  Fall result;
+  double lowest = total(start);
+  for (int step = 0; step < steps; ++step) {
+    simulation.step();
+    const Energies now = simulation.energies();
+    lowest = std::min(lowest, total(now));
+    result.above_start = std::max(result.above_start, total(now) - total(start));
+    result.above_lowest = std::max(result.above_lowest, total(now) - lowest);
+    result.work = std::max(result.work, start.gravity - now.gravity);
+  }
+  return result;
+}
+
+/// 1 kg that hangs from two corners.
+SimulationSettings hanging(Solver solver, int cells, double stiffness, double step) {
+  SimulationSettings settings = setup(cloth_of(make_grid(cells, cells), 1, stiffness, {0, cells}), solver, step);
+  settings.effects.push_back(effect("gravity"));
+  return settings;
+}
+
+class HangingCloths : public testing::TestWithParam<NamedMethod> {};
+INSTANTIATE_TEST_SUITE_P(With, HangingCloths, testing::ValuesIn(implicit_methods), method_name);
+
+TEST_P(HangingCloths, NeverHaveMoreEnergyThanTheyHadAndGravityGave) {
+  for (const double stiffness : {1e5, 1e6, 1e7, 1e8}) {
+    for (const double step : {1e-3, 5e-3, 1e-2, 2e-2}) {
+      for (const int cells : {4, 8}) {
+        const Fall fallen =
+            fall(hanging(GetParam(), cells, stiffness, step), std::min(300, static_cast<int>(1.5 / step)));
+        const std::string which = std::to_string(cells) + " cells, " + std::to_string(stiffness) + " N/m, " +
+                                  std::to_string(step) + " s; gravity gave " + std::to_string(fallen.work) + " J";
+        EXPECT_LE(fallen.above_start, 1e-3 * fallen.work) << which;
+        // A step that meets its tolerance may gain a little, but not again and again.
+        EXPECT_LE(fallen.above_lowest, 0.05 * fallen.work) << which;
+      }
+    }
+  }
+}
+
+TEST_P(HangingCloths, GainNothingInTheLongRun) {
+  const Fall fallen = fall(hanging(GetParam(), 4, 1e8, 5e-3), 3000);
+  EXPECT_LE(fallen.above_start, 1e-3 * fallen.work);
+  EXPECT_LE(fallen.above_lowest, 0.05 * fallen.work);
+}
+
+// However early the homework's cloth is told to stop, what a step gains is bounded by the forces in it.
+TEST_P(HangingCloths, AtAnyToleranceGainNoMoreThanIsTolerated) {
+  for (const double tolerance : {1.0, 1e-2}) {
+    SimulationSettings settings = homework(GetParam(), 0.02, 180);
+    settings.integrator.tolerance = tolerance;
+    Simulation simulation(settings);
+    const StepLedger ledger(settings);
+    Real growth = 0, highest = 0;
+    for (int step = 0; step < 150; ++step) {
+      const State before = simulation.state();
+      const bool converged = simulation.step().converged;
+      const StepBalance b = ledger.balance(before, simulation.state());
+      EXPECT_LE(b.gain(), (converged ? b.tolerated : 0) + b.gain_rounding()) << "step " << step << " at " << tolerance;
+      growth += b.gain();
+      highest = std::max(highest, b.kinetic_after + b.energy_after);
+      EXPECT_LE(growth, 1e-9 * highest) << "step " << step << " at " << tolerance;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace drape::test
