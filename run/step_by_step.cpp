@@ -6,6 +6,8 @@
 
 #include <cstdio>
 
+#include "sim/schemes/registry.hpp"
+
 namespace drape {
 namespace {
 
@@ -22,7 +24,7 @@ void StepByStep::after_step(const Simulation& simulation, const StepReport& repo
   const Energies e = simulation.energies();
   fmt::print("step {}: total {:.6g} = kinetic {:.6g} + gravity {:.6g} + elastic {:.6g} J", simulation.state().step,
              e.total(), e.kinetic, e.gravity, e.elastic);
-  if (simulation.settings().integrator.method != Method::semi_implicit) {
+  if (method_type(simulation.settings().integrator.method).iterates) {
     fmt::print(", {} iterations{}", report.iterations, report.converged ? "" : " (not converged)");
   }
   fmt::print(", {:.1f} µs\n", 1e6 * seconds);

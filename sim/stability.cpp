@@ -6,8 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include <fmt/format.h>
-
 namespace drape {
 namespace {
 
@@ -92,25 +90,6 @@ double condition_bound(const System& system) {
   for (const int pin : system.cloth.pins) stiffness[pin] = 0;
   const double h = system.step;
   return 1 + (h * h * stiffness.array() / masses.array()).maxCoeff();
-}
-
-std::optional<std::string> step_problem(double step, double safe_step) {
-  if (step <= safe_step) return std::nullopt;
-  return fmt::format(
-      "{:g} s is too long for semi-implicit Euler: with these springs and masses it is stable up to {:.4g} s; take a "
-      "shorter step or an implicit method, or set [integrator] allow_unstable = true to run it nevertheless",
-      step, safe_step);
-}
-
-std::optional<std::string> stability_problem(const SimulationSettings& settings, const System& system) {
-  if (settings.integrator.method == Method::semi_implicit) return step_problem(settings.step, safe_step(system));
-  const double condition = condition_bound(system);
-  if (condition <= largest_condition) return std::nullopt;
-  return fmt::format(
-      "with a step of {:g} s the springs hold a vertex {:.2g} times as fast as its inertia, and double precision keeps "
-      "{:.0e} apart: beyond that the motion is rounding; take a step of at most {:.2g} s, softer springs or more mass, "
-      "or set [integrator] allow_unstable = true to run it nevertheless",
-      settings.step, condition, largest_condition, settings.step * std::sqrt(largest_condition / condition));
 }
 
 }  // namespace drape

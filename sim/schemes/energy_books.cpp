@@ -1,0 +1,113 @@
+#include "sim/schemes/energy_books.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace drape {
+namespace {
+
+// Of what the forces can do in a step, see EnergyBooks. The homework's loosest tolerance gains up to 0.081 of it and
+// stops after two iterations all the same.
+constexpr double tolerated_share = 0.1;
+constexpr double least_kept = 1e-10;
+
+/// Σ m a·b over the rows of n×3 expressions.
+double inner(const Eigen::VectorXd& m, const auto& a, const auto& b) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) sum += (m.array() * a.col(axis).array() * b.col(axis).array()).sum();
+  return sum;
+}
+
+}  // namespace
+
+Eigen::RowVector3d mean(const Cloth& cloth, const Vertices& v) {
+  return (cloth.masses.transpose() * v) / cloth.masses.sum();
+}
+
+bool is_free(const System& system) { return system.cloth.pins.empty() && system.energies.empty(); }
+
+EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
+    : system_(system),
+      objective_(objective),
+      stop_(settings.stop),
+      tolerance_(settings.tolerance),
+      start_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
+      end_(start_.x),
+      trial_(start_) {}
+
+void EnergyBooks::begin(const State& state) {
+  const double h = system_.step;
+  state_ = &state;
+  start_.x = state.x;
+  system_.place_pins(state, start_.x);
+  start_kinetic_ = 0.5 * h * h * inner(objective_.free_inertia(), state.v, state.v);
+  // Where the last step ended, the energy is known, unless what pushes may have moved. None is below zero.
+  const bool known = system_.energies.empty() && start_.x == end_;
+  start_.value = objective_.inertial_value(start_.x) + (known ? end_energy_ : 0);
+  start_exact_ = false;
+}
+
+bool EnergyBooks::gains(const Point& point, bool tolerant) {
+  const auto too_much = [&] {
+    const double surplus = gain(point) - rounding(point);
+    return surplus > 0 && !(tolerant && surplus <= tolerated(point));
+  };
+  if (!too_much()) return false;
+  if (!start_exact_) start_.value = objective_.evaluate(start_.x, start_.gradient);
+  start_exact_ = true;
+  return too_much();
+}
+
+double EnergyBooks::gain(const Point& point) const {
+  // With g written out: g(x') − g(x) = ΔK + ΔE − W + K − h⁻¹Δx·M v.
+  const double along = system_.step * inner(objective_.free_inertia(), point.x - start_.x, state_->v);
+  return point.value - start_.value - start_kinetic_ + along;
+}
+
+double EnergyBooks::rounding(const Point& point) const {
+  // h⁻¹Δx·M v is at most K and what the inertia holds at either end together.
+  return objective_.rounding(point.value) + objective_.rounding(start_.value) + objective_.rounding(start_kinetic_);
+}
+
+double EnergyBooks::tolerated(const Point& point) const {
+  const double h = system_.step;
+  const Eigen::VectorXd& inertia = objective_.free_inertia();
+  const auto way = point.x - start_.x;
+  if (stop_ == StoppingRule::gradient) return tolerance_ * way.norm();
+  const auto change = way - h * state_->v;                      // h Δv
+  const auto push = objective_.y() - start_.x - h * state_->v;  // h² M⁻¹f
+  const double work = inner(inertia, push, way), lost = 0.5 * inner(inertia, change, change);
+  const double most = std::sqrt(inner(inertia, push, push) * inner(inertia, way, way));
+  return std::min(tolerated_share * most, std::max(lost, -work));
+}
+
+double EnergyBooks::shed(Point& point) {
+  Vertices back = start_.x;
+  if (is_free(system_)) back.rowwise() += mean(system_.cloth, objective_.y()) - mean(system_.cloth, start_.x);
+  const Vertices way = point.x - back;
+  const auto gains_at = [&](double length) {
+    trial_.x = back + length * way;
+    trial_.value = objective_.evaluate(trial_.x, trial_.gradient);
+    return !(gain(trial_) <= 0);
+  };
+  double length = 0.5;
+  while (length > least_kept && gains_at(length)) length /= 2;
+  if (length <= least_kept) length = 0;
+  // As much of the way as may be: the cloth is slow enough already.
+  const double halved = length;
+  for (double more = halved / 2; more > halved / 16; more /= 2) {
+    if (!gains_at(length + more)) length += more;
+  }
+  gains_at(length);
+  std::swap(point, trial_);
+  return length;
+}
+
+void EnergyBooks::end(const Point& point) {
+  end_ = point.x;
+  const double energy = point.value - objective_.inertial_value(point.x);
+  end_energy_ = std::max(0.0, energy - objective_.rounding(point.value));
+}
+
+}  // namespace drape
