@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -11,7 +13,7 @@
 #include "check/compare_motion.hpp"
 #include "check/draw_windows.hpp"
 #include "check/picture.hpp"
-#include "render/encode/encoder.hpp"
+#include "render/encode/gif_encoder.hpp"
 #include "render/montage.hpp"
 
 namespace drape {
@@ -48,8 +50,8 @@ std::vector<Pair> picture_pairs(const std::vector<FrameResult>& frames, int firs
 }
 
 std::vector<Pair> motion_pairs(const Scene& scene, const Golden& golden, const GoldenWindow& window,
-                               GlBackend backend) {
-  DrawWindows drawing(scene, golden.size, golden.view, backend);
+                               const Eigen::Vector2i& size, GlBackend backend) {
+  DrawWindows drawing(scene, size, golden.view, backend);
   const std::vector<Vertices> actual = rerun_window(scene.simulation, window);
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < actual.size(); ++i) {
@@ -88,21 +90,19 @@ std::string difference_animation(const Scene& scene, const Golden& golden, const
     return window.verdict == MotionVerdict::changed && window.last_step > window.first_step;
   });
   const bool moved = changed != shown.windows.end();
-  const std::vector<Pair> pairs =
-      moved ? motion_pairs(scene, golden, windows[static_cast<std::size_t>(changed - shown.windows.begin())], backend)
-            : picture_pairs(shown.frames, *shown.first_bad_frame);
+  const Eigen::Vector2i size(result.size[0], result.size[1]);
+  const auto at = static_cast<std::size_t>(changed - shown.windows.begin());
+  const std::vector<Pair> pairs = moved ? motion_pairs(scene, golden, windows[at], size, backend)
+                                        : picture_pairs(shown.frames, *shown.first_bad_frame);
   if (pairs.empty()) return {};
 
-  OutputSpec spec;
-  spec.path = (folder / result.name / "difference.gif").string();
-  spec.scene = result.name;
-  spec.fps = moved ? motion_rate : picture_rate;
-  spec.expected_frames = static_cast<int>(pairs.size());
-  const std::unique_ptr<Encoder> encoder = make_encoder(spec);
+  const std::filesystem::path file = folder / result.name / "difference.gif";
+  const std::unique_ptr<Encoder> encoder =
+      std::make_unique<GifEncoder>(file, moved ? motion_rate : picture_rate, std::function<void(int, int)>());
   const double factor = common_amplification(pairs);
   for (const Pair& pair : pairs) encoder->add(side_by_side(pair, factor));
   encoder->finish();
-  std::ifstream stream(spec.path, std::ios::binary);
+  std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 

@@ -11,6 +11,7 @@
 #include "check/animation.hpp"
 #include "check/compare_motion.hpp"
 #include "check/draw_windows.hpp"
+#include "check/golden_folder.hpp"
 #include "check/golden_mismatch.hpp"
 #include "check/machine.hpp"
 #include "check/record_motion.hpp"
@@ -48,22 +49,32 @@ std::vector<GoldenWindow> windows_of(const Golden& golden, const std::vector<int
   return windows;
 }
 
+/// What is known of a scene before its check.
+SceneResult unchecked(const Scene& scene, const std::string& name, const CheckSettings& settings) {
+  SceneResult result;
+  result.name = name;
+  result.file = scene.file;
+  result.golden = golden_folder(scene.file);
+  result.settings = settings;
+  const Eigen::Vector2i size = picture_size(scene, settings);
+  result.size = {size.x(), size.y()};
+  return result;
+}
+
 /// One check of one scene, from its golden to its verdict.
 class SceneCheck {
  public:
   SceneCheck(const Scene& scene, const std::string& name, const CheckSettings& settings, const CheckOptions& options,
              const std::stop_token& stop, Progress& progress)
-      : scene_(scene), settings_(settings), options_(options), stop_(stop), progress_(progress) {
-    result_.name = name;
-    result_.file = scene.file;
-    result_.golden = golden_folder(scene.file);
-    result_.settings = settings;
-    const Eigen::Vector2i size = picture_size(scene, settings);
-    result_.size = {size.x(), size.y()};
-  }
+      : scene_(scene),
+        settings_(settings),
+        options_(options),
+        stop_(stop),
+        progress_(progress),
+        result_(unchecked(scene, name, settings)) {}
 
   SceneResult run() {
-    if (!fs::exists(result_.golden / "manifest.json")) {
+    if (!has_golden(result_.golden)) {
       miss();
     } else if (options_.update == UpdateMode::all) {
       update("recorded anew");
@@ -187,7 +198,7 @@ class SceneCheck {
     const auto recorded = record_motion(scene_, settings_, plan, stop_, progress_);
     if (!recorded) return;
     Comparison& whole = result_.end_to_end.emplace();
-    whole.windows = compare_starts(windows_, recorded->windows, settings_.motion_tolerance);
+    whole.windows = compare_starts(windows_, recorded->windows, golden_.step, settings_.motion_tolerance);
     for (const WindowResult& window : whole.windows) whole.motion = std::max(whole.motion, window.verdict);
     if (whole.motion == MotionVerdict::changed) {
       result_.findings.push_back("end to end, " + describe_motion(whole.windows));
@@ -239,7 +250,7 @@ class SceneCheck {
       result_.findings.push_back("the motion did not change");
     }
     if (changed && result_.scene_changed) {
-      result_.findings.push_back("the scene says something else than when the golden was recorded");
+      result_.findings.push_back("the scene file has changed since the golden was recorded");
     }
     if (changed && !options_.artefacts.empty() && !stop_.stop_requested()) {
       result_.animation =
@@ -261,6 +272,7 @@ class SceneCheck {
 
 std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
                                     const std::stop_token& stop, Progress& progress) {
+  has_golden(golden_folder(scene.file));  // or it throws
   std::optional<Golden> golden = record_motion(scene, settings, plan_windows(scene, settings), stop, progress);
   if (!golden) return std::nullopt;
   DrawWindows drawing(scene, golden->size, golden->view, backend);
@@ -278,6 +290,15 @@ SceneResult check_scene(const Scene& scene, const std::string& name, const Check
   const auto begin = std::chrono::steady_clock::now();
   SceneResult result = SceneCheck(scene, name, settings, options, stop, progress).run();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+SceneResult unjudged_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
+                           const Error& error) {
+  SceneResult result = unchecked(scene, name, settings);
+  result.verdict = SceneVerdict::error;
+  result.error = error.code();
+  result.findings.emplace_back(error.what());
   return result;
 }
 

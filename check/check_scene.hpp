@@ -7,6 +7,7 @@
 
 #include "check/golden.hpp"
 #include "check/report.hpp"
+#include "core/error.hpp"
 #include "render/backend.hpp"
 #include "run/progress.hpp"
 #include "scene/scene.hpp"
@@ -27,7 +28,7 @@ struct CheckOptions {
   GlBackend backend = GlBackend::automatic;
   bool end_to_end = false;  ///< run the whole motion and draw it as well
   UpdateMode update = UpdateMode::missing;
-  std::size_t threads = 0;          ///< that compute windows; 0: as many as the processor has
+  std::size_t threads = 0;               ///< that compute windows; 0: as many as the processor has
   std::filesystem::path artefacts = {};  ///< folder for the animation of a failed scene; empty: it is not made
 };
 
@@ -41,14 +42,19 @@ struct Blessing {
 /// Records a scene's golden in the place of an older one.
 /// @param settings  Scene::check with what the command line says
 /// @returns nothing if it was stopped; then nothing has been written
+/// @throws UsageError before anything is computed if something else stands in that place, see has_golden()
 /// @throws DivergedError, UsageError, OutputError
 std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
                                     const std::stop_token& stop, Progress& progress);
 
 /// Compares a scene with its golden.
 /// @param name of the scene in the report
-/// @throws UsageError if the golden is damaged or has no such frames; OutputError
+/// @throws UsageError if the golden is damaged or has no such frames; DivergedError, OutputError
 SceneResult check_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
                         const CheckOptions& options, const std::stop_token& stop, Progress& progress);
+
+/// The result of a scene that check_scene() throws for.
+SceneResult unjudged_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
+                           const Error& error);
 
 }  // namespace drape

@@ -1,37 +1,31 @@
 #include "check/draw_windows.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <stdexcept>
 
+#include "check/golden_file.hpp"
 #include "check/picture.hpp"
-#include "core/error.hpp"
 #include "render/encode/png_encoder.hpp"
 
 namespace drape {
 namespace {
-
-std::string png_bytes(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::int64_t picture_count(const std::vector<GoldenWindow>& windows) {
   return std::count_if(windows.begin(), windows.end(), [](const GoldenWindow& w) { return w.frame.has_value(); });
 }
 
 FrameResult compare_frame(const std::filesystem::path& golden_file, const Image& actual, const PictureLimits& limits) {
-  const Image expected = read_png(golden_file);
-  if (expected.width != actual.width || expected.height != actual.height) {
-    throw UsageError(fmt::format("{}: has {}x{} pixels, expected {}x{}; restore it, or record it anew with drape bless",
-                                 golden_file.string(), expected.width, expected.height, actual.width, actual.height));
+  const Eigen::Vector2i size(actual.width, actual.height);
+  FrameResult result;
+  result.expected = read_golden_file(golden_file, most_png_bytes(size));
+  Image expected;
+  try {
+    expected = decode_png(result.expected, size);
+  } catch (const std::invalid_argument& error) {
+    fail_to_read(golden_file, error.what());
   }
   const PictureComparison comparison = compare_pictures(expected, actual, limits);
-  FrameResult result;
   result.difference = comparison.difference;
-  result.expected = png_bytes(golden_file);
   if (result.difference.verdict == PictureVerdict::exact) return result;
   result.actual = encode_png(actual);
   result.amplified = encode_png(amplified_difference(expected, actual, amplification(result.difference)));

@@ -32,6 +32,9 @@ struct GoldenWindow {
   [[nodiscard]] const Vertices& picture_positions() const { return shown ? *shown : start.x; }
 };
 
+/// The finest rounding of positions, where the bits are to be the same [m].
+constexpr double least_quantum = 1e-10;
+
 /// Everything that a scene is compared with.
 struct Golden {
   std::string scene_digest;  ///< Scene::digest
@@ -42,7 +45,7 @@ struct Golden {
   std::int64_t step_count = 0;  ///< of the whole motion
   int vertex_count = 0;
   double seconds_per_frame = 0;       ///< of the scene's time
-  double quantum = 1e-7;              ///< of GoldenStep::x [m]
+  double quantum = 1e-7;              ///< of GoldenStep::x, at least least_quantum [m]
   Camera camera;                      ///< what the scene said
   View view;                          ///< and where it stood: the whole motion need not be run to know
   View window_view;                   ///< where it would stand if the windows' starts were the whole motion
@@ -61,15 +64,9 @@ std::filesystem::path golden_folder(const std::filesystem::path& scene_file);
 /// The golden picture of a frame in such a folder: frames/0040.png.
 std::filesystem::path golden_picture(const std::filesystem::path& folder, int frame);
 
-/// Reads manifest.json and motion.bin.
+/// Reads manifest.json and motion.bin, of which nothing is trusted: what comes back is finite, complete, and
+/// consistent.
 /// @throws UsageError naming the file if one is missing, damaged, or of a newer version of drape
 Golden read_golden(const std::filesystem::path& folder);
-
-/// Writes a whole golden in the place of an older one: the new folder is complete before the old one goes.
-/// @param pictures one for each window with a frame, in their order
-/// @returns its size [bytes]
-/// @throws OutputError
-std::uintmax_t write_golden(const std::filesystem::path& folder, const Golden& golden,
-                            const std::vector<Png>& pictures);
 
 }  // namespace drape

@@ -1,6 +1,7 @@
 #include "check/html_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -15,9 +16,7 @@ namespace {
 
 using html::Markup;
 
-bool failed(const SceneResult& scene) {
-  return scene.verdict == SceneVerdict::changed || scene.verdict == SceneVerdict::missing;
-}
+bool failed(const SceneResult& scene) { return tone_of(scene.verdict) == html::Tone::bad; }
 
 /// Failed scenes first, those that were recorded anew next, and otherwise in the order of the command line.
 std::vector<const SceneResult*> by_importance(const CheckReport& report) {
@@ -25,37 +24,44 @@ std::vector<const SceneResult*> by_importance(const CheckReport& report) {
   for (const SceneResult& scene : report.scenes) scenes.push_back(&scene);
   const auto rank = [](const SceneResult& scene) {
     switch (scene.verdict) {
-      case SceneVerdict::changed:
+      case SceneVerdict::error:
         return 0;
-      case SceneVerdict::missing:
+      case SceneVerdict::changed:
         return 1;
-      case SceneVerdict::updated:
+      case SceneVerdict::missing:
         return 2;
-      case SceneVerdict::passed:
+      case SceneVerdict::updated:
         return 3;
+      case SceneVerdict::passed:
+        return 4;
     }
-    return 3;
+    return 4;
   };
   std::stable_sort(scenes.begin(), scenes.end(),
                    [&](const SceneResult* a, const SceneResult* b) { return rank(*a) < rank(*b); });
   return scenes;
 }
 
-/// The outcome in one sentence: "2 of 5 scenes changed and 1 has no golden".
+/// The outcome in one sentence: "2 of 5 scenes changed, 1 had no golden".
 std::string headline(const CheckReport& report) {
   const auto count = [&](SceneVerdict verdict) {
     return std::count_if(report.scenes.begin(), report.scenes.end(),
                          [&](const SceneResult& scene) { return scene.verdict == verdict; });
   };
   const std::size_t all = report.scenes.size();
-  const auto changed = count(SceneVerdict::changed), missing = count(SceneVerdict::missing);
   const std::string scenes = all == 1 ? "scene" : "scenes";
-  if (changed > 0 && missing > 0) {
-    return fmt::format("{} of {} {} changed, {} had no golden", changed, all, scenes, missing);
-  }
-  if (changed > 0) return all == 1 ? "The scene changed" : fmt::format("{} of {} scenes changed", changed, all);
-  if (missing > 0)
-    return all == 1 ? "The scene had no golden" : fmt::format("{} of {} scenes had no golden", missing, all);
+  std::vector<std::string> problems;
+  const auto tell = [&](SceneVerdict verdict, const char* what) {
+    const auto number = count(verdict);
+    if (number == 0) return;
+    problems.push_back(all == 1           ? fmt::format("The scene {}", what)
+                       : problems.empty() ? fmt::format("{} of {} scenes {}", number, all, what)
+                                          : fmt::format("{} {}", number, what));
+  };
+  tell(SceneVerdict::changed, "changed");
+  tell(SceneVerdict::missing, "had no golden");
+  tell(SceneVerdict::error, "could not be judged");
+  if (!problems.empty()) return fmt::format("{}", fmt::join(problems, ", "));
   if (const auto updated = count(SceneVerdict::updated); updated > 0) {
     return fmt::format("{} of {} {} recorded anew", updated, all, scenes);
   }

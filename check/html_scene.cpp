@@ -61,7 +61,7 @@ Markup motion_chart(const SceneResult& scene, const Comparison& comparison) {
     }
     series.points.push_back({NAN, NAN, {}, {}});  // every window starts anew from a golden state
   }
-  html::Chart chart{"How far the vertex that is furthest off is from its golden place, at every step.",
+  html::Chart chart{"Largest vertex deviation from the golden motion, per step",
                     "step",
                     "deviation [m]",
                     html::Scale::linear,
@@ -159,6 +159,7 @@ Tone tone_of(SceneVerdict verdict) {
       return Tone::good;
     case SceneVerdict::changed:
     case SceneVerdict::missing:
+    case SceneVerdict::error:
       return Tone::bad;
     case SceneVerdict::updated:
       return Tone::caution;

@@ -99,7 +99,8 @@ std::string json_report(const CheckReport& report) {
                   {"seconds", report.seconds},
                   {"machine", to_json(report.machine)},
                   {"scenes", std::move(scenes)}};
-  return json.dump(2) + "\n";
+  // The name of a file need not be UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void write_frame_files(const CheckReport& report, const std::filesystem::path& folder) {

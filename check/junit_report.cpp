@@ -1,12 +1,14 @@
 #include "check/junit_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tinyxml2.h>
 
 #include <string>
 #include <vector>
 
 #include "check/compare_motion.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -14,6 +16,8 @@ namespace {
 struct Case {
   const SceneResult* scene;
   std::string name, failure, output;  // failure: its message; empty: passed
+
+  [[nodiscard]] bool is_error() const { return scene->verdict == SceneVerdict::error; }
 };
 
 std::string sentences(const SceneResult& scene) {
@@ -46,6 +50,8 @@ Case picture_case(const SceneResult& scene, const Comparison& comparison, const 
 
 std::vector<Case> cases_of(const SceneResult& scene) {
   if (scene.verdict == SceneVerdict::missing) return {{&scene, "golden", "there is no golden to compare with", {}}};
+  if (scene.verdict == SceneVerdict::error)
+    return {{&scene, "golden", fmt::format("{}", fmt::join(scene.findings, "; ")), {}}};
   if (scene.verdict == SceneVerdict::updated) return {{&scene, "golden", {}, "updated"}};
   std::vector<Case> cases{motion_case(scene, scene.windows, "motion"), picture_case(scene, scene.windows, "pictures")};
   if (scene.end_to_end) {
@@ -57,18 +63,18 @@ std::vector<Case> cases_of(const SceneResult& scene) {
 
 void write(tinyxml2::XMLPrinter& xml, const Case& test) {
   xml.OpenElement("testcase");
-  xml.PushAttribute("classname", test.scene->file.string().c_str());
+  xml.PushAttribute("classname", printable(test.scene->file.string()).c_str());
   xml.PushAttribute("name", test.name.c_str());
   // The scene's time, shared by its cases, is told once: with the first of them.
   xml.PushAttribute(
       "time",
       fmt::format("{:.3f}", test.name == "motion" || test.name == "golden" ? test.scene->seconds : 0.0).c_str());
   if (!test.failure.empty()) {
-    xml.OpenElement("failure");
-    xml.PushAttribute("message", test.failure.c_str());
-    xml.PushText(
-        (sentences(*test.scene) + "rerun: " + test.scene->rerun_command + "\naccept: " + test.scene->bless_command)
-            .c_str());
+    xml.OpenElement(test.is_error() ? "error" : "failure");
+    xml.PushAttribute("message", printable(test.failure).c_str());
+    xml.PushText(printable(sentences(*test.scene) + "rerun: " + test.scene->rerun_command +
+                           "\naccept: " + test.scene->bless_command)
+                     .c_str());
     xml.CloseElement();
   } else if (!test.output.empty()) {
     xml.OpenElement("system-out");
@@ -82,10 +88,10 @@ void write(tinyxml2::XMLPrinter& xml, const Case& test) {
 
 std::string junit_report(const CheckReport& report) {
   std::vector<Case> cases;
-  int failures = 0;
+  int failures = 0, errors = 0;
   for (const SceneResult& scene : report.scenes) {
     for (Case& test : cases_of(scene)) {
-      failures += test.failure.empty() ? 0 : 1;
+      if (!test.failure.empty()) ++(test.is_error() ? errors : failures);
       cases.push_back(std::move(test));
     }
   }
@@ -96,7 +102,7 @@ std::string junit_report(const CheckReport& report) {
   xml.PushAttribute("name", "drape check");
   xml.PushAttribute("tests", static_cast<int>(cases.size()));
   xml.PushAttribute("failures", failures);
-  xml.PushAttribute("errors", 0);
+  xml.PushAttribute("errors", errors);
   xml.PushAttribute("time", fmt::format("{:.3f}", report.seconds).c_str());
   xml.PushAttribute("timestamp", report.date.substr(0, report.date.find('Z')).c_str());
   for (const Case& test : cases) write(xml, test);

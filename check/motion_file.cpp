@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 
 namespace drape {
@@ -20,12 +21,21 @@ std::uint64_t zigzag(std::int64_t n) {
 }
 std::int64_t unzigzag(std::uint64_t n) { return static_cast<std::int64_t>(n >> 1) ^ -static_cast<std::int64_t>(n & 1); }
 
-using Whole = Eigen::Matrix<std::int64_t, Eigen::Dynamic, 3>;
+// Positions in quanta. Differences of them are taken modulo 2⁶⁴, where nothing can overflow and every one can be
+// undone.
+using Whole = Eigen::Matrix<std::uint64_t, Eigen::Dynamic, 3>;
+
+constexpr double most_quanta = 9e18;  // what a signed word holds, and a little less
+
+bool can_be_stored(const Vertices& x, double quantum) { return ((x / quantum).array().abs() < most_quanta).all(); }
 
 Whole rounded(const Vertices& x, double quantum) {
-  const Vertices scaled = x / quantum;
-  if (!(scaled.cwiseAbs().array() < 9e18).all()) throw std::domain_error("a position is too far away to be stored");
-  return scaled.unaryExpr([](double value) { return std::nearbyint(value); }).cast<std::int64_t>();
+  const auto nearest = [](double quanta) { return static_cast<std::uint64_t>(std::llrint(quanta)); };
+  return (x / quantum).unaryExpr(nearest);
+}
+
+Vertices places_of(const Whole& quanta, double quantum) {
+  return quanta.unaryExpr([](std::uint64_t n) { return static_cast<double>(static_cast<std::int64_t>(n)); }) * quantum;
 }
 
 /// Foretells the rounded positions of a step from those of the two before it, as if no force acted.
@@ -33,7 +43,7 @@ class Prediction {
  public:
   Prediction(const State& start, double quantum) : last_(rounded(start.x, quantum)), before_(last_) {}
 
-  [[nodiscard]] Whole next() const { return 2 * last_ - before_; }
+  [[nodiscard]] Whole next() const { return std::uint64_t{2} * last_ - before_; }
   void add(const Whole& actual) {
     before_ = last_;
     last_ = actual;
@@ -52,7 +62,7 @@ class Writer {
     for (Eigen::Index i = 0; i < values.size(); ++i) number(values.data()[i]);
   }
   void wholes(const Whole& values) {
-    for (Eigen::Index i = 0; i < values.size(); ++i) whole(values.data()[i]);
+    for (Eigen::Index i = 0; i < values.size(); ++i) whole(static_cast<std::int64_t>(values.data()[i]));
   }
   [[nodiscard]] const Words& words() const { return words_; }
 
@@ -69,7 +79,16 @@ class Reader {
     return words_[next_++];
   }
   std::int64_t whole() { return unzigzag(bits()); }
-  double number() { return std::bit_cast<double>(bits()); }
+  std::int64_t whole(std::int64_t least, std::int64_t most) {
+    const std::int64_t n = whole();
+    if (n < least || n > most) throw std::invalid_argument("it holds a number that makes no sense");
+    return n;
+  }
+  double number() {
+    const auto value = std::bit_cast<double>(bits());
+    if (!std::isfinite(value)) throw std::invalid_argument("it holds a number that is not finite");
+    return value;
+  }
   /// A number of things that take at least `words` words each.
   std::int64_t count(std::int64_t words) {
     const std::int64_t n = whole();
@@ -83,9 +102,14 @@ class Reader {
     for (Eigen::Index i = 0; i < values.size(); ++i) values.data()[i] = number();
     return values;
   }
+  Vertices places(Eigen::Index vertices, double quantum) {
+    Vertices x = numbers(vertices);
+    if (!can_be_stored(x, quantum)) throw std::invalid_argument("it holds a position that is too far away");
+    return x;
+  }
   Whole wholes(Eigen::Index vertices) {
     Whole values(vertices, 3);
-    for (Eigen::Index i = 0; i < values.size(); ++i) values.data()[i] = whole();
+    for (Eigen::Index i = 0; i < values.size(); ++i) values.data()[i] = static_cast<std::uint64_t>(whole());
     return values;
   }
   [[nodiscard]] bool at_end() const { return next_ == words_.size(); }
@@ -124,12 +148,14 @@ void write_window(Writer& writer, const GoldenWindow& window, double quantum) {
   writer.whole(window.shown ? 1 : 0);
   if (window.shown) writer.numbers(*window.shown);
   writer.whole(static_cast<std::int64_t>(window.steps.size()));
+  if (!can_be_stored(window.start.x, quantum)) throw std::domain_error("a position is too far away to be stored");
   Prediction prediction(window.start, quantum);
   for (const GoldenStep& step : window.steps) {
     writer.bits(step.bits);
     for (const double energy : {step.energies.kinetic, step.energies.gravity, step.energies.elastic}) {
       writer.number(energy);
     }
+    if (!can_be_stored(step.x, quantum)) throw std::domain_error("a position is too far away to be stored");
     const Whole x = rounded(step.x, quantum);
     writer.wholes(x - prediction.next());
     prediction.add(x);
@@ -138,13 +164,14 @@ void write_window(Writer& writer, const GoldenWindow& window, double quantum) {
 
 GoldenWindow read_window(Reader& reader, double quantum) {
   GoldenWindow window;
-  if (const std::int64_t frame = reader.whole(); frame >= 0) window.frame = static_cast<int>(frame);
+  const std::int64_t frame = reader.whole(-1, std::numeric_limits<int>::max());
+  if (frame >= 0) window.frame = static_cast<int>(frame);
   window.time = reader.number();
-  window.start.step = reader.whole();
+  window.start.step = reader.whole(0, std::numeric_limits<std::int64_t>::max() / 2);
   const std::int64_t vertices = reader.count(6);
-  window.start.x = reader.numbers(vertices);
+  window.start.x = reader.places(vertices, quantum);
   window.start.v = reader.numbers(vertices);
-  if (reader.whole() != 0) window.shown = reader.numbers(vertices);
+  if (reader.whole(0, 1) != 0) window.shown = reader.places(vertices, quantum);
   const std::int64_t steps = reader.count(3 * vertices + 4);
   Prediction prediction(window.start, quantum);
   for (std::int64_t i = 0; i < steps; ++i) {
@@ -153,7 +180,8 @@ GoldenWindow read_window(Reader& reader, double quantum) {
     step.energies = {.kinetic = reader.number(), .gravity = reader.number(), .elastic = reader.number()};
     const Whole x = prediction.next() + reader.wholes(vertices);
     prediction.add(x);
-    step.x = x.cast<double>() * quantum;
+    step.x = places_of(x, quantum);
+    if (!can_be_stored(step.x, quantum)) throw std::invalid_argument("it holds a position that is too far away");
   }
   return window;
 }
@@ -176,7 +204,11 @@ std::string pack_motion(const std::vector<GoldenWindow>& windows, double quantum
   return std::string(magic) + std::to_string(planes.size()) + "\n" + packed;
 }
 
-std::vector<GoldenWindow> unpack_motion(std::string_view bytes, double quantum) {
+std::uint64_t most_motion_words(std::uint64_t windows, std::uint64_t vertices, std::uint64_t steps) {
+  return 1 + windows * (6 + 9 * vertices) + steps * (4 + 3 * vertices);
+}
+
+std::vector<GoldenWindow> unpack_motion(std::string_view bytes, double quantum, std::uint64_t most_words) {
   if (!bytes.starts_with(magic)) throw std::invalid_argument("it is no golden motion of this version of drape");
   bytes.remove_prefix(magic.size());
   const std::size_t line = bytes.find('\n');
@@ -189,12 +221,14 @@ std::vector<GoldenWindow> unpack_motion(std::string_view bytes, double quantum) 
   if (line == std::string_view::npos || size % 8 != 0 || size / 1100 > bytes.size()) {
     throw std::invalid_argument("it is cut off");
   }
+  if (size / 8 > most_words) throw std::invalid_argument("it holds more than belongs to the manifest beside it");
   bytes.remove_prefix(line + 1);
   std::string planes(size, '\0');
   uLongf unpacked = size;
-  if (uncompress(reinterpret_cast<Bytef*>(planes.data()), &unpacked, reinterpret_cast<const Bytef*>(bytes.data()),
-                 bytes.size()) != Z_OK ||
-      unpacked != size) {
+  uLong used = bytes.size();
+  if (uncompress2(reinterpret_cast<Bytef*>(planes.data()), &unpacked, reinterpret_cast<const Bytef*>(bytes.data()),
+                  &used) != Z_OK ||
+      unpacked != size || used != bytes.size()) {
     throw std::invalid_argument("it is damaged");
   }
   Reader reader(from_planes(planes));

@@ -9,10 +9,26 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <utility>
 
-#include "core/error.hpp"
+#include "render/encode/quiet.hpp"
 
 namespace drape {
+namespace {
+
+/// What the header of a PNG file says: width and height [pixels], ISO/IEC 15948, 11.2.2.
+std::pair<std::uint32_t, std::uint32_t> png_size(std::string_view bytes) {
+  constexpr std::string_view signature("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+  if (!bytes.starts_with(signature) || bytes.size() < 24) throw std::invalid_argument("is no PNG");
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+    return value;
+  };
+  return {number(16), number(20)};
+}
+
+}  // namespace
 
 PictureComparison compare_pictures(const Image& expected, const Image& actual, const PictureLimits& limits) {
   if (expected.width != actual.width || expected.height != actual.height) {
@@ -59,17 +75,29 @@ double amplification(const PictureDifference& difference) {
   return difference.largest_channel == 0 ? 1 : 255.0 / difference.largest_channel;
 }
 
-Image read_png(const std::filesystem::path& file) {
+Image decode_png(std::string_view bytes, const Eigen::Vector2i& size) {
+  const auto [width, height] = png_size(bytes);
+  if (width != static_cast<std::uint32_t>(size.x()) || height != static_cast<std::uint32_t>(size.y())) {
+    throw std::invalid_argument(fmt::format("has {}x{} pixels, expected {}x{}", width, height, size.x(), size.y()));
+  }
   cv::Mat bgr;
   try {
-    bgr = cv::imread(file.string(), cv::IMREAD_COLOR);
+    const cv::Mat all(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+    const QuietStderr quiet;  // libpng says on its own what it does not like, without the file's name
+    bgr = cv::imdecode(all, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
     // said below
   }
-  if (bgr.empty()) throw UsageError(fmt::format("{}: missing, or no picture", file.string()));
+  if (bgr.cols != size.x() || bgr.rows != size.y()) throw std::invalid_argument("is damaged");
   Image image(bgr.cols, bgr.rows);
   cv::cvtColor(bgr, cv::Mat(bgr.rows, bgr.cols, CV_8UC3, image.pixels.data()), cv::COLOR_BGR2RGB);
   return image;
+}
+
+std::uintmax_t most_png_bytes(const Eigen::Vector2i& size) {
+  // Four channels of 16 bits and a byte for each row, not packed at all, with room for what a program says about
+  // itself.
+  return (std::uintmax_t{1} << 20) + 9 * static_cast<std::uintmax_t>(size.x()) * static_cast<std::uintmax_t>(size.y());
 }
 
 }  // namespace drape

@@ -1,6 +1,8 @@
 #pragma once
 
-#include <filesystem>
+#include <Eigen/Core>
+#include <cstdint>
+#include <string_view>
 
 #include "check/flip.hpp"
 #include "check/report.hpp"
@@ -25,8 +27,12 @@ Image amplified_difference(const Image& expected, const Image& actual, double fa
 /// The factor that makes the largest difference white; 1 if there is none.
 double amplification(const PictureDifference& difference);
 
-/// Reads a picture without transparency.
-/// @throws UsageError naming the file if it is missing or damaged
-Image read_png(const std::filesystem::path& file);
+/// The picture in the bytes of a PNG file, without transparency.
+/// @param size that it has to have [pixels]: nothing larger is unpacked
+/// @throws std::invalid_argument saying what is wrong with the bytes
+Image decode_png(std::string_view bytes, const Eigen::Vector2i& size);
+
+/// How many bytes a PNG file of that size has at most.
+std::uintmax_t most_png_bytes(const Eigen::Vector2i& size);
 
 }  // namespace drape

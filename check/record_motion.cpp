@@ -1,9 +1,12 @@
 #include "check/record_motion.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "run/frame_sampler.hpp"
 #include "run/run_steps.hpp"
 
@@ -100,7 +103,10 @@ std::vector<WindowPlan> plan_windows(const Scene& scene, const CheckSettings& se
   };
   if (frames.front() > 0) add(std::nullopt, 0, 0);
   for (const int frame : frames) {
-    // Throws if the film has no such frame.
+    if (frame > film.frames.last) {
+      throw UsageError(fmt::format("{}: frame {} is to be compared, the film ends with frame {}", scene.file.string(),
+                                   frame, film.frames.last));
+    }
     const FilmExtent extent(scene.video, film.step, film.steps, FrameRange{frame, frame});
     add(frame, extent.time(frame), step_of(extent, frame));
   }
@@ -131,7 +137,7 @@ std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& set
   const FilmExtent film = whole_film(scene);
   golden.seconds_per_frame = film.seconds_per_frame;
   // A tenth of what is tolerated, so that the rounding decides nothing.
-  golden.quantum = std::max(0.1 * settings.motion_tolerance, 1e-10);
+  golden.quantum = std::max(0.1 * settings.motion_tolerance, least_quantum);
 
   Framing framing(scene.camera, aspect(golden.size));
   FrameSampler sampler(film, [&](const Frame& frame) {

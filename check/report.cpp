@@ -6,10 +6,28 @@
 
 namespace drape {
 
-bool CheckReport::passed() const {
-  return std::all_of(scenes.begin(), scenes.end(), [](const SceneResult& scene) {
-    return scene.verdict == SceneVerdict::passed || scene.verdict == SceneVerdict::updated;
-  });
+namespace {
+
+ExitCode exit_code_of(const SceneResult& scene) {
+  switch (scene.verdict) {
+    case SceneVerdict::passed:
+    case SceneVerdict::updated:
+      return ExitCode::ok;
+    case SceneVerdict::changed:
+    case SceneVerdict::missing:
+      return ExitCode::differs;
+    case SceneVerdict::error:
+      return scene.error;
+  }
+  return scene.error;
+}
+
+}  // namespace
+
+ExitCode CheckReport::exit_code() const {
+  ExitCode worst = ExitCode::ok;
+  for (const SceneResult& scene : scenes) worst = std::max(worst, exit_code_of(scene));
+  return worst;
 }
 
 const char* verdict_name(MotionVerdict verdict) {
@@ -46,6 +64,8 @@ const char* verdict_name(SceneVerdict verdict) {
       return "missing";
     case SceneVerdict::updated:
       return "updated";
+    case SceneVerdict::error:
+      return "error";
   }
   return "";
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "scene/check_settings.hpp"
 
 // What a check found, as plain data: the terminal's lines, the JSON, the JUnit XML and the HTML page are all made from
@@ -29,7 +30,8 @@ enum class SceneVerdict {
   passed,
   changed,  ///< the motion or a picture changed
   missing,  ///< there was no golden to compare with; it is there now unless the check was not to write one
-  updated   ///< the golden was recorded anew because the check was told to
+  updated,  ///< the golden was recorded anew because the check was told to
+  error     ///< it could not be judged: the golden is damaged, the motion diverged, the picture cannot be drawn, …
 };
 
 /// The bytes of a PNG file; empty: there is no such picture.
@@ -103,12 +105,13 @@ struct SceneResult {
   std::filesystem::path file;    ///< the scene's
   std::filesystem::path golden;  ///< the golden's folder
   SceneVerdict verdict = SceneVerdict::passed;
+  ExitCode error = ExitCode::ok;      ///< of the verdict "error": what is wrong
   std::vector<std::string> findings;  ///< sentences, most important first: "the motion changed at step 37 by up to …"
   Comparison windows;                 ///< the motion in windows from golden states, and the pictures of those states
   std::optional<Comparison> end_to_end;  ///< the whole motion run again and drawn, if that was asked for
 
   CheckSettings settings;      ///< with what the command line says
-  bool scene_changed = false;  ///< the scene says something else than when it was recorded
+  bool scene_changed = false;  ///< the scene file has changed since it was recorded
   std::string recorded_at;     ///< "2026-01-31T12:00:00Z"; empty without a golden
   Machine recorded_on;
   std::string renderer;       ///< what drew the pictures now
@@ -127,15 +130,17 @@ struct CheckReport {
   std::vector<SceneResult> scenes;  ///< in the order of the command line
   double seconds = 0;
 
-  /// Whether nothing changed and nothing was missing.
-  [[nodiscard]] bool passed() const;
+  /// Whether nothing changed, nothing was missing, and everything could be judged.
+  [[nodiscard]] bool passed() const { return exit_code() == ExitCode::ok; }
+  /// Of the scene that is worst off, where an error is worse than a change.
+  [[nodiscard]] ExitCode exit_code() const;
 };
 
 /// "same bits", "within tolerance", "changed".
 const char* verdict_name(MotionVerdict verdict);
 /// "exact", "noise", "changed".
 const char* verdict_name(PictureVerdict verdict);
-/// "passed", "changed", "missing", "updated".
+/// "passed", "changed", "missing", "updated", "error".
 const char* verdict_name(SceneVerdict verdict);
 
 /// The folder of a scene's files beside the report, relative to it: "5/".

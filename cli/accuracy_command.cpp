@@ -4,10 +4,12 @@
 #include <chrono>
 #include <memory>
 
+#include "cli/number_option.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/studies.hpp"
 #include "core/nearest.hpp"
 #include "core/shell.hpp"
+#include "render/gl/inspect.hpp"
 #include "study/accuracy_animation.hpp"
 #include "study/accuracy_report.hpp"
 
@@ -80,7 +82,9 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
   options.methods = parse_methods(arguments.methods);
   const std::vector<AnimatedBy> animations = parse_animations(arguments.animations);
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, options.overrides);
-  for (const Scene& scene : scenes) complete(options, scene);  // what is wrong is said before hours of work
+  // What is wrong is said before hours of work.
+  for (const std::string& file : arguments.scenes) check_accuracy(file, options);
+  if (!animations.empty()) inspect_backend(arguments.backend);
   const std::vector<std::string> names = unique_names(scenes);
   return run_study(
       arguments.folder, common, [&](const std::stop_token& stop, Progress& progress) -> std::optional<StudyReport> {
@@ -107,23 +111,24 @@ void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& c
   auto arguments = std::make_shared<AccuracyArguments>();
   AccuracyOptions& options = arguments->options;
   CLI::App* sub = study.add_subcommand("accuracy", "Measure what an error costs, by method, tolerance and time step");
+  const Range positive{.minimum = 0, .minimum_excluded = true};
   const auto list = [](CLI::Option* option) { return option->delimiter(',')->allow_extra_args(false); };
   sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
   sub->add_option("--set", options.overrides, "key.path=value: replaces a value of the scenes; repeatable")
       ->allow_extra_args(false);
   list(sub->add_option("--methods", arguments->methods, "M1,M2: default all"));
-  list(sub->add_option("--tolerances", options.tolerances, "E1,E2: default 1 to 1e-7"))->check(CLI::PositiveNumber);
+  list(sub->add_option("--tolerances", options.tolerances, "E1,E2: default 1 to 1e-7"))->check(number_in(positive));
   list(sub->add_option("--steps", options.steps, "H1,H2: time steps, s; default the scene's and its halves"))
-      ->check(CLI::PositiveNumber);
+      ->check(number_in(positive));
   list(sub->add_option("--times", options.times,
                        "T1,T2: when the motion is compared, s; the time steps at the first; default 1/20, 1/8 and 1/4 "
                        "of the scene's duration"))
-      ->check(CLI::PositiveNumber);
+      ->check(number_in(positive));
   list(sub->add_option("--animate", arguments->animations,
                        "What the panels of the animations differ in: tolerances, methods, steps, or none; default "
                        "tolerances"));
   add_backend_option(*sub, arguments->backend);
-  sub->add_option("--runs", options.runs, "Timed runs of every case; default 5")->check(CLI::Range(1, 1000));
+  sub->add_option("--runs", options.runs, "Timed runs of every case; default 5")->check(whole_number_in({1, 1000}));
   sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/accuracy");
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_accuracy(*arguments, common); }; });

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "check/check_scene.hpp"
+#include "check/golden_folder.hpp"
 #include "cli/command_line.hpp"
 #include "cli/frame_list.hpp"
 #include "cli/scene_files.hpp"
@@ -20,7 +21,9 @@ struct BlessArguments {
 
 ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
   const std::vector<int> frames = parse_frame_list(arguments.frames);
-  for (const Scene& scene : load_scenes(arguments.scenes, {})) {
+  const std::vector<Scene> scenes = load_scenes(arguments.scenes, {});
+  for (const Scene& scene : scenes) has_golden(golden_folder(scene.file));  // or it throws, before any is recorded
+  for (const Scene& scene : scenes) {
     CheckSettings settings = scene.check;
     if (!frames.empty()) settings.frames = frames;
     std::optional<Blessing> blessing;

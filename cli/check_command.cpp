@@ -3,9 +3,14 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <new>
+#include <system_error>
 
 #include "check/check_scene.hpp"
 #include "check/html_report.hpp"
@@ -14,6 +19,7 @@
 #include "check/machine.hpp"
 #include "cli/command_line.hpp"
 #include "cli/frame_list.hpp"
+#include "cli/number_option.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/watched.hpp"
 #include "core/atomic_file.hpp"
@@ -82,71 +88,116 @@ std::string describe(const SceneResult& scene) {
   return text + fmt::format(" ({:.1f} s)", scene.seconds);
 }
 
+const std::array<const char*, 3> report_files{"report.html", "report.json", "junit.xml"};
+
 void write_reports(const CheckReport& report, const std::filesystem::path& folder) {
+  const auto& [html, json, junit] = report_files;
+  write_html_report(report, folder / html);
+  write_file_atomically(folder / json, json_report(report));
+  write_file_atomically(folder / junit, junit_report(report));
   write_frame_files(report, folder);
-  write_html_report(report, folder / "report.html");
-  write_file_atomically(folder / "report.json", json_report(report));
-  write_file_atomically(folder / "junit.xml", junit_report(report));
+}
+
+/// Prints the verdicts, and remembers if one could not be printed.
+class Verdicts {
+ public:
+  void print(const std::string& line) {
+    if (std::fputs((line + "\n").c_str(), stdout) >= 0 && std::fflush(stdout) == 0) return;
+    if (reason_.empty()) reason_ = std::generic_category().message(errno);
+  }
+
+  /// Why not all of them could be printed; empty: they could.
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+
+ private:
+  std::string reason_;
+};
+
+void tell(const SceneResult& result, const CommonOptions& common, Verdicts& verdicts) {
+  const bool good = result.verdict == SceneVerdict::passed || result.verdict == SceneVerdict::updated;
+  if (result.verdict == SceneVerdict::error) {
+    spdlog::error(describe(result));
+  } else if (!common.quiet || !good) {
+    verdicts.print(describe(result));
+  }
+  for (const WindowResult& window : result.windows.windows) {
+    spdlog::debug("steps {} to {}: {}", window.first_step, window.last_step, verdict_name(window.verdict));
+  }
+  for (const FrameResult& frame : result.windows.frames) {
+    spdlog::debug("frame {}: {}, {} pixels differ, FLIP error up to {:.3f}", frame.frame,
+                  verdict_name(frame.difference.verdict), frame.difference.pixels, frame.difference.max_flip);
+  }
+  if (!result.renderer.empty()) spdlog::debug("drawn by {}", result.renderer);
+}
+
+/// Judges every scene, whatever is wrong with another one.
+/// @returns whether it was interrupted
+bool check_all(const std::vector<Scene>& scenes, const CheckArguments& arguments, const CheckOptions& options,
+               const CommonOptions& common, Verdicts& verdicts, CheckReport& report) {
+  const std::vector<std::string> names = unique_names(scenes, {report_files.begin(), report_files.end()});
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const Scene& scene = scenes[i];
+    const CheckSettings settings = settings_of(scene, arguments);
+    SceneResult result;
+    const auto check = [&](const std::stop_token& stop, Progress& progress) {
+      try {
+        result = check_scene(scene, names[i], settings, options, stop, progress);
+      } catch (const Error& error) {
+        result = unjudged_scene(scene, names[i], settings, error);
+      } catch (const std::bad_alloc&) {
+        result = unjudged_scene(scene, names[i], settings, UsageError("there is not enough memory for this"));
+      }
+    };
+    if (run_watched(common, check)) return true;
+    const std::string file = shell_word(scene.file.string());
+    result.rerun_command = "drape check " + file + command_options(arguments);
+    result.bless_command = "drape bless " + file;
+    tell(result, common, verdicts);
+    if (!result.renderer.empty()) report.machine.renderer = result.renderer;
+    report.scenes.push_back(std::move(result));
+  }
+  return false;
 }
 
 ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   const auto begin = std::chrono::steady_clock::now();
-  const std::vector<Scene> scenes = load_scenes(arguments.scenes, arguments.overrides);
-  const std::vector<std::string> names = unique_names(scenes);
   const CheckOptions options{.frames = parse_frame_list(arguments.frames),
                              .backend = arguments.backend,
                              .end_to_end = arguments.end_to_end,
                              .update = parse_update(arguments.update),
                              .threads = arguments.threads,
                              .artefacts = arguments.report};
+  const std::vector<Scene> scenes = load_scenes(arguments.scenes, arguments.overrides);
+  const std::filesystem::path folder = arguments.report;
+  for (const char* file : report_files) const PartialFile writable(folder / file);  // or it throws
+
   CheckReport report;
   report.date = utc_now();
   report.command = "drape check";
   for (const std::string& scene : arguments.scenes) report.command += " " + shell_word(scene);
   report.command += command_options(arguments);
-
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    SceneResult result;
-    const bool interrupted = run_watched(common, [&](const std::stop_token& stop, Progress& progress) {
-      result = check_scene(scenes[i], names[i], settings_of(scenes[i], arguments), options, stop, progress);
-    });
-    if (interrupted) {
-      spdlog::error("interrupted; there is no report");
-      return ExitCode::interrupted;
-    }
-    const std::string file = shell_word(scenes[i].file.string());
-    result.rerun_command = "drape check " + file + command_options(arguments);
-    result.bless_command = "drape bless " + file;
-    const bool good = result.verdict == SceneVerdict::passed || result.verdict == SceneVerdict::updated;
-    if (!common.quiet || !good) fmt::print("{}\n", describe(result));
-    for (const WindowResult& window : result.windows.windows) {
-      spdlog::debug("steps {} to {}: {}", window.first_step, window.last_step, verdict_name(window.verdict));
-    }
-    for (const FrameResult& frame : result.windows.frames) {
-      spdlog::debug("frame {}: {}, {} pixels differ, FLIP error up to {:.3f}", frame.frame,
-                    verdict_name(frame.difference.verdict), frame.difference.pixels, frame.difference.max_flip);
-    }
-    if (!result.renderer.empty()) {
-      spdlog::debug("drawn by {}", result.renderer);
-      report.machine.renderer = result.renderer;
-    }
-    report.scenes.push_back(std::move(result));
+  Verdicts verdicts;
+  if (check_all(scenes, arguments, options, common, verdicts, report)) {
+    spdlog::error("interrupted; there is no report");
+    return ExitCode::interrupted;
   }
   report.machine = this_machine(report.machine.renderer);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_reports(report, arguments.report);
-  if (!common.quiet) fmt::print("{}\n", (std::filesystem::path(arguments.report) / "report.html").string());
-  return report.passed() ? ExitCode::ok : ExitCode::differs;
+  write_reports(report, folder);
+  if (!common.quiet) verdicts.print((folder / "report.html").string());
+  if (verdicts.reason().empty()) return report.exit_code();
+  spdlog::error("the verdicts cannot be written to standard output: {}", verdicts.reason());
+  return std::max(report.exit_code(), ExitCode::output);
 }
 
 void add_limits(CLI::App& sub, CheckArguments& arguments) {
   sub.add_option("--motion-tolerance", arguments.motion_tolerance, "How far a vertex may be from its golden place, m")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_in({.minimum = 0}));
   sub.add_option("--channel-limit", arguments.channel, "Largest difference of a pixel in any channel, of 255")
-      ->check(CLI::Range(0, 255));
+      ->check(whole_number_in({0, 255}));
   sub.add_option("--pixel-limit", arguments.pixels, "Largest fraction of pixels that differ at all")
-      ->check(CLI::Range(0.0, 1.0));
-  sub.add_option("--flip-limit", arguments.flip, "Largest FLIP error of a pixel")->check(CLI::Range(0.0, 1.0));
+      ->check(number_in({0, 1}));
+  sub.add_option("--flip-limit", arguments.flip, "Largest FLIP error of a pixel")->check(number_in({0, 1}));
 }
 
 }  // namespace
@@ -165,7 +216,8 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
       ->type_name("WHICH");
   add_backend_option(*sub, arguments->backend);
   sub->add_option("--report", arguments->report, "Folder for the reports (HTML, JSON, JUnit); default out/check");
-  sub->add_option("--threads", arguments->threads, "How many windows of motion are computed at once");
+  sub->add_option("--threads", arguments->threads, "How many windows of motion are computed at once")
+      ->check(CLI::Range(1, 1024));
   add_limits(*sub, *arguments);
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return check(*arguments, common); }; });

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "core/build_info.hpp"
+#include "core/console.hpp"
 #include "core/nearest.hpp"
 
 namespace drape {
@@ -108,8 +109,17 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   }
 
   set_up_logging(common);
+  const ExitCode code = reported(command);
+  if (const int error = lost_output()) {
+    spdlog::error("cannot write to standard output: {}", std::generic_category().message(error));
+    return std::max(code, ExitCode::output);
+  }
+  return code;
+}
+
+ExitCode reported(const std::function<ExitCode()>& work) {
   try {
-    return command();
+    return work();
   } catch (const Error& error) {
     return report(error);
   } catch (const std::bad_alloc&) {

@@ -33,6 +33,9 @@ void add_doctor_command(CLI::App& app, Command& command);
 /// Adds --backend, which every subcommand that draws has.
 void add_backend_option(CLI::App& subcommand, GlBackend& backend);
 
+/// Does work and returns its exit code; an error that it throws goes to standard error, and its code is returned.
+ExitCode reported(const std::function<ExitCode()>& work);
+
 /// Reads the command line, runs the chosen subcommand and returns the exit code; errors go to standard error.
 ExitCode run_command_line(int argc, const char* const* argv);
 

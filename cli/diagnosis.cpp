@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -20,6 +19,7 @@
 #include "scene/scene.hpp"
 #include "sim/kernels/kernels.hpp"
 #include "sim/mesh.hpp"
+#include "study/svg_printer.hpp"
 
 namespace drape {
 namespace {
@@ -137,36 +137,27 @@ Finding find_encoder(const TemporaryFolder& folder, const std::string& extension
   return found;
 }
 
-/// What a program prints, both streams; empty if there is no such program.
-std::string printed_by(const std::string& command) {
-  std::string text;
-  FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return text;
-  std::array<char, 4096> buffer{};
-  while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), count);
-  return pclose(pipe) == 0 ? text.substr(0, text.find_last_not_of('\n') + 1) : std::string();
+/// The font of a PDF file's first text; empty if it has none.
+std::string first_font(const std::string& pdf) {
+  const std::string key = "/BaseFont /";
+  const std::size_t at = pdf.find(key);
+  if (at == std::string::npos) return {};
+  const std::string name = pdf.substr(at + key.size(), pdf.find_first_of(" \n/>", at + key.size()) - at - key.size());
+  return name.substr(name.find('+') + 1);  // of a subset, which has six letters before it
 }
 
-Finding find_gnuplot() {
-  Finding found{.name = "gnuplot", .detail = {}, .problem = {}, .packages = "gnuplot-nox"};
-  found.detail = printed_by("gnuplot --version");
-  if (found.detail.empty()) {
-    found.problem = "not there: drape study writes its plots as .csv and .gp files only";
-    return found;
-  }
-  for (const char* terminal : {"svg", "pngcairo"}) {
-    if (printed_by(fmt::format("gnuplot -e 'set terminal {}; print 1'", terminal)).empty()) {
-      found.problem = fmt::format("it has no terminal {}", terminal);
-    }
-  }
-  return found;
-}
-
-Finding find_fonts() {
-  Finding found{.name = "fonts", .detail = {}, .problem = {}, .packages = "fontconfig fonts-dejavu-core"};
-  found.detail = printed_by("fc-match sans --format '%{family} (%{file})'");
-  if (found.detail.empty()) found.problem = "no font is found: gnuplot's PNG plots have no text";
-  return found;
+/// What draws the PDF and PNG files of a study's diagrams, and the font of their text.
+std::vector<Finding> find_diagrams() {
+  Finding files{.name = "diagrams", .detail = {}, .problem = {}, .packages = SvgPrinter::packages()};
+  Finding fonts{.name = "fonts", .detail = {}, .problem = {}, .packages = "fonts-dejavu-core"};
+  constexpr const char* letter =
+      "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'><text y='9' "
+      "font-family='sans-serif'>a</text></svg>";
+  files.problem = problem_of([&] { fonts.detail = first_font(SvgPrinter().pdf(letter)); });
+  if (!files.works()) return {files};
+  files.detail = "SVG, PDF, PNG";
+  if (fonts.detail.empty()) fonts.problem = "no font is found: the diagrams' PDF and PNG files have no text";
+  return {files, fonts};
 }
 
 }  // namespace
@@ -206,7 +197,7 @@ Diagnosis diagnose() {
   for (const char* extension : {".gif", ".png", ".mp4", ".webm", ".avi"}) {
     diagnosis.encoders.push_back(find_encoder(folder, extension));
   }
-  diagnosis.optional = {find_gnuplot(), find_fonts()};
+  diagnosis.optional = find_diagrams();
   return diagnosis;
 }
 

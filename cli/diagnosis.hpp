@@ -14,8 +14,8 @@ namespace drape {
 
 /// Something that drape uses and may or may not find.
 struct Finding {
-  std::string name;      ///< "egl", ".mp4", "gnuplot"
-  std::string detail;    ///< what was found: "H.264", "5.4.4"
+  std::string name;      ///< "egl", ".mp4", "fonts"
+  std::string detail;    ///< what was found: "H.264", "DejaVuSans"
   std::string problem;   ///< empty if it works
   std::string packages;  ///< of Debian, separated by spaces: what to install if it does not
 

@@ -5,6 +5,7 @@
 
 #include "cli/command_line.hpp"
 #include "cli/diagnosis.hpp"
+#include "core/console.hpp"
 
 namespace drape {
 namespace {
@@ -129,7 +130,7 @@ void add_doctor_command(CLI::App& app, Command& command) {
   doctor->callback([as_json, &command] {
     command = [as_json] {
       const Diagnosis diagnosis = diagnose();
-      fmt::print("{}", *as_json ? to_json(diagnosis).dump(2) + "\n" : to_text(diagnosis));
+      print_text(stdout, *as_json ? to_json(diagnosis).dump(2) + "\n" : to_text(diagnosis));
       return diagnosis.drawing.works() ? ExitCode::ok : ExitCode::output;
     };
   });

@@ -4,8 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
+
+#include "core/console.hpp"
 
 namespace drape {
 namespace {
@@ -46,19 +47,18 @@ void ProgressDisplay::update() {
   }
   if (style_ == Style::lines) {
     last_line_ = now;
-    fmt::print(stderr, "{}\n", text);
+    print_text(stderr, text + "\n");
     return;
   }
   const auto filled = static_cast<std::size_t>(bar_width * done / total);
-  fmt::print(stderr, "\r\x1b[K[{}{}] {}", std::string(filled, '#'), std::string(bar_width - filled, ' '), text);
-  std::fflush(stderr);
+  print_text(stderr,
+             fmt::format("\r\x1b[K[{}{}] {}", std::string(filled, '#'), std::string(bar_width - filled, ' '), text));
   bar_shown_ = true;
 }
 
 void ProgressDisplay::clear() {
   if (!bar_shown_) return;
-  fmt::print(stderr, "\r\x1b[K");
-  std::fflush(stderr);
+  print_text(stderr, "\r\x1b[K");
   bar_shown_ = false;
 }
 

@@ -1,14 +1,21 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "cli/command_line.hpp"
 #include "cli/interruption.hpp"
+#include "cli/number_option.hpp"
+#include "cli/output_clashes.hpp"
 #include "cli/progress_display.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/summary.hpp"
+#include "core/console.hpp"
 #include "render/encode/path_template.hpp"
+#include "render/gl/inspect.hpp"
+#include "render/texture_image.hpp"
+#include "run/films.hpp"
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
 #include "sim/simulation.hpp"
@@ -41,20 +48,6 @@ FrameRange parse_frames(const std::string& text) {
   return range;
 }
 
-/// With several scenes, a file that is not named after its scene would be written over by the next.
-void check_names(const RunArguments& arguments) {
-  if (arguments.scenes.size() < 2) return;
-  std::vector<std::string> names = arguments.outputs;
-  const RecordPaths& r = arguments.records;
-  names.insert(names.end(), {r.stats, r.energies, r.positions, r.trace});
-  for (const std::string& name : names) {
-    if (!name.empty() && name.find("{scene}") == std::string::npos) {
-      throw UsageError(fmt::format("'{}' would be written by each of {} scenes: put {{scene}} into the name", name,
-                                   arguments.scenes.size()));
-    }
-  }
-}
-
 RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool verbose) {
   const auto expanded = [&](const std::string& text) {
     const PathTemplate path(text);
@@ -76,6 +69,50 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
   return options;
 }
 
+/// Looks at all that is known before the first scene runs: whether every scene can be drawn and its files written.
+/// @throws Error with the problems of all scenes
+void look_ahead(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options) {
+  require_files_of_their_own(scenes, options);
+  const bool drawn =
+      std::any_of(options.begin(), options.end(), [](const RunOptions& o) { return !o.outputs.empty(); });
+  const int largest_texture = drawn ? inspect_backend(options.front().backend).max_texture_size : 0;
+  ExitCode worst = ExitCode::ok;
+  std::string problems;
+  const auto attempt = [&](const std::string& where, const auto& work) {
+    try {
+      work();
+    } catch (const Error& error) {
+      problems += (problems.empty() ? "" : "\n") + where + error.what();
+      worst = std::max(worst, error.code());
+    }
+  };
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const Scene& scene = scenes[i];
+    attempt("", [&] { require_outputs(scene, options[i]); });
+    if (options[i].outputs.empty() || scene.look.texture.empty()) continue;
+    attempt(scene.texture_place + ": ", [&] { require_texture_image(scene.look.texture, largest_texture); });
+  }
+  if (worst != ExitCode::ok) throw Error(worst, problems);
+}
+
+/// Says how a run ended, and returns its exit code.
+ExitCode conclude(const Scene& scene, const RunResult& result) {
+  for (const std::string& problem : result.problems) spdlog::error(problem);
+  const ExitCode outputs = result.problems.empty() ? ExitCode::ok : ExitCode::output;
+  switch (result.outcome) {
+    case Outcome::completed:
+      return outputs;
+    case Outcome::interrupted:
+      spdlog::error("interrupted {}", describe_end(result));
+      return ExitCode::interrupted;
+    case Outcome::diverged:
+      spdlog::error("{}: {}", scene.file.string(), result.divergence);
+      spdlog::error("ended {}", describe_end(result));
+      return std::max(outputs, ExitCode::diverged);
+  }
+  return outputs;
+}
+
 ExitCode run(const Scene& scene, const RunOptions& options, const CommonOptions& common) {
   spdlog::info(describe(scene, options));
   if (scene.simulation.integrator.allow_unstable) {
@@ -89,27 +126,25 @@ ExitCode run(const Scene& scene, const RunOptions& options, const CommonOptions&
   display.clear();
   if (!result.renderer.empty()) spdlog::debug("drawn by {}", result.renderer);
   if (common.verbose) spdlog::debug(effect_shares(result.statistics));
-  if (!common.quiet) fmt::print(stderr, "{}\n", summarize(result));
-  switch (result.outcome) {
-    case Outcome::completed:
-      return ExitCode::ok;
-    case Outcome::interrupted:
-      spdlog::error("interrupted; what was done so far is complete");
-      return ExitCode::interrupted;
-    case Outcome::diverged:
-      spdlog::error("{}: {}", scene.file.string(), result.divergence);
-      return ExitCode::diverged;
-  }
-  return ExitCode::ok;
+  if (!common.quiet && result.statistics.steps() > 0) print_text(stderr, summarize(result) + "\n");
+  return conclude(scene, result);
 }
 
+/// Runs one scene after the other. One that fails does not keep the next from being run.
+/// @returns the worst of their codes, which is the largest
 ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
-  check_names(arguments);
+  const std::atomic<bool>& interrupted = interruption();
+  const std::vector<Scene> scenes = load_scenes(arguments.scenes, arguments.overrides);
+  std::vector<RunOptions> options;
+  for (const Scene& scene : scenes) options.push_back(run_options(arguments, scene, common.verbose));
+  look_ahead(scenes, options);
   ExitCode worst = ExitCode::ok;
-  for (const Scene& scene : load_scenes(arguments.scenes, arguments.overrides)) {
-    const ExitCode code = run(scene, run_options(arguments, scene, common.verbose), common);
-    if (code == ExitCode::interrupted) return code;
-    if (worst == ExitCode::ok) worst = code;
+  for (std::size_t i = 0; i < scenes.size() && worst != ExitCode::interrupted; ++i) {
+    if (interrupted && i > 0) {
+      spdlog::error("interrupted before {}", scenes[i].file.string());
+      return ExitCode::interrupted;
+    }
+    worst = std::max(worst, reported([&] { return run(scenes[i], options[i], common); }));
   }
   return worst;
 }
@@ -120,7 +155,7 @@ void add_shared_options(CLI::App& command, RunArguments& arguments) {
   one_each(
       command.add_option("--set", arguments.overrides, "key.path=value: replaces a value of the scene; repeatable"));
   command.add_option("--steps", arguments.steps, "Simulate this many steps instead of the scene's duration")
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number_in({0, 1e9}));
   command.add_option("--frames", arguments.frames, "A..B: only these frames of the film");
   command.add_option("--stats", arguments.records.stats, "Write the run's figures to a JSON file");
   command.add_option("--energies", arguments.records.energies, "Write the energies of every step to a CSV file");
@@ -137,9 +172,10 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
 
   CLI::App* render = app.add_subcommand("render", "Simulate scenes and draw them into films");
   render
-      ->add_option("-o,--output", arguments->outputs,
-                   "A film (.gif .mp4 .webm .avi), frames ({frame:04}.png) or a still (.png); repeatable; "
-                   "default out/{scene}.gif")
+      ->add_option(
+          "-o,--output", arguments->outputs,
+          "A film (.gif .mp4 .webm .avi), frames ({frame:04}.png) or a still (.png); repeatable; "
+          "default out/{scene}.gif. What ends early, by Ctrl-C or a diverging motion, becomes NAME.partial.EXT")
       ->allow_extra_args(false);
   add_backend_option(*render, arguments->backend);
   add_shared_options(*render, *arguments);

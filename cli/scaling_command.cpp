@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "cli/number_option.hpp"
 #include "cli/studies.hpp"
 #include "study/scaling_report.hpp"
 
@@ -23,8 +24,9 @@ void add_scaling_study(CLI::App& study, const CommonOptions& common, Command& co
   auto arguments = std::make_shared<ScalingArguments>();
   CLI::App* sub = study.add_subcommand("scaling", "Measure how time and memory grow with the cloth");
   sub->add_option("--largest", arguments->options.largest, "Cells along a side of the largest grid; default 80")
-      ->check(CLI::Range(10, 10000));
-  sub->add_option("--runs", arguments->options.runs, "Timed runs of every case; default 5")->check(CLI::Range(1, 1000));
+      ->check(whole_number_in({10, 10000}));
+  sub->add_option("--runs", arguments->options.runs, "Timed runs of every case; default 5")
+      ->check(whole_number_in({1, 1000}));
   sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/scaling");
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_scaling(*arguments, common); }; });

@@ -2,12 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace drape {
+namespace {
+
+/// A text as the name of one file: it leads to no other folder, is not hidden, and every file system and page can have
+/// it.
+std::string safe_name(const std::string& text) {
+  constexpr std::size_t longest = 100;
+  std::string name = printable(text);
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '/' || c == '\\' || c == '\n' || c == '\t'; }, '_');
+  if (name.empty() || name.front() == '.') name.insert(name.begin(), '_');
+  if (name.size() <= longest) return name;
+  std::size_t end = longest;
+  while ((static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;  // not within a character
+  return name.substr(0, end);
+}
+
+}  // namespace
 
 std::vector<Scene> load_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides) {
   std::vector<Scene> scenes;
@@ -23,15 +42,17 @@ std::vector<Scene> load_scenes(const std::vector<std::string>& files, const std:
   return scenes;
 }
 
-std::vector<std::string> unique_names(const std::vector<Scene>& scenes) {
-  std::map<std::string, int> with_this_name, used;
+std::vector<std::string> unique_names(const std::vector<Scene>& scenes, const std::set<std::string>& taken) {
+  std::map<std::string, int> with_this_name;
   for (const Scene& scene : scenes) ++with_this_name[scene.name];
+  std::set<std::string> used = taken;
   std::vector<std::string> names;
   for (const Scene& scene : scenes) {
-    std::string name = scene.name;
-    const std::string folder = std::filesystem::absolute(scene.file).parent_path().filename().string();
-    if (with_this_name[name] > 1) name = folder + "-" + name;
-    if (const int number = ++used[name]; number > 1) name += fmt::format("-{}", number);
+    const std::string folder =
+        std::filesystem::absolute(scene.file).lexically_normal().parent_path().filename().string();
+    const std::string stem = safe_name(with_this_name[scene.name] > 1 ? folder + "-" + scene.name : scene.name);
+    std::string name = stem;
+    for (int number = 2; !used.insert(name).second; ++number) name = fmt::format("{}-{}", stem, number);
     names.push_back(std::move(name));
   }
   return names;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,9 @@ namespace drape {
 /// @throws UsageError
 std::vector<Scene> load_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides);
 
-/// Names that tell scenes apart: the files' own, with the folder's before it where there are several.
-std::vector<std::string> unique_names(const std::vector<Scene>& scenes);
+/// Names that tell scenes apart, each of which can be the name of a file: the scenes' own, with the folder's before it
+/// where there are several.
+/// @param taken names that no scene may get
+std::vector<std::string> unique_names(const std::vector<Scene>& scenes, const std::set<std::string>& taken = {});
 
 }  // namespace drape

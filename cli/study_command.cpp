@@ -4,8 +4,11 @@
 #include <memory>
 #include <optional>
 
+#include "cli/number_option.hpp"
 #include "cli/studies.hpp"
 #include "cli/watched.hpp"
+#include "core/atomic_file.hpp"
+#include "core/console.hpp"
 #include "study/homework_report.hpp"
 
 namespace drape {
@@ -26,7 +29,8 @@ void add_homework_study(CLI::App& study, const CommonOptions& common, Command& c
   auto arguments = std::make_shared<HomeworkArguments>();
   CLI::App* homework = study.add_subcommand("homework", "Measure the homework's tables again, beside its report");
   homework->add_option("-o,--output", arguments->folder, "Folder for the results; default out/homework");
-  homework->add_option("--runs", arguments->runs, "Timed runs of every case; default 5")->check(CLI::Range(1, 1000));
+  homework->add_option("--runs", arguments->runs, "Timed runs of every case; default 5")
+      ->check(whole_number_in({1, 1000}));
   homework->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_homework(*arguments, common); }; });
 }
@@ -35,6 +39,7 @@ void add_homework_study(CLI::App& study, const CommonOptions& common, Command& c
 
 ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& common,
                    const std::function<std::optional<StudyReport>(const std::stop_token&, Progress&)>& measure) {
+  require_writable(folder / report_page);  // not only after the measurements
   std::optional<StudyReport> report;
   run_watched(common, [&](const std::stop_token& stop, Progress& progress) { report = measure(stop, progress); });
   if (!report) {
@@ -43,12 +48,14 @@ ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& com
   }
   const std::string problem = write_report(*report, folder);
   if (!problem.empty()) spdlog::warn(problem);
-  if (!common.quiet) fmt::print("{}\n{}\n", to_text(*report), (folder / "report.html").string());
+  if (!common.quiet) {
+    print_text(stdout, fmt::format("{}\n{}\n", to_text(*report), (folder / report_page).string()));
+  }
   return ExitCode::ok;
 }
 
 void add_study_command(CLI::App& app, const CommonOptions& common, Command& command) {
-  CLI::App* study = app.add_subcommand("study", "Measure what accuracy costs, and write tables, plots and a page");
+  CLI::App* study = app.add_subcommand("study", "Measure what accuracy costs, and write tables, diagrams and a page");
   study->require_subcommand(1);
   add_homework_study(*study, common, command);
   add_accuracy_study(*study, common, command);

@@ -1,6 +1,7 @@
 #include "cli/summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace drape {
 namespace {
@@ -16,6 +17,12 @@ std::string duration(double seconds) {
   if (seconds < 1e-3) return fmt::format("{:.1f} µs", 1e6 * seconds);
   if (seconds < 1) return fmt::format("{:.1f} ms", 1e3 * seconds);
   return fmt::format("{:.1f} s", seconds);
+}
+
+/// Of the files of an output.
+std::string name(const std::vector<OutputFile>& files) {
+  const std::string first = files.front().path.string();
+  return files.size() == 1 ? first : fmt::format("{} … {}", first, files.back().path.string());
 }
 
 }  // namespace
@@ -38,6 +45,26 @@ std::string effect_shares(const Statistics& statistics) {
   return text.empty() ? "no effects" : text;
 }
 
+std::string describe_end(const RunResult& result) {
+  const std::int64_t steps = result.statistics.steps();
+  if (result.outputs.empty() && result.records.empty()) {
+    return fmt::format("after {} of {} steps; nothing was written", steps, result.steps_wanted);
+  }
+  std::string text = fmt::format("after {} of {} steps", steps, result.steps_wanted);
+  for (const std::vector<OutputFile>& files : result.outputs) {
+    text += fmt::format("{} {}", &files == &result.outputs.front() ? ";" : ",", name(files));
+  }
+  if (!result.outputs.empty()) {
+    text += fmt::format(" {} {} of {} frames", result.outputs.size() == 1 ? "has" : "have",
+                        result.frames == result.frames_wanted ? "all" : fmt::format("the first {}", result.frames),
+                        result.frames_wanted);
+  }
+  if (!result.records.empty()) {
+    text += fmt::format("; {} up to there", fmt::join(result.records, ", "));
+  }
+  return text;
+}
+
 std::string summarize(const RunResult& result) {
   const Statistics& s = result.statistics;
   std::string text = fmt::format("{} steps", s.steps());
@@ -53,8 +80,13 @@ std::string summarize(const RunResult& result) {
   if (!result.renderer.empty()) {
     text += fmt::format(", draw {}, encode {}", duration(result.draw_seconds), duration(result.encode_seconds));
   }
-  text += fmt::format(", all together {}", duration(result.elapsed_seconds));
-  for (const OutputFile& file : result.files) text += fmt::format("\n{}  {}", file.path.string(), bytes(file.size));
+  text += fmt::format(", total {}", duration(result.elapsed_seconds));
+  for (const std::vector<OutputFile>& files : result.outputs) {
+    std::uintmax_t size = 0;
+    for (const OutputFile& file : files) size += file.size;
+    text += fmt::format("\n{}  {}{}", name(files), files.size() > 1 ? fmt::format("{} files, ", files.size()) : "",
+                        bytes(size));
+  }
   for (const std::string& record : result.records) text += "\n" + record;
   return text;
 }

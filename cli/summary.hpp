@@ -12,6 +12,10 @@ std::string describe(const Scene& scene, const RunOptions& options);
 /// One line with the part of the steps' time that each effect took.
 std::string effect_shares(const Statistics& statistics);
 
+/// How far a run came that ended early, and which files have what there is of it: "after 36 of 417 steps; out/5.gif has
+/// …".
+std::string describe_end(const RunResult& result);
+
 /// What a run did, in a few lines without a final line end.
 std::string summarize(const RunResult& result);
 

@@ -1,7 +1,8 @@
-# Writes HEADER with the texts of FOLDER/page.css and FOLDER/page.js as constants.
+# Writes HEADER with the texts of FOLDER's style sheets and script as constants: page.css becomes page_css.
 set(text "#pragma once\n#include <string_view>\nnamespace drape::html {\n")
-foreach(kind css js)
-  file(READ ${FOLDER}/page.${kind} content)
-  string(APPEND text "inline constexpr std::string_view page_${kind} = R\"embedded(${content})embedded\";\n")
+foreach(name page.css page.js diagram.css)
+  file(READ ${FOLDER}/${name} content)
+  string(REPLACE . _ constant ${name})
+  string(APPEND text "inline constexpr std::string_view ${constant} = R\"embedded(${content})embedded\";\n")
 endforeach()
 file(WRITE ${HEADER} "${text}}  // namespace drape::html\n")

@@ -2,15 +2,18 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <algorithm>
 #include <cerrno>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "core/error.hpp"
+#include "core/file_identity.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;
@@ -20,25 +23,35 @@ namespace {
   throw OutputError(fmt::format("cannot write {}: {}", file.string(), reason));
 }
 
-/// The file that a chain of symbolic links ends at, which need not exist.
-fs::path followed(const fs::path& file) {
-  constexpr int most_links = 40;  // as Linux
-  fs::path target = fs::absolute(file);
-  for (int i = 0; fs::is_symlink(fs::symlink_status(target)); ++i) {
-    if (i == most_links) fail_to_write(file, std::generic_category().message(ELOOP));
-    target = target.parent_path() / fs::read_symlink(target);
-  }
-  return target;
-}
-
-/// Several threads may write files of one name to one folder; the number keeps them apart.
-fs::path temporary_name(const fs::path& target) {
-  static std::atomic<unsigned> count = 0;
+/// Temporary files of one target are numbered from 0 on: several processes and threads may write it at once.
+fs::path temporary_name(const fs::path& target, int number) {
   // The longest name a folder takes is 255 bytes.
   constexpr std::size_t longest_stem = 100, longest_extension = 16;
   const std::string extension = target.extension().string();
-  return target.parent_path() / fmt::format(".{}.partial-{}-{}{}", target.stem().string().substr(0, longest_stem),
-                                            ::getpid(), count++, extension.size() > longest_extension ? "" : extension);
+  return target.parent_path() / fmt::format(".{}.partial-{}{}", target.stem().string().substr(0, longest_stem), number,
+                                            extension.size() > longest_extension ? "" : extension);
+}
+
+enum class Lock { held, taken, unavailable };
+
+/// Locks an open file and looks whether it still has its name: its owner may have renamed or removed it just before.
+Lock lock(int descriptor, const fs::path& name) {
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno == EWOULDBLOCK ? Lock::taken : Lock::unavailable;
+  struct stat opened {
+  }, named{};
+  const bool same = ::fstat(descriptor, &opened) == 0 && ::lstat(name.c_str(), &named) == 0 &&
+                    opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+  return same ? Lock::held : Lock::taken;
+}
+
+/// Removes a temporary file that no one is writing any more. Where files cannot be locked it stays.
+/// @returns whether there is, or was, such a file
+bool clear_away(const fs::path& name) {
+  const int descriptor = ::open(name.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return errno == EACCES || errno == ELOOP;  // another user's, or a symbolic link
+  if (lock(descriptor, name) == Lock::held) ::unlink(name.c_str());
+  ::close(descriptor);
+  return true;
 }
 
 /// @returns 0 or the error number
@@ -62,10 +75,18 @@ void sync_folder(const fs::path& folder) {
 
 }  // namespace
 
+fs::path partial_name(const fs::path& file) {
+  constexpr std::size_t longest_name = 255;
+  const std::string ending = ".partial" + file.extension().string();
+  const std::string stem = file.stem().string();
+  return file.parent_path() / (stem.substr(0, longest_name - std::min(longest_name, ending.size())) + ending);
+}
+
 PartialFile::PartialFile(const fs::path& file) : file_(file) {
   if (!file.has_filename()) fail_to_write(file, "a file name is missing");
   try {
-    target_ = followed(file);
+    target_ = link_target(file);
+    partial_ = partial_name(fs::is_symlink(file) ? target_ : file);
     fs::create_directories(target_.parent_path());
   } catch (const fs::filesystem_error& error) {
     fail_to_write(file, error.code().message());
@@ -77,17 +98,31 @@ PartialFile::PartialFile(const fs::path& file) : file_(file) {
   if (exists && !S_ISREG(status.st_mode)) fail_to_write(file, "it is not a regular file");
   if (exists && ::access(target_.c_str(), W_OK) != 0) fail(errno);
 
-  temporary_ = temporary_name(target_);
-  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail(errno);
+  open_temporary();
   if (exists)
     static_cast<void>(::fchmod(descriptor_, status.st_mode & 07777));  // not every file system has permissions
 }
 
 PartialFile::~PartialFile() {
   if (descriptor_ < 0) return;
+  ::unlink(temporary_.c_str());  // as long as it is locked: the name may be another's afterwards
   ::close(descriptor_);
-  ::unlink(temporary_.c_str());
+}
+
+void PartialFile::open_temporary() {
+  int number = 0;
+  for (; descriptor_ < 0; ++number) {
+    temporary_ = temporary_name(target_, number);
+    clear_away(temporary_);
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno != EEXIST) fail(errno);
+    if (descriptor_ >= 0 && lock(descriptor_, temporary_) == Lock::taken) {
+      // By another process, which took it for one left behind.
+      ::close(descriptor_);
+      descriptor_ = -1;
+    }
+  }
+  while (clear_away(temporary_name(target_, number))) ++number;
 }
 
 void PartialFile::write(std::string_view bytes) {
@@ -101,10 +136,13 @@ void PartialFile::require_space() {
   write(bytes);
 }
 
-std::uintmax_t PartialFile::commit() {
+fs::path PartialFile::name(Ending ending) const { return ending == Ending::complete ? file_ : partial_; }
+
+std::uintmax_t PartialFile::commit(Ending ending) {
   struct stat status {};
   if (::fsync(descriptor_) != 0 || ::fstat(descriptor_, &status) != 0) fail(errno);
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  const fs::path target = ending == Ending::complete ? target_ : partial_name(target_);
+  if (::rename(temporary_.c_str(), target.c_str()) != 0) fail(errno);
   ::close(descriptor_);
   descriptor_ = -1;
   sync_folder(target_.parent_path());
@@ -112,6 +150,17 @@ std::uintmax_t PartialFile::commit() {
 }
 
 void PartialFile::fail(int error_number) const { fail_to_write(file_, std::generic_category().message(error_number)); }
+
+void require_writable(const fs::path& file) {
+  std::error_code ignored;
+  std::vector<fs::path> missing;  // folders, the innermost first
+  for (fs::path folder = fs::absolute(file).parent_path(); !fs::exists(folder, ignored);
+       folder = folder.parent_path()) {
+    missing.push_back(folder);
+  }
+  { const PartialFile probe(file); }
+  for (const fs::path& folder : missing) fs::remove(folder, ignored);
+}
 
 std::uintmax_t write_file_atomically(const fs::path& file, std::string_view bytes) {
   PartialFile partial(file);

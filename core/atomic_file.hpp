@@ -6,12 +6,20 @@
 
 namespace drape {
 
+/// How the making of a file ended: it holds what was asked for, or what there was when the work ended early.
+enum class Ending { complete, early };
+
+/// "out/NAME.partial.EXT": where a file that ended early appears, beside the complete one.
+std::filesystem::path partial_name(const std::filesystem::path& file);
+
 /// A file that appears under its name only when it is complete.
 ///
-/// The bytes go to a hidden file in the same folder, ".NAME.partial-PID-N.EXT", which commit() renames over the final
-/// one. Until then an existing file stays as it is, and without a commit nothing is left behind (but a process that is
-/// killed leaves the hidden file). Of a symbolic link, the file it points to is replaced. A replaced file's permissions
-/// are kept.
+/// The bytes go to a hidden file in the same folder, ".NAME.partial-N.EXT", which commit() renames over the final one.
+/// Until then an existing file stays as it is, and without a commit nothing is left behind. Of a symbolic link, the
+/// file it points to is replaced. A replaced file's permissions are kept.
+///
+/// The hidden file is locked (flock) for as long as it is being written. One that is not was left by a process that was
+/// killed; the next one that writes to the same name removes it.
 class PartialFile {
  public:
   /// Creates the missing folders and the temporary file, so that what cannot be written is known at once.
@@ -36,17 +44,25 @@ class PartialFile {
   /// @throws OutputError
   void require_space();
 
-  /// Stores the bytes safely and gives the file its name.
+  /// Stores the bytes safely and gives the file its name: its own, or partial_name() of it if it ended early.
   /// @returns its size [bytes]
   /// @throws OutputError
-  std::uintmax_t commit();
+  std::uintmax_t commit(Ending ending = Ending::complete);
+
+  /// The name under which commit() puts the file.
+  [[nodiscard]] std::filesystem::path name(Ending ending) const;
 
  private:
+  void open_temporary();
   [[noreturn]] void fail(int error_number) const;
 
-  std::filesystem::path file_, target_, temporary_;
+  std::filesystem::path file_, partial_, target_, temporary_;
   int descriptor_ = -1;
 };
+
+/// Finds out now whether a file can be written, for who writes it after hours of work. Leaves nothing behind.
+/// @throws OutputError as PartialFile
+void require_writable(const std::filesystem::path& file);
 
 /// Writes a whole file, or leaves everything as it was. @returns its size [bytes] @throws OutputError as PartialFile
 std::uintmax_t write_file_atomically(const std::filesystem::path& file, std::string_view bytes);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "html/chart_axis.hpp"
+#include "html/diagram.hpp"
 #include "html/markup.hpp"
 
 namespace drape::html {
@@ -21,8 +22,10 @@ struct ChartPoint {
 struct ChartSeries {
   std::string name;
   std::vector<ChartPoint> points;
-  bool markers = true;       ///< a sign at every point, or only the line through them
-  std::string command = {};  ///< that makes every point which has none of its own; may be empty
+  bool markers = true;                    ///< a sign at every point, or only the line through them
+  std::string command = {};               ///< that makes every point which has none of its own; may be empty
+  std::optional<std::size_t> style = {};  ///< its colour and sign; absent: those of its place in the chart
+  bool other = false;  ///< dashed, with open signs: another source of what a series of the same style shows
 };
 
 /// A level to compare with, drawn across the chart.
@@ -40,9 +43,12 @@ struct Chart {
   std::vector<ChartLevel> levels;
 };
 
-/// A diagram as inline SVG with a legend. A point that is pointed at, or reached with the arrow keys, shows its label
+/// A chart as inline SVG with a legend. A point that is pointed at, or reached with the arrow keys, shows its label
 /// and its command. The points are also there as a table.
 /// Points that are not finite are left out, and the line has a gap there.
 Markup chart(const Chart& chart);
+
+/// The same for a file of its own: no points but those that are seen.
+Diagram still_chart(const Chart& chart);
 
 }  // namespace drape::html

@@ -10,18 +10,48 @@ namespace drape::html {
 namespace {
 
 constexpr int wanted_ticks = 6;
-constexpr double room_for_zero = 0.1;
+constexpr std::size_t fewest_ticks = 3;
+constexpr double room_for_zero = 0.1, near = 0.1;  // as parts of an axis
+constexpr double rounding = 1e-9;                  // by which a value may be beyond a tick that is meant to be it
 
-/// 10 to a power: "0.01", "100", and beyond that "10⁻⁷".
-std::string power_of_ten(int exponent) {
-  if (std::abs(exponent) <= 3) return short_number(std::pow(10, exponent));
+/// A digit times ten to a power: "0.02", "500", and beyond that "10⁻⁷", "2·10⁵".
+std::string factor_and_power(int factor, int exponent) {
+  if (std::abs(exponent) <= 3) return short_number(factor * std::pow(10, exponent));
   constexpr std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "10⁻" : "10";
+  std::string text = (factor == 1 ? "" : fmt::format("{}·", factor)) + (exponent < 0 ? "10⁻" : "10");
   for (const char digit : std::to_string(std::abs(exponent))) text += digits[static_cast<std::size_t>(digit - '0')];
   return text;
 }
 
+std::string tick_label(double value) { return (value < 0 ? "−" : "") + short_number(std::abs(value)); }
+
+/// Between the ticks of a linear axis.
+double round_step(double low, double high) {
+  const double rough = (high - low) / wanted_ticks;
+  const double decade = std::pow(10, std::floor(std::log10(rough)));
+  const double ratio = rough / decade;
+  return decade * (ratio <= 1 ? 1 : ratio <= 2 ? 2 : ratio <= 5 ? 5 : 10);
+}
+
+/// Moves the ends of an axis out to ticks that are near.
+void widen(double& low, double& high, double step) {
+  const double reach = near * (high - low);
+  const double below = std::floor(low / step) * step, above = std::ceil(high / step) * step;
+  if (low - below < reach) low = below;
+  if (above - high < reach) high = above;
+}
+
+std::vector<double> multiples(double step, double low, double high) {
+  std::vector<double> numbers;
+  for (double k = std::ceil(low / step - rounding); k <= high / step + rounding; ++k) {
+    numbers.push_back(k * step + 0.0);  // + 0: no −0
+  }
+  return numbers;
+}
+
 }  // namespace
+
+std::string power_of_ten(int exponent) { return factor_and_power(1, exponent); }
 
 std::string short_number(double value) { return fmt::format("{:.4g}", value); }
 
@@ -49,26 +79,33 @@ AxisMap::AxisMap(Scale scale, const std::vector<double>& values) : scale_(scale)
 
 void AxisMap::make_linear(double low, double high) {
   if (low == high) low -= 0.5 * std::max(1.0, std::abs(low)), high += 0.5 * std::max(1.0, std::abs(high));
-  const double rough = (high - low) / wanted_ticks;
-  const double decade = std::pow(10, std::floor(std::log10(rough)));
-  const double ratio = rough / decade;
-  const double step = decade * (ratio <= 1 ? 1 : ratio <= 2 ? 2 : ratio <= 5 ? 5 : 10);
-  const double first = std::floor(low / step + 1e-9), last = std::ceil(high / step - 1e-9);
-  low_ = first * step;
-  high_ = last * step;
-  for (double k = first; k <= last; ++k) ticks_.push_back({place(k * step), short_number(k * step)});
+  const double step = round_step(low, high);
+  widen(low, high, step);
+  low_ = low;
+  high_ = high;
+  for (const double value : multiples(step, low, high)) ticks_.push_back({place(value), tick_label(value)});
 }
 
 void AxisMap::make_logarithmic(double low, double high) {
-  low_ = std::floor(low + 1e-9);
-  high_ = std::max(std::ceil(high - 1e-9), low_ + 1);
-  const int decades = static_cast<int>(high_ - low_);
-  const int stride = (decades + wanted_ticks) / (wanted_ticks + 1);
-  for (int k = 0; k <= decades; k += stride) {
-    const double value = std::pow(10, low_ + k);
-    ticks_.push_back({place(value), power_of_ten(static_cast<int>(low_) + k)});
-    if (decades > 2 || k == decades) continue;
-    for (const int factor : {2, 5}) ticks_.push_back({place(factor * value), short_number(factor * value)});
+  if (low == high) low -= 0.5, high += 0.5;
+  widen(low, high, 1);
+  low_ = low;
+  high_ = high;
+  const int first = static_cast<int>(std::floor(low + rounding)), last = static_cast<int>(std::floor(high + rounding));
+  const int stride = (last - first + wanted_ticks) / (wanted_ticks + 1);
+  const bool between = high - low < 2.5;  // there is room for ticks within a decade
+  for (int exponent = first; exponent <= last; exponent += std::max(1, stride)) {
+    for (const int factor : {1, 2, 5}) {
+      const double place_of_it = exponent + std::log10(factor);
+      if ((factor > 1 && !between) || place_of_it < low - rounding || place_of_it > high + rounding) continue;
+      ticks_.push_back({place(factor * std::pow(10, exponent)), factor_and_power(factor, exponent)});
+    }
+  }
+  if (ticks_.size() >= fewest_ticks + (floor_ > 0 ? 1 : 0)) return;
+  ticks_.erase(ticks_.begin() + (floor_ > 0 ? 1 : 0), ticks_.end());
+  const double from = std::pow(10, low), to = std::pow(10, high);
+  for (const double value : multiples(round_step(from, to), from, to)) {
+    ticks_.push_back({place(value), tick_label(value)});
   }
 }
 

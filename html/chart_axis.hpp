@@ -7,8 +7,8 @@ namespace drape::html {
 
 enum class Scale { linear, logarithmic };
 
-/// Where values lie on an axis, and its ticks. A logarithmic axis has, where values of zero or less occur, a place for
-/// them below its smallest decade.
+/// Where values lie on an axis, which ends where they end or at a tick that is near, and its ticks at round numbers. A logarithmic axis has,
+/// where values of zero or less occur, a place for them below the smallest other.
 class AxisMap {
  public:
   struct Tick {
@@ -32,6 +32,9 @@ class AxisMap {
   double floor_ = 0;           // the part of the axis that is kept for zero
   std::vector<Tick> ticks_;
 };
+
+/// 10 to a power: "0.01", "100", and beyond a thousand "10⁻⁷".
+std::string power_of_ten(int exponent);
 
 /// A number as people write it: "0.25", "1e-06".
 std::string short_number(double value);

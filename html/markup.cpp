@@ -1,25 +1,38 @@
 #include "html/markup.hpp"
 
-extern "C" {
-#include <libavutil/base64.h>
-}
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
+
+#include "core/text.hpp"
 
 namespace drape::html {
 namespace {
 
 constexpr std::array<std::string_view, 6> void_elements{"br", "hr", "img", "input", "link", "meta"};
-constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
+
+/// RFC 4648, section 4.
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
 
 }  // namespace
 
 std::string escape(std::string_view text) {
   std::string escaped;
   escaped.reserve(text.size());
-  for (const char c : text) {
+  for (const char c : printable(text)) {
     switch (c) {
       case '&':
         escaped += "&amp;";
@@ -37,11 +50,7 @@ std::string escape(std::string_view text) {
         escaped += "&#39;";
         break;
       default:
-        if ((static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7f) {
-          escaped += replacement;
-        } else {
-          escaped += c;
-        }
+        escaped += c;
     }
   }
   return escaped;
@@ -90,14 +99,10 @@ Markup join(const std::vector<Markup>& pieces) {
 }
 
 std::string data_uri(std::string_view type, std::string_view bytes) {
-  std::string encoded(AV_BASE64_SIZE(bytes.size()), '\0');
-  av_base64_encode(encoded.data(), static_cast<int>(encoded.size()),
-                   reinterpret_cast<const std::uint8_t*>(bytes.data()), static_cast<int>(bytes.size()));
-  encoded.pop_back();  // the terminating zero
   std::string uri("data:");
   uri += type;
   uri += ";base64,";
-  uri += encoded;
+  uri += base64(bytes);
   return uri;
 }
 

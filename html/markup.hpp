@@ -50,7 +50,7 @@ requires std::convertible_to<Content, Markup> Markup element(std::string_view ta
 /// The pieces one after another.
 Markup join(const std::vector<Markup>& pieces);
 
-/// The text with & < > " ' written as entities, and control characters, which HTML does not allow, replaced.
+/// The text with & < > " ' written as entities, and what HTML does not allow replaced, see printable().
 std::string escape(std::string_view text);
 
 /// "data:TYPE;base64,…"

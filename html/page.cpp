@@ -27,7 +27,7 @@ std::string render(const Page& page) {
                       meta("viewport", "width=device-width, initial-scale=1") + meta("color-scheme", "light dark") +
                       meta("generator", "drape " + build_info().version) + element("title", page.title) +
                       element("link", {{"rel", "icon"}, {"href", "data:,"}}) +
-                      element("style", Markup::trusted(std::string(page_css)));
+                      element("style", Markup::trusted(std::string(diagram_css) + std::string(page_css)));
   const Markup header =
       element("header", element("p", {{"class", "kind"}}, page.kind) + element("h1", page.heading) + page.introduction);
   const Markup footer = element("footer", element("h2", "How this was made") + facts(page.foot));

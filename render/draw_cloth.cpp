@@ -67,13 +67,9 @@ DrawCloth::DrawCloth(const GlFunctions& gl, std::filesystem::path data_folder, c
 }
 
 void DrawCloth::load_texture() {
-  const std::vector<TextureLevel> levels = load_texture_image(look_.texture);
   GLint largest = 0;
   gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-  if (std::max(levels[0].width, levels[0].height) > largest) {
-    throw UsageError(fmt::format("the texture {} has {}x{} pixels; at most {}x{} can be drawn", look_.texture.string(),
-                                 levels[0].width, levels[0].height, largest, largest));
-  }
+  const std::vector<TextureLevel> levels = load_texture_image(look_.texture, largest);
   texture_.emplace(gl_);
   gl_.BindTexture(GL_TEXTURE_2D, texture_->id());
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 2);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -41,6 +42,14 @@ struct Video {
   double fps = 25;
   double speed = 1;
   Eigen::Vector2i size{480, 400};
+
+  /// The number of the last frame of a motion, of which frame k is taken at k·speed/fps seconds.
+  /// @param duration of the motion [s]
+  [[nodiscard]] double last_frame(double duration) const {
+    // Both are products of decimal fractions: a frame at the motion's end must not miss it by their rounding.
+    constexpr double rounding = 1e-9;
+    return std::floor(duration / (speed / fps) + rounding);
+  }
 };
 
 }  // namespace drape

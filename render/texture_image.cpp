@@ -6,11 +6,14 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <new>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "render/color.hpp"
+#include "render/image_header.hpp"
 
 namespace drape {
 namespace {
@@ -29,17 +32,36 @@ bool is_cut(const std::vector<unsigned char>& bytes) {
   return false;
 }
 
-cv::Mat read_image(const std::filesystem::path& file) {
+void require_size(const std::filesystem::path& file, int width, int height, int largest) {
+  if (std::max(width, height) > largest) {
+    throw UsageError(fmt::format("the texture {} has {}x{} pixels; at most {}x{} can be drawn", file.string(), width,
+                                 height, largest, largest));
+  }
+  // Of every pixel the bytes that were decoded, linear light as numbers and as 16 bits, and half of these again for the
+  // smaller levels.
+  constexpr double bytes_per_pixel = 3 + 1.5 * (12 + 6);
+  require_memory(fmt::format("the texture {} of {}x{} pixels", file.string(), width, height),
+                 bytes_per_pixel * width * height, "take a smaller picture");
+}
+
+std::vector<unsigned char> read_bytes(const std::filesystem::path& file) {
+  std::error_code error;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
+  if (!stream || !std::filesystem::is_regular_file(file, error)) {
     throw UsageError(fmt::format("cannot read the texture {}", file.string()));
   }
-  const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+cv::Mat read_image(const std::filesystem::path& file, int largest) {
+  const std::vector<unsigned char> bytes = read_bytes(file);
+  if (const auto size = size_in_header(bytes)) require_size(file, size->width, size->height, largest);
   cv::Mat image;
   if (!bytes.empty() && !is_cut(bytes)) {
     try {
       image = cv::imdecode(bytes, cv::IMREAD_COLOR);
-    } catch (const cv::Exception&) {
+    } catch (const cv::Exception& error) {
+      if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
       image.release();
     }
   }
@@ -48,6 +70,7 @@ cv::Mat read_image(const std::filesystem::path& file) {
         "the texture {} is damaged or not an image; expected a PNG, JPEG or another format that OpenCV reads",
         file.string()));
   }
+  require_size(file, image.cols, image.rows, largest);
   return image;
 }
 
@@ -65,10 +88,8 @@ TextureLevel to_level(const cv::Mat& linear) {
   return level;
 }
 
-}  // namespace
-
-std::vector<TextureLevel> load_texture_image(const std::filesystem::path& file) {
-  const cv::Mat encoded = read_image(file);
+/// Linear light, 0 to 1, of the bytes of sRGB.
+cv::Mat to_linear(const cv::Mat& encoded) {
   std::array<float, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
     table[i] = static_cast<float>(srgb_to_linear(static_cast<double>(i) / 255));
@@ -79,15 +100,39 @@ std::vector<TextureLevel> load_texture_image(const std::filesystem::path& file) 
     auto* to = linear.ptr<float>(row);
     std::transform(from, from + 3 * encoded.cols, to, [&table](std::uint8_t value) { return table[value]; });
   }
+  return linear;
+}
 
-  std::vector<TextureLevel> levels{to_level(linear)};
-  while (linear.cols > 1 || linear.rows > 1) {
-    cv::Mat half;
-    cv::resize(linear, half, {std::max(1, linear.cols / 2), std::max(1, linear.rows / 2)}, 0, 0, cv::INTER_AREA);
-    linear = half;
-    levels.push_back(to_level(linear));
+/// Does what needs memory for a texture, and says which it was if there was not enough.
+template <class Work>
+auto with_memory(const std::filesystem::path& file, Work work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    throw UsageError(fmt::format("there is not enough memory for the texture {}", file.string()));
+  } catch (const cv::Exception& error) {
+    throw UsageError(fmt::format("cannot make a texture of {}: {}", file.string(), error.what()));
   }
-  return levels;
+}
+
+}  // namespace
+
+std::vector<TextureLevel> load_texture_image(const std::filesystem::path& file, int largest) {
+  return with_memory(file, [&] {
+    cv::Mat linear = to_linear(read_image(file, largest));
+    std::vector<TextureLevel> levels{to_level(linear)};
+    while (linear.cols > 1 || linear.rows > 1) {
+      cv::Mat half;
+      cv::resize(linear, half, {std::max(1, linear.cols / 2), std::max(1, linear.rows / 2)}, 0, 0, cv::INTER_AREA);
+      linear = half;
+      levels.push_back(to_level(linear));
+    }
+    return levels;
+  });
+}
+
+void require_texture_image(const std::filesystem::path& file, int largest) {
+  with_memory(file, [&] { read_image(file, largest); });
 }
 
 }  // namespace drape

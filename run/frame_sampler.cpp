@@ -21,7 +21,7 @@ constexpr double rounding = 1e-9;
 FilmExtent::FilmExtent(const Video& video, double h, std::int64_t step_count,
                        const std::optional<FrameRange>& frame_range)
     : steps(step_count), step(h), seconds_per_frame(video.speed / video.fps) {
-  const double last = std::floor(static_cast<double>(steps) * h / seconds_per_frame + rounding);
+  const double last = video.last_frame(static_cast<double>(steps) * h);
   if (last >= std::numeric_limits<int>::max()) throw UsageError("a film of more than two thousand million frames");
   frames = frame_range.value_or(FrameRange{0, static_cast<int>(last)});
   if (frames.last > last) {

@@ -4,7 +4,40 @@
 
 #include <utility>
 
+#include "core/error.hpp"
+
 namespace drape {
+
+/// A file that remembers what went wrong with it.
+class Records::Record {
+ public:
+  explicit Record(const std::string& path) : file_(path) {}
+
+  void write(const std::string& text) {
+    try {
+      if (problem_.empty()) file_.write(text);
+    } catch (const OutputError& error) {
+      problem_ = error.what();
+    }
+  }
+
+  void finish(Ending ending, std::vector<std::string>& names, std::vector<std::string>& problems) {
+    try {
+      if (problem_.empty()) file_.commit(ending);
+    } catch (const OutputError& error) {
+      problem_ = error.what();
+    }
+    if (problem_.empty()) {
+      names.push_back(file_.name(ending).string());
+    } else {
+      problems.push_back(problem_);
+    }
+  }
+
+ private:
+  PartialFile file_;
+  std::string problem_;
+};
 
 class Records::EnergyLog final : public StepObserver {
  public:
@@ -13,7 +46,7 @@ class Records::EnergyLog final : public StepObserver {
   void begin(const Simulation& simulation) override { add(simulation); }
   void after_step(const Simulation& simulation, const StepReport&, double) override { add(simulation); }
 
-  PartialFile file;
+  Record file;
 
  private:
   void add(const Simulation& simulation) {
@@ -32,7 +65,7 @@ class Records::TraceLog final : public StepObserver {
                            report.iterations, simulation.residual(), 1e6 * seconds));
   }
 
-  PartialFile file;
+  Record file;
 };
 
 namespace {
@@ -49,8 +82,8 @@ std::string positions_csv(const Vertices& x) {
 }  // namespace
 
 Records::Records(const RecordPaths& paths) {
-  if (!paths.stats.empty()) stats_ = std::make_unique<PartialFile>(paths.stats);
-  if (!paths.positions.empty()) positions_ = std::make_unique<PartialFile>(paths.positions);
+  if (!paths.stats.empty()) stats_ = std::make_unique<Record>(paths.stats);
+  if (!paths.positions.empty()) positions_ = std::make_unique<Record>(paths.positions);
   if (!paths.energies.empty()) energies_ = std::make_unique<EnergyLog>(paths.energies);
   if (!paths.trace.empty()) trace_ = std::make_unique<TraceLog>(paths.trace);
 }
@@ -64,22 +97,21 @@ std::vector<StepObserver*> Records::observers() const {
   return result;
 }
 
+bool Records::wanted() const { return stats_ || positions_ || energies_ || trace_; }
+
 std::vector<std::string> Records::finish(const Simulation& simulation, const Statistics& statistics,
-                                         const std::string& outcome) {
+                                         const std::string& outcome, Ending ending,
+                                         std::vector<std::string>& problems) {
   std::vector<std::string> names;
-  const auto commit = [&](PartialFile& file) {
-    file.commit();
-    names.push_back(file.file().string());
-  };
-  if (energies_) commit(energies_->file);
-  if (trace_) commit(trace_->file);
+  if (energies_) energies_->file.finish(ending, names, problems);
+  if (trace_) trace_->file.finish(ending, names, problems);
   if (positions_) {
     positions_->write(positions_csv(simulation.state().x));
-    commit(*positions_);
+    positions_->finish(ending, names, problems);
   }
   if (stats_) {
     stats_->write(statistics.to_json(outcome));
-    commit(*stats_);
+    stats_->finish(ending, names, problems);
   }
   return names;
 }

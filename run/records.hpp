@@ -19,7 +19,7 @@ struct RecordPaths {
 };
 
 /// Writes the records of a run. The files get their names when finish() is called, whatever the outcome of the run was;
-/// without it nothing of them is left.
+/// without it nothing of them is left. One that cannot be written does not keep the others from it, nor the run.
 class Records {
  public:
   /// Opens what is wanted, so that an unwritable folder is known before anything is computed.
@@ -30,16 +30,20 @@ class Records {
   /// What must watch the run for the records that are wanted.
   [[nodiscard]] std::vector<StepObserver*> observers() const;
 
-  /// Completes every file and returns their names.
-  /// @throws OutputError if one cannot be written
+  /// Whether any is wanted.
+  [[nodiscard]] bool wanted() const;
+
+  /// Completes every file, under the name that its ending gives it, and returns their names.
+  /// @param problems gets a message for each that could not be written
   std::vector<std::string> finish(const Simulation& simulation, const Statistics& statistics,
-                                  const std::string& outcome);
+                                  const std::string& outcome, Ending ending, std::vector<std::string>& problems);
 
  private:
+  class Record;
   class EnergyLog;
   class TraceLog;
 
-  std::unique_ptr<PartialFile> stats_, positions_;
+  std::unique_ptr<Record> stats_, positions_;
   std::unique_ptr<EnergyLog> energies_;
   std::unique_ptr<TraceLog> trace_;
 };

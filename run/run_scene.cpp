@@ -1,5 +1,8 @@
 #include "run/run_scene.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <array>
 #include <chrono>
 #include <condition_variable>
@@ -10,9 +13,11 @@
 #include <thread>
 #include <utility>
 
+#include "core/error.hpp"
 #include "render/renderer.hpp"
 #include "render/view.hpp"
 #include "run/bounded_queue.hpp"
+#include "run/films.hpp"
 #include "run/run_steps.hpp"
 #include "run/step_by_step.hpp"
 
@@ -27,25 +32,6 @@ constexpr std::chrono::milliseconds watch_interval{100};
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-std::vector<std::unique_ptr<Encoder>> make_encoders(const Scene& scene, const RunOptions& options, FrameRange range,
-                                                    Progress& progress) {
-  std::vector<std::unique_ptr<Encoder>> encoders;
-  for (const std::string& output : options.outputs) {
-    OutputSpec spec;
-    spec.path = output;
-    spec.scene = scene.name;
-    spec.fps = scene.video.fps;
-    spec.first_frame = range.first;
-    spec.expected_frames = range.count();
-    spec.progress = [&progress](int done, int total) {
-      if (done <= 1) progress.begin("encoding", "frames", total);
-      progress.done = done;
-    };
-    encoders.push_back(make_encoder(spec));
-  }
-  return encoders;
-}
-
 /// Shows how many steps are done where no frames are counted.
 class StepCounter final : public StepObserver {
  public:
@@ -58,8 +44,14 @@ class StepCounter final : public StepObserver {
   Progress& progress_;
 };
 
-FilmExtent film_extent(const Scene& scene, const RunOptions& options) {
-  return FilmExtent(scene.video, scene.simulation.step, options.steps.value_or(scene.step_count()), options.frames);
+std::vector<OutputSpec> with_progress(std::vector<OutputSpec> specs, Progress& progress) {
+  for (OutputSpec& spec : specs) {
+    spec.progress = [&progress](int done, int total) {
+      if (done <= 1) progress.begin("encoding", "frames", total);
+      progress.done = done;
+    };
+  }
+  return specs;
 }
 
 /// The three threads of a run and what flows between them.
@@ -71,15 +63,18 @@ class Pipeline {
         progress_(progress),
         extent_(film_extent(scene, options)),
         simulation_(scene.simulation, options.time_effects ? Timing::effects : Timing::none),
-        encoders_(make_encoders(scene, options, extent_.frames, progress)),
-        records_(options.records) {}
+        films_(with_progress(output_specs(scene, options), progress)),
+        records_(options.records) {
+    result_.steps_wanted = extent_.steps;
+    if (!films_.none()) result_.frames_wanted = extent_.frames.count();
+  }
 
   RunResult run(const std::atomic<bool>& stop, const std::function<void()>& watch) {
     const auto begin = Clock::now();
     std::vector<std::jthread> threads;
     try {
       // The consumers first: where a thread cannot be had, those that run already end when their queues close.
-      if (!encoders_.empty()) {
+      if (!films_.none()) {
         threads.emplace_back([this] { guarded([this] { encode(); }); });
         threads.emplace_back([this] { guarded([this] { draw(); }); });
       }
@@ -91,8 +86,8 @@ class Pipeline {
     threads.clear();
     if (error_) std::rethrow_exception(error_);
 
-    if (stop_.stop_requested() && result_.outcome == Outcome::completed) result_.outcome = Outcome::interrupted;
-    result_.records = records_.finish(simulation_, result_.statistics, outcome_name(result_.outcome));
+    if (nothing_left_) throw OutputError(fmt::format("{}", fmt::join(films_.problems(), "\n")));
+    finish_records();
     result_.elapsed_seconds = seconds_since(begin);
     return std::move(result_);
   }
@@ -121,6 +116,14 @@ class Pipeline {
     images_.close();
   }
 
+  void finish_records() {
+    result_.problems = films_.problems();
+    if (!whole_ && result_.outcome == Outcome::completed) result_.outcome = Outcome::interrupted;
+    if (result_.outcome == Outcome::interrupted && result_.statistics.steps() == 0) return;
+    result_.records = records_.finish(simulation_, result_.statistics, outcome_name(result_.outcome),
+                                      whole_ ? Ending::complete : Ending::early, result_.problems);
+  }
+
   void wait(std::size_t threads, const std::atomic<bool>& stop, const std::function<void()>& watch) {
     std::unique_lock lock(mutex_);
     while (finished_ < threads) {
@@ -140,8 +143,8 @@ class Pipeline {
 
     FrameSampler sampler(extent_, [this](Frame frame) { frames_.push(std::move(frame)); });
     StepCounter counter(progress_);
-    if (!encoders_.empty()) {
-      find_view();
+    if (result_.frames_wanted > 0) {
+      if (!find_view()) return close_queues();
       progress_.begin("drawing", "frames", extent_.frames.count());
       observers.push_back(&sampler);
     } else {
@@ -150,21 +153,24 @@ class Pipeline {
     }
     try {
       run_steps(simulation_, extent_.steps, observers, stop_.get_token());
+      whole_ = simulation_.state().step == extent_.steps;
     } catch (const DivergedError& diverged) {
       result_.outcome = Outcome::diverged;
       result_.divergence = diverged.what();
     }
+    close_queues();
+  }
+
+  void close_queues() {
     view_.close();
     frames_.close();
   }
 
   /// Hands the camera's view to the drawing thread. One that has to show the whole motion is found by running the
   /// motion once before: all of it, so that a frame looks the same whichever range of frames is drawn.
-  void find_view() {
-    if (!needs_motion(scene_.camera)) {
-      view_.push(fixed_view(scene_.camera));
-      return;
-    }
+  /// @returns whether there is one: not if the run was interrupted before it was known
+  bool find_view() {
+    if (!needs_motion(scene_.camera)) return view_.push(fixed_view(scene_.camera));
     Framing framing(scene_.camera, static_cast<double>(scene_.video.size[0]) / scene_.video.size[1]);
     const FilmExtent whole(scene_.video, scene_.simulation.step, options_.steps.value_or(scene_.step_count()), {});
     FrameSampler sampler(whole, [&](const Frame& frame) {
@@ -180,7 +186,7 @@ class Pipeline {
     } catch (const DivergedError&) {
       // The run itself will say so; up to here there is something to see.
     }
-    if (!framing.empty()) view_.push(framing.view());
+    return !stop_.stop_requested() && view_.push(framing.view());
   }
 
   void draw() {
@@ -201,8 +207,9 @@ class Pipeline {
   void encode() {
     while (const std::optional<Image> image = images_.pop()) {
       const auto begin = Clock::now();
-      for (const auto& encoder : encoders_) encoder->add(*image);
+      films_.add(*image);
       result_.encode_seconds += seconds_since(begin);
+      if (films_.none()) return stop_drawing();
       progress_.done = ++result_.frames;
     }
     {
@@ -210,10 +217,18 @@ class Pipeline {
       if (error_) return;
     }
     const auto begin = Clock::now();
-    for (const auto& encoder : encoders_) {
-      for (OutputFile& file : encoder->finish()) result_.files.push_back(std::move(file));
-    }
+    result_.outputs = films_.finish(result_.frames == result_.frames_wanted ? Ending::complete : Ending::early);
     result_.encode_seconds += seconds_since(begin);
+    if (films_.none()) stop_drawing();
+  }
+
+  /// When no film is left. The run goes on for the sake of its records, if there are any.
+  void stop_drawing() {
+    close_queues();
+    images_.close();
+    if (records_.wanted()) return;
+    nothing_left_ = true;
+    stop_.request_stop();
   }
 
   const Scene& scene_;
@@ -221,7 +236,7 @@ class Pipeline {
   Progress& progress_;
   FilmExtent extent_;
   Simulation simulation_;
-  std::vector<std::unique_ptr<Encoder>> encoders_;
+  Films films_;
   Records records_;
 
   BoundedQueue<View> view_{1};
@@ -233,6 +248,8 @@ class Pipeline {
   std::condition_variable changed_;
   std::size_t finished_ = 0;
   std::exception_ptr error_;
+  bool whole_ = false;         // every step was taken
+  bool nothing_left_ = false;  // every film was given up, and there are no records
   RunResult result_;
 };
 

@@ -23,8 +23,8 @@ struct RunOptions {
   std::optional<std::int64_t> steps;  ///< instead of the scene's duration
   std::optional<FrameRange> frames;   ///< draw only these, and simulate no further than they need
   GlBackend backend = GlBackend::automatic;
-  bool step_by_step = false;          ///< print every step and wait for a line of input
-  bool time_effects = false;          ///< measure which part of the steps' time each effect takes
+  bool step_by_step = false;  ///< print every step and wait for a line of input
+  bool time_effects = false;  ///< measure which part of the steps' time each effect takes
 };
 
 enum class Outcome { completed, interrupted, diverged };
@@ -37,18 +37,22 @@ struct RunResult {
   Outcome outcome = Outcome::completed;
   std::string divergence;  ///< the message, if it diverged
   Statistics statistics;
-  int frames = 0;
+  int frames = 0;         ///< that were drawn and encoded
+  int frames_wanted = 0;  ///< 0: nothing was to be drawn
+  std::int64_t steps_wanted = 0;
   double draw_seconds = 0, encode_seconds = 0, elapsed_seconds = 0;
-  std::string renderer;  ///< what drew; empty if nothing was
-  std::vector<OutputFile> files;
-  std::vector<std::string> records;
+  std::string renderer;                          ///< what drew; empty if nothing was
+  std::vector<std::vector<OutputFile>> outputs;  ///< the files of each output that there is
+  std::vector<std::string> records;              ///< likewise
+  std::vector<std::string> problems;             ///< a message for each output and record that could not be written
 };
 
 /// Runs a scene: one thread simulates, one owns the GL context and draws, one encodes, with bounded queues between
-/// them; the calling thread only waits. When the motion diverges or `stop` becomes true, what was drawn so far is
-/// completed.
+/// them; the calling thread only waits. When the motion diverges or `stop` becomes true, what was done so far is
+/// completed, under names that say that it is not all (see Ending): nothing if there was no step yet. An output or a
+/// record that cannot be written does not keep the others from being completed.
 /// @param watch  called about ten times a second on the calling thread, to show the progress
-/// @throws Error whatever stopped one of the threads; no file is left then
+/// @throws Error whatever stopped one of the threads, or that there is nothing left to run for; no file is left then
 RunResult run_scene(const Scene& scene, const RunOptions& options, const std::atomic<bool>& stop, Progress& progress,
                     const std::function<void()>& watch);
 

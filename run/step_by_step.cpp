@@ -4,7 +4,9 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <string>
+
+#include "core/console.hpp"
 
 #include "sim/schemes/registry.hpp"
 
@@ -15,20 +17,16 @@ constexpr int poll_milliseconds = 100;  // how soon an interruption is noticed
 
 }  // namespace
 
-void StepByStep::begin(const Simulation&) {
-  fmt::print("Enter for the next step, q to stop.\n");
-  std::fflush(stdout);
-}
+void StepByStep::begin(const Simulation&) { print_text(stdout, "Enter for the next step, q to stop.\n"); }
 
 void StepByStep::after_step(const Simulation& simulation, const StepReport& report, double seconds) {
   const Energies e = simulation.energies();
-  fmt::print("step {}: total {:.6g} = kinetic {:.6g} + gravity {:.6g} + elastic {:.6g} J", simulation.state().step,
-             e.total(), e.kinetic, e.gravity, e.elastic);
+  std::string text = fmt::format("step {}: total {:.6g} = kinetic {:.6g} + gravity {:.6g} + elastic {:.6g} J",
+                                 simulation.state().step, e.total(), e.kinetic, e.gravity, e.elastic);
   if (method_type(simulation.settings().integrator.method).iterates) {
-    fmt::print(", {} iterations{}", report.iterations, report.converged ? "" : " (not converged)");
+    text += fmt::format(", {} iterations{}", report.iterations, report.converged ? "" : " (not converged)");
   }
-  fmt::print(", {:.1f} µs\n", 1e6 * seconds);
-  std::fflush(stdout);
+  print_text(stdout, text + fmt::format(", {:.1f} µs\n", 1e6 * seconds));
   wait_for_line();
 }
 

@@ -19,6 +19,9 @@ namespace {
 /// A cloth of four million cells takes about 1 GB before the first step; beyond that a typing error is more likely.
 constexpr std::int64_t most_grid_cells = 4'000'000;
 
+/// Energies and volumes are products of up to three lengths, a stiffness and the number of vertices [m].
+constexpr double furthest_place = 1e90;
+
 std::optional<Mesh> read_grid(const TomlValue& value, const std::string& name, Problems& problems) {
   const TomlTable& table = *value.as<TomlTable>();
   static const std::vector<std::string> keys = {"grid"};
@@ -132,6 +135,14 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
   start->positions.rowwise() += table.translate.transpose();
   if (!start->positions.allFinite()) {
     problems.add(place_of(value, "transform"), "transform: positions are no longer finite");
+    return std::nullopt;
+  }
+  for (const Mesh* mesh : {&*start, &*rest}) {
+    const double furthest = mesh->positions.cwiseAbs().maxCoeff();
+    if (furthest <= furthest_place) continue;
+    problems.add(place_of(value, mesh == &*start ? "mesh" : "rest"),
+                 fmt::format("{}: a vertex is at {:g} m, and what is further than {:g} m away cannot be computed with",
+                             mesh == &*start ? "mesh" : "rest", furthest, furthest_place));
     return std::nullopt;
   }
 

@@ -1,13 +1,15 @@
 #include "scene/document.hpp"
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <fstream>
+#include <algorithm>
 #include <functional>
-#include <iterator>
-#include <system_error>
 
 #include "core/error.hpp"
+#include "core/read_file.hpp"
+#include "core/text.hpp"
+#include "scene/mesh_source.hpp"
 
 namespace drape {
 namespace {
@@ -36,16 +38,50 @@ TomlValue convert(const toml::node& node, const Locate& locate) {
   return value;
 }
 
-std::string read_text(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw UsageError(file.string() + ": no such file");
-  if (std::filesystem::is_directory(status))
-    throw UsageError(file.string() + ": expected a scene file, found a folder");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad()) throw UsageError(file.string() + ": cannot be read");
-  return text;
+/// Where the string that begins at `begin` ends: its last quote, or the end of its line or of the text if it is not
+/// closed.
+std::size_t end_of_string(std::string_view text, std::size_t begin) {
+  const char quote = text[begin];
+  const std::string three(3, quote);
+  const bool multiline = text.substr(begin).starts_with(three);
+  for (std::size_t i = begin + (multiline ? 3 : 1); i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (!multiline && (text[i] == quote || text[i] == '\n')) {
+      return i;
+    } else if (multiline && text.substr(i).starts_with(three)) {
+      // Up to two quotes may stand right before the three that close it.
+      return std::min({text.find_first_not_of(quote, i), i + 5, text.size()}) - 1;
+    }
+  }
+  return text.size();
+}
+
+/// Calls fail(offset, message) where a key or a value is nested deeper than any scene's: toml++ follows it by
+/// recursion, and so does what reads its tables. Between other signs a value has one dot at most, so what has many is a
+/// key.
+template <class Fail>
+void refuse_depth(std::string_view text, const Fail& fail) {
+  constexpr std::size_t most_open = 16;
+  std::size_t dots = 0, open = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      i = end_of_string(text, i);
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size());
+      dots = 0;
+    } else if (c == '.') {
+      if (++dots == most_nested_names) {
+        fail(i, fmt::format("expected a key of at most {} names, found more", most_nested_names));
+      }
+    } else if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) {
+      dots = 0;
+      if (c == '[' || c == '{') ++open;
+      if ((c == ']' || c == '}') && open > 0) --open;
+      if (open > most_open) fail(i, fmt::format("expected values nested at most {} deep, found more", most_open));
+    }
+  }
 }
 
 }  // namespace
@@ -66,20 +102,23 @@ std::string TomlValue::kind() const {
 }
 
 TomlValue read_document(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
+  constexpr std::size_t most_bytes = 64'000'000;
+  const SourceText source(file.string(), read_text(file, most_bytes));
+  refuse_depth(source.text(), [&](std::size_t offset, const std::string& message) { source.fail(offset, message); });
   try {
-    const toml::table table = toml::parse(text);
+    const toml::table table = toml::parse(source.text());
     return convert(table, [](const toml::source_region& source) {
       return Place{.line = source.begin.line, .column = source.begin.column};
     });
   } catch (const toml::parse_error& error) {
     const toml::source_position& at = error.source().begin;
-    throw UsageError(file.string() + ':' + std::to_string(at.line) + ':' + std::to_string(at.column) + ": " +
-                     std::string(error.description()));
+    throw UsageError(
+        escape_controls(fmt::format("{}:{}:{}: {}", file.string(), at.line, at.column, error.description())));
   }
 }
 
 TomlValue parse_value(std::string_view text, const Place& place) {
+  refuse_depth(text, [](std::size_t, const std::string& message) { throw UsageError(message); });
   try {
     const toml::table table = toml::parse("value = " + std::string(text));
     if (table.size() != 1) throw UsageError("expected one value, found several lines");

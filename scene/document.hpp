@@ -56,8 +56,12 @@ struct TomlEntry {
   TomlValue value;
 };
 
+/// The most names that a dotted key has, far more than in any scene.
+inline constexpr std::size_t most_nested_names = 16;
+
 /// Reads a TOML file into a table.
-/// @throws UsageError if it cannot be read or is no TOML; "file:line:col: message" for the first syntax error
+/// @throws UsageError if it cannot be read, is no TOML, or is nested deeper than any scene; "file:line:col: message"
+/// for the first syntax error
 TomlValue read_document(const std::filesystem::path& file);
 
 /// Reads the right side of an assignment, "[1, 2]" or "0.5"; every place in it is `place`.

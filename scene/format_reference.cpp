@@ -48,7 +48,9 @@ struct Describe {
   ValueText operator()(const std::vector<int>*) const { return {"[whole number, …]", ""}; }
   ValueText operator()(const std::optional<Eigen::Vector2i>*) const { return {"[whole number, whole number]", ""}; }
   ValueText operator()(const std::optional<int>*) const { return {"whole number", ""}; }
-  ValueText operator()(const std::optional<double>*) const { return {"number", ""}; }
+  ValueText operator()(const std::optional<double>* value) const {
+    return {"number", *value ? fmt::format("{}", **value) : ""};
+  }
   ValueText operator()(const std::optional<Rgb>*) const { return {"colour", ""}; }
   ValueText operator()(const std::optional<Eigen::Vector3d>*) const { return {"[x, y, z]", ""}; }
 };

@@ -1,29 +1,25 @@
 #include "scene/mesh_source.hpp"
 
-#include <algorithm>
-#include <fstream>
-#include <sstream>
-
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
+#include "core/read_file.hpp"
+#include "core/text.hpp"
 
 namespace drape {
+namespace {
+
+/// Whether a byte is not the first of a character in UTF-8.
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+}  // namespace
 
 SourceText SourceText::read(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) throw UsageError(name + ": this is a folder, not a file");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    throw UsageError(name +
-                     (std::filesystem::exists(file, ignored) ? ": the file cannot be opened" : ": no such file"));
-  }
-  std::ostringstream text;
-  // An empty file sets failbit on `text`; what counts is whether reading failed.
-  text << stream.rdbuf();
-  if (stream.bad()) throw UsageError(name + ": the file cannot be read");
-  return {name, std::move(text).str()};
+  // A grid of four million cells, the largest there is, takes about half a gigabyte as text.
+  constexpr std::size_t most_bytes = 2'000'000'000;
+  return {file.string(), read_text(file, most_bytes)};
 }
 
 std::size_t SourceText::line(std::size_t offset) const {
@@ -36,8 +32,7 @@ void SourceText::fail(std::size_t offset, const std::string& message) const {
   const std::size_t newline = offset == 0 ? std::string::npos : text_.rfind('\n', offset - 1);
   std::size_t column = 1;
   for (std::size_t i = newline == std::string::npos ? 0 : newline + 1; i < offset; ++i) {
-    const bool continues_a_character = (static_cast<unsigned char>(text_[i]) & 0xC0U) == 0x80U;
-    if (!continues_a_character) ++column;
+    if (!continues_character(text_[i])) ++column;
   }
   throw UsageError(fmt::format("{}:{}:{}: {}", name_, line(offset), column, message));
 }
@@ -45,17 +40,10 @@ void SourceText::fail(std::size_t offset, const std::string& message) const {
 void SourceText::fail(const std::string& message) const { throw UsageError(name_ + ": " + message); }
 
 std::string in_quotes(std::string_view piece) {
-  constexpr std::size_t kLongest = 40;
-  std::string result = "'";
-  for (const char c : piece.substr(0, kLongest)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7F) {
-      result += fmt::format("\\x{:02x}", byte);
-    } else {
-      result += c;
-    }
-  }
-  return result + (piece.size() > kLongest ? "…'" : "'");
+  constexpr std::size_t longest = 40;
+  std::size_t cut = std::min({piece.find('\n'), longest, piece.size()});
+  while (cut > 0 && cut < piece.size() && continues_character(piece[cut])) --cut;
+  return '\'' + escape_controls(piece.substr(0, cut)) + (cut < piece.size() ? "…'" : "'");
 }
 
 }  // namespace drape

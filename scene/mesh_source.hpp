@@ -35,7 +35,8 @@ class SourceText {
   std::string text_;
 };
 
-/// A piece of a file between single quotes, for a message: cut where it is long, without control characters.
+/// A piece of a file between single quotes, for a message: cut where it is long or ends its line, without control
+/// characters.
 std::string in_quotes(std::string_view piece);
 
 }  // namespace drape

@@ -6,8 +6,11 @@
 #include <charconv>
 #include <optional>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
 #include "core/error.hpp"
+#include "scene/tables.hpp"
 
 namespace drape {
 namespace {
@@ -28,7 +31,7 @@ bool is_bare_word(std::string_view text) {
   return !text.empty() && text.find_first_of(" \t\r\n\"'[]{},=\\") == std::string_view::npos;
 }
 
-/// "cloth.mesh" into its names. Empty if a name is missing.
+/// "cloth.mesh" into its names. Empty if a name is missing, or there are more than in any scene.
 std::vector<std::string> split_path(std::string_view text) {
   std::vector<std::string> path;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -36,6 +39,7 @@ std::vector<std::string> split_path(std::string_view text) {
     const std::string_view name = trimmed(text.substr(begin, end - begin));
     if (!is_bare_word(name)) return {};
     path.emplace_back(name);
+    if (path.size() > most_nested_names) return {};
     begin = end + 1;
   }
   return path;
@@ -93,6 +97,60 @@ bool passes_through(TomlValue& value, std::string_view name) {
   return items != nullptr && items->size() == 1 && items->front().as<TomlTable>() != nullptr && !item_number(name);
 }
 
+/// What holds where a key of this target is not given, as the document would write it; nothing unless it is an array.
+template <class Target>
+std::optional<TomlValue> default_array(Target target, const Place& place) {
+  if constexpr (std::is_same_v<Target, Eigen::Vector2i*> || std::is_same_v<Target, Eigen::Vector3d*>) {
+    TomlArray items;
+    for (Eigen::Index i = 0; i < target->size(); ++i) {
+      TomlValue item{.place = place, .data = false};
+      if constexpr (std::is_same_v<Target, Eigen::Vector2i*>) {
+        item.data = std::int64_t{(*target)[i]};
+      } else {
+        item.data = (*target)[i];
+      }
+      items.push_back(std::move(item));
+    }
+    return TomlValue{.place = place, .data = std::move(items)};
+  }
+  return std::nullopt;
+}
+
+/// The key of a table, "video" or "effects.wind", that `use` is called with, if there is one. Its target has its
+/// default.
+template <class Use>
+void with_key(const std::string& table, const std::string& name, Use use) {
+  const auto look_in = [&](const TableType& type) {
+    for (const Key& key : type.keys.all()) {
+      if (type.name == table && key.name == name) use(key);
+    }
+  };
+  ClothTable cloth;
+  Scene scene;
+  for (const TableType& type : scene_tables(cloth, scene)) look_in(type);
+  for (const EffectType& type : effect_types()) {
+    const std::unique_ptr<Effect> effect = type.make();
+    look_in(effect_table(type, *effect));
+  }
+}
+
+/// What stands for a name that the document does not have, path[depth]: its default where the path goes on to one of
+/// its items, otherwise a table.
+TomlValue value_on_the_way(const std::vector<std::string>& path, std::size_t depth, const Place& place) {
+  TomlValue value{.place = place, .data = TomlTable{}};
+  if (depth + 1 == path.size() || !item_number(path[depth + 1])) return value;
+  const bool effect = path.front() == "effects" && depth > 1;  // whose tables may have a number
+  with_key(joined(path, effect ? 2 : depth), path[depth], [&](const Key& key) {
+    const auto initial = std::visit([&](const auto& target) { return default_array(target, place); }, key.target);
+    if (!initial) {
+      throw UsageError(
+          fmt::format("{0} has no items unless it is given: give all of it, {0}=…", joined(path, depth + 1)));
+    }
+    value = *initial;
+  });
+  return value;
+}
+
 void apply(TomlValue& document, Assignment assignment, const Place& place) {
   TomlValue* node = &document;
   const std::vector<std::string>& path = assignment.path;
@@ -111,7 +169,7 @@ void apply(TomlValue& document, Assignment assignment, const Place& place) {
     if (name == "0" && depth == 2 && path.front() == "effects") continue;
     node = table->find(name);
     if (node == nullptr) {
-      table->entries.push_back({name, place, {.place = place, .data = TomlTable{}}});
+      table->entries.push_back({name, place, value_on_the_way(path, depth, place)});
       node = &table->entries.back().value;
     }
   }

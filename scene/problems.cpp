@@ -3,22 +3,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 
+std::string Problems::text(const Place& place) const {
+  return place.override_number == 0 ? fmt::format("{}:{}:{}", file_.string(), place.line, place.column)
+                                    : fmt::format("--set {}", overrides_[place.override_number - 1]);
+}
+
 void Problems::throw_if_any() const {
+  // More than these nobody reads.
+  constexpr std::size_t most_told = 100;
   if (found_.empty()) return;
-  std::vector<Problem> sorted = found_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) { return a.place < b.place; });
+  std::vector<const Problem*> sorted;
+  for (const Problem& problem : found_) sorted.push_back(&problem);
+  std::stable_sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->place < b->place; });
   std::string text;
-  for (const auto& [place, message] : sorted) {
+  for (const Problem* problem : std::span(sorted).first(std::min(most_told, sorted.size()))) {
+    const auto& [place, message] = *problem;
     if (!text.empty()) text += '\n';
-    text += place.override_number == 0 ? fmt::format("{}:{}:{}: {}", file_.string(), place.line, place.column, message)
-                                       : fmt::format("--set {}: {}", overrides_[place.override_number - 1], message);
+    text += fmt::format("{}: {}", this->text(place), message);
   }
-  throw UsageError(text);
+  if (sorted.size() > most_told) text += fmt::format("\nand {} more", sorted.size() - most_told);
+  throw UsageError(escape_controls(text));
 }
 
 }  // namespace drape

@@ -22,7 +22,11 @@ class Problems {
 
   [[nodiscard]] std::size_t count() const { return found_.size(); }
 
-  /// @throws UsageError that lists the problems in the order of their places, if there are any
+  /// "scene.toml:4:9" or "--set key.path=value".
+  [[nodiscard]] std::string text(const Place& place) const;
+
+  /// @throws UsageError that lists the problems in the order of their places, if there are any; of many the first
+  /// hundred and how many more there are
   void throw_if_any() const;
 
  private:

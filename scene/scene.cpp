@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -68,6 +69,21 @@ class Checks {
     }
   }
 
+  /// Unless the film is shorter only because of an override that has nothing to do with them.
+  void compared_frames_exist() const {
+    const double last = scene_.video.last_frame(static_cast<double>(scene_.step_count()) * scene_.simulation.step);
+    const auto& frames = scene_.check.frames;
+    const auto beyond = std::find_if(frames.begin(), frames.end(), [&](int frame) { return frame > last; });
+    if (beyond == frames.end()) return;
+    const TomlValue* value = find_path(document_, "check.frames");
+    const bool given_with_them = value != nullptr && value->place.override_number > 0;
+    if (!given_with_them && length_is_overridden()) return;
+    const TomlArray* numbers = value == nullptr ? nullptr : value->as<TomlArray>();
+    const auto index = static_cast<std::size_t>(beyond - frames.begin());
+    problems_.add(numbers == nullptr ? document_.place : numbers->at(index).place,
+                  fmt::format("frames: the film ends with frame {}, found {}", last, *beyond));
+  }
+
   void texture() const {
     if (!scene_.look.texture.empty() && scene_.uvs.empty()) {
       add("look", "texture", "texture: the mesh has no texture coordinates");
@@ -75,6 +91,14 @@ class Checks {
   }
 
  private:
+  [[nodiscard]] bool length_is_overridden() const {
+    const std::array<const char*, 4> keys{"time.duration", "time.step", "video.fps", "video.speed"};
+    return std::any_of(keys.begin(), keys.end(), [&](const char* key) {
+      const TomlValue* value = find_path(document_, key);
+      return value != nullptr && value->place.override_number > 0;
+    });
+  }
+
   void add(const char* table, const char* key, std::string message) const {
     const TomlValue* value = find_path(document_, table);
     problems_.add(value == nullptr ? document_.place : place_of(*value, key), std::move(message));
@@ -114,6 +138,16 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
     }
   }
   const std::vector<ReadEffect> effects = read_effects(document, reader, problems);
+  scene.inputs = reader.files();
+  scene.inputs.push_back(file);
+  for (const TomlValue* mesh : {cloth_table.mesh, cloth_table.rest}) {
+    if (mesh != nullptr && mesh->as<std::string>() != nullptr) {
+      scene.inputs.push_back(folder / *mesh->as<std::string>());
+    }
+  }
+  if (const TomlValue* look = find_path(document, "look")) {
+    scene.texture_place = problems.text(place_of(*look, "texture"));
+  }
 
   for (const ReadEffect& effect : effects) scene.simulation.effects.push_back(effect.active);
 
@@ -127,6 +161,7 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
     check_effects(effects, scene.simulation, problems);
   }
   if (reader.good("check")) checks.compared_frames();
+  if (reader.good("check") && reader.good("time") && reader.good("video")) checks.compared_frames_exist();
   problems.throw_if_any();
   scene.digest = digest(document, {"check"});
   checks.stability();

@@ -21,6 +21,8 @@ struct Scene {
   Look look;
   Video video;
   CheckSettings check;
+  std::vector<std::filesystem::path> inputs;  ///< every file that it is read from: itself, meshes, tracks, the texture
+  std::string texture_place;                  ///< where the texture is named, for messages: "scene.toml:9:11"
   /// A hash of what the file and the overrides say, but for [check]: comments, the order of keys and the way in which a
   /// number is written do not change it. 16 hexadecimal digits.
   std::string digest;

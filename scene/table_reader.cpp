@@ -20,20 +20,23 @@ constexpr const char* effects_table = "effects";
 class KeyReader {
  public:
   KeyReader(const TomlValue& value, const Key& key, const std::filesystem::path& folder, const Vertices* vertices,
-            Problems& problems)
+            Problems& problems, std::vector<std::filesystem::path>& files)
       : value_(value),
         key_(key),
         range_{key.minimum, key.maximum, key.minimum_excluded},
         folder_(folder),
         vertices_(vertices),
-        problems_(problems) {}
+        problems_(problems),
+        files_(files) {}
 
   void operator()(bool* target) const { assign(target, read_bool(value_, key_.name, problems_)); }
   void operator()(int* target) const { assign(target, read_int(value_, key_.name, range_, problems_)); }
   void operator()(double* target) const { assign(target, read_number(value_, key_.name, range_, problems_)); }
   void operator()(std::string* target) const { assign(target, read_string(value_, key_.name, problems_)); }
   void operator()(std::filesystem::path* target) const {
-    assign(target, read_file_name(value_, key_.name, folder_, problems_));
+    const std::optional<std::filesystem::path> file = read_file_name(value_, key_.name, folder_, problems_);
+    assign(target, file);
+    if (file && !file->empty()) files_.push_back(*file);
   }
   void operator()(Rgb* target) const { assign(target, read_color()); }
   void operator()(Eigen::Vector2i* target) const {
@@ -61,6 +64,7 @@ class KeyReader {
   void operator()(std::shared_ptr<const SphereTrack>* target) const {
     const std::optional<std::string> file = read_string(value_, key_.name, problems_);
     if (!file) return;
+    files_.push_back(folder_ / *file);
     try {
       *target = read_sphere_track(folder_ / *file);
     } catch (const UsageError& error) {
@@ -106,6 +110,7 @@ class KeyReader {
   const std::filesystem::path& folder_;
   const Vertices* vertices_;
   Problems& problems_;
+  std::vector<std::filesystem::path>& files_;
 };
 
 std::vector<std::string> key_names(const TableType& type) {
@@ -174,7 +179,7 @@ void TableReader::read_entries(const TomlTable& table, const TableType& type,
   for (const TomlEntry& entry : table.entries) {
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == entry.name; });
     if (key != keys.end()) {
-      std::visit(KeyReader(entry.value, *key, folder_, vertices_, problems_), key->target);
+      std::visit(KeyReader(entry.value, *key, folder_, vertices_, problems_, files_), key->target);
     } else if (!contains(subtables, entry.name)) {
       report_unknown(entry, type, subtables);
     }

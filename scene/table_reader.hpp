@@ -32,6 +32,9 @@ class TableReader {
   /// Whether no table of this name had problems, nor the root: what it leaves out is then left out on purpose.
   [[nodiscard]] bool good(const std::string& table) const;
 
+  /// The files that the tables name, but for those in forms of their own.
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+
  private:
   struct Home {
     std::string key, table;
@@ -45,7 +48,8 @@ class TableReader {
   std::filesystem::path folder_;
   const Vertices* vertices_ = nullptr;
   Problems& problems_;
-  std::vector<Home> homes_;       // every key of every table, to say where one belongs
+  std::vector<Home> homes_;  // every key of every table, to say where one belongs
+  std::vector<std::filesystem::path> files_;
   std::vector<std::string> bad_;  // tables that had problems; "" is the root
 };
 

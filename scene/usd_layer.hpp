@@ -59,6 +59,7 @@ struct UsdLayer {
   double time_codes_per_second = 24;
   double start_time_code = 0;
   std::vector<UsdPrim> prims;
+  std::optional<std::size_t> mesh_in_variant;  ///< where the first Mesh within a variant set is, which is passed over
 };
 
 /// Parses an ASCII USD file. The syntax of all of it is checked, but only what a mesh and its motion need is kept: the

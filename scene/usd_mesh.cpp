@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
 #include "scene/mesh_builder.hpp"
 #include "scene/usd_layer.hpp"
 #include "scene/usd_xform.hpp"
@@ -17,13 +18,12 @@ namespace {
 
 using Uv = MeshBuilder::Uv;
 
-/// Reads one Mesh prim into a builder that may hold others already.
+/// Reads a Mesh prim.
 class MeshPrim {
  public:
-  MeshPrim(const SourceText& source, const UsdPrim& prim, MeshBuilder& builder)
-      : source_(source), prim_(prim), builder_(builder), first_vertex_(builder.vertex_count()) {}
+  MeshPrim(const SourceText& source, const UsdPrim& prim) : source_(source), prim_(prim) {}
 
-  void read(const Eigen::Affine3d& to_world) {
+  Mesh read(const Eigen::Affine3d& to_world) {
     const UsdValue& points = required("points", 3);
     const UsdValue& counts = required("faceVertexCounts", 1);
     const UsdValue& indices = required("faceVertexIndices", 1);
@@ -36,6 +36,8 @@ class MeshPrim {
     const UsdValue* side = orientation == nullptr ? nullptr : orientation->first();
     const bool left_handed = side != nullptr && !side->strings.empty() && side->strings[0] == "leftHanded";
     add_faces(indices, uvs, left_handed != (to_world.linear().determinant() < 0));
+    if (builder_.triangle_count() == 0) source_.fail("there is no face in the file");
+    return builder_.finish();
   }
 
  private:
@@ -169,7 +171,7 @@ class MeshPrim {
     for (const std::size_t size : sizes_) {
       corners.clear();
       for (std::size_t i = first; i < first + size; ++i) {
-        corners.push_back(static_cast<int>(first_vertex_) + vertex(indices, i));
+        corners.push_back(vertex(indices, i));
       }
       face_uvs.clear();
       if (!uvs.empty()) {
@@ -190,25 +192,60 @@ class MeshPrim {
 
   const SourceText& source_;
   const UsdPrim& prim_;
-  MeshBuilder& builder_;
-  std::size_t first_vertex_;
+  MeshBuilder builder_;
   std::size_t point_count_ = 0;
   std::vector<std::size_t> sizes_;
 };
+
+/// The first Mesh among these prims, or null. @param unused set to the prim that keeps it out of the scene, if one does
+const UsdPrim* find_mesh(const std::vector<UsdPrim>& prims, const UsdPrim*& unused) {
+  for (const UsdPrim& prim : prims) {
+    const UsdPrim* before = unused;
+    if (unused == nullptr && !prim.is_defined) unused = &prim;
+    if (prim.type == "Mesh") return &prim;
+    if (const UsdPrim* mesh = find_mesh(prim.children, unused)) return mesh;
+    unused = before;
+  }
+  return nullptr;
+}
+
+/// Says why there is no mesh although one may stand in the file.
+[[noreturn]] void fail_without_mesh(const SourceText& source, const UsdLayer& layer) {
+  if (layer.mesh_in_variant) {
+    source.fail(
+        *layer.mesh_in_variant,
+        "this Mesh is within a variant set, which is not read, and there is no other: export what is chosen there");
+  }
+  const UsdPrim* unused = nullptr;
+  if (const UsdPrim* mesh = find_mesh(layer.prims, unused)) {
+    source.fail(mesh->offset,
+                fmt::format("the Mesh {} is not part of the scene: {} of line {} is an 'over' or 'class', not a 'def'",
+                            in_quotes(mesh->name), in_quotes(unused->name), source.line(unused->offset)));
+  }
+  source.fail("there is no Mesh in the file");
+}
+
+[[noreturn]] void fail_with_several(const SourceText& source, const std::vector<UsdPath>& meshes) {
+  constexpr std::size_t most_told = 20;
+  std::string list;
+  for (const UsdPath& path : std::span(meshes).first(std::min(most_told, meshes.size()))) {
+    const UsdAttribute* points = path.back()->find("points");
+    const std::size_t numbers = points == nullptr || points->first() == nullptr ? 0 : points->first()->numbers.size();
+    list += fmt::format("{} {} ({} vertices)", list.empty() ? "" : ",", escape_controls(path_text(path)), numbers / 3);
+  }
+  if (meshes.size() > most_told) list += fmt::format(" and {} more", meshes.size() - most_told);
+  source.fail(fmt::format("expected one Mesh in the file, found {}:{}; export the cloth alone", meshes.size(), list));
+}
 
 }  // namespace
 
 Mesh read_usd_mesh(const SourceText& source) {
   const UsdLayer layer = parse_usd(source);
-  MeshBuilder builder;
   const std::vector<UsdPath> meshes = find_prims(layer, {"Mesh"});
-  if (meshes.empty()) source.fail("there is no Mesh in the file");
-  for (const UsdPath& path : meshes) {
-    const Eigen::Affine3d to_world = world_transform(source, layer, path, layer.start_time_code);
-    MeshPrim(source, *path.back(), builder).read(to_world);
-  }
-  if (builder.triangle_count() == 0) source.fail("there is no face in the file");
-  return builder.finish();
+  if (meshes.empty()) fail_without_mesh(source, layer);
+  if (meshes.size() > 1) fail_with_several(source, meshes);
+  const UsdPath& path = meshes.front();
+  return MeshPrim(source, *path.back()).read(world_transform(source, layer, path, layer.start_time_code));
 }
 
 }  // namespace drape

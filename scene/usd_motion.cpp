@@ -94,7 +94,12 @@ TransformTrack read_usd_motion(const SourceText& source) {
 TransformTrack read_usd_motion(const std::filesystem::path& file) { return read_usd_motion(SourceText::read(file)); }
 
 std::shared_ptr<const SphereTrack> read_sphere_track(const std::filesystem::path& file) {
-  return std::make_shared<UsdSphereTrack>(read_usd_motion(file));
+  const SourceText source = SourceText::read(file);
+  TransformTrack track = read_usd_motion(source);
+  if (track.times.size() < 2) {
+    source.fail("nothing moves in the file: expected a Mesh, a Sphere or an Xform with time samples of its transform");
+  }
+  return std::make_shared<UsdSphereTrack>(std::move(track));
 }
 
 }  // namespace drape

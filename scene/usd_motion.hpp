@@ -37,6 +37,7 @@ TransformTrack read_usd_motion(const SourceText& source);
 TransformTrack read_usd_motion(const std::filesystem::path& file);
 
 /// The same motion for whoever follows it.
+/// @throws UsageError also if nothing moves: a mesh that only its skeleton or its points move is no track
 std::shared_ptr<const SphereTrack> read_sphere_track(const std::filesystem::path& file);
 
 }  // namespace drape

@@ -56,6 +56,7 @@ class Parser {
         layer.prims.push_back(prim(0));
       }
     }
+    layer.mesh_in_variant = mesh_in_variant_;
     return layer;
   }
 
@@ -157,14 +158,23 @@ class Parser {
     if (is_specifier(lexer_)) {
       prim.children.push_back(this->prim(depth + 1));
     } else if (lexer_.at_word("variantSet")) {
-      lexer_.take();
-      lexer_.expect(Kind::string, "the variant set's name in quotes");
-      lexer_.expect('=', "'='");
-      lexer_.skip_value();
+      skip_variants();
     } else if (lexer_.at_word("reorder")) {
       skip_reorder();
     } else {
       read_property(prim);
+    }
+  }
+
+  void skip_variants() {
+    lexer_.take();
+    lexer_.expect(Kind::string, "the variant set's name in quotes");
+    lexer_.expect('=', "'='");
+    UsdLexer inside = lexer_;
+    lexer_.skip_value();
+    while (!mesh_in_variant_ && inside.token().offset < lexer_.token().offset) {
+      const UsdToken token = inside.take();
+      if (token.kind == Kind::word && token.text == "def" && inside.at_word("Mesh")) mesh_in_variant_ = token.offset;
     }
   }
 
@@ -250,6 +260,7 @@ class Parser {
 
   const SourceText& source_;
   UsdLexer lexer_;
+  std::optional<std::size_t> mesh_in_variant_;
 };
 
 }  // namespace

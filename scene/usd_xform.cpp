@@ -173,6 +173,12 @@ std::vector<UsdPath> find_prims(const UsdLayer& layer, std::initializer_list<std
   return found;
 }
 
+std::string path_text(const UsdPath& path) {
+  std::string text;
+  for (const UsdPrim* prim : path) text += '/' + prim->name;
+  return text;
+}
+
 Eigen::Affine3d world_transform(const SourceText& source, const UsdLayer& layer, const UsdPath& path, double time) {
   Eigen::Affine3d result = Eigen::Affine3d::Identity();
   for (auto prim = path.rbegin(); prim != path.rend(); ++prim) {

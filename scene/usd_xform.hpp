@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <initializer_list>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +16,9 @@ using UsdPath = std::vector<const UsdPrim*>;
 /// The defined prims of the given types, in the order of the file; of any type where none is given. They point into the
 /// layer.
 std::vector<UsdPath> find_prims(const UsdLayer& layer, std::initializer_list<std::string_view> types);
+
+/// "/root/Grid"
+std::string path_text(const UsdPath& path);
 
 /// From the coordinates of a prim to the world's, in metres with z up: its xformOps and those of its ancestors as
 /// xformOpOrder lists them, then the layer's unit and up axis. A y-up scene is turned by 90° about x.

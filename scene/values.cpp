@@ -36,7 +36,8 @@ std::string item_name(const std::string& name, std::size_t index) { return fmt::
 
 bool is_file(const std::filesystem::path& path) {
   std::error_code error;
-  return std::filesystem::is_regular_file(path, error);
+  const bool whole = path.native().find('\0') == std::string::npos;  // else the system reads what is before the zero
+  return whole && std::filesystem::is_regular_file(path, error);
 }
 
 }  // namespace

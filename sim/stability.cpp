@@ -37,8 +37,7 @@ Eigen::VectorXd starting_vector(const Eigen::VectorXd& scale) {
 }
 
 /// An upper bound of the largest eigenvalue of S [1/s²].
-double largest_eigenvalue(const System& system, const Eigen::VectorXd& scale) {
-  const std::vector<Spring> bound_of_stiffness = system.stiffness_bound();
+double largest_eigenvalue(const std::vector<Spring>& bound_of_stiffness, const Eigen::VectorXd& scale) {
   Eigen::VectorXd v = starting_vector(scale), previous = Eigen::VectorXd::Zero(v.size()), w(v.size());
   std::vector<double> alpha, beta;
   double bound = 0;
@@ -48,6 +47,7 @@ double largest_eigenvalue(const System& system, const Eigen::VectorXd& scale) {
     w -= alpha.back() * v;
     if (!beta.empty()) w -= beta.back() * previous;
     beta.push_back(w.norm());
+    if (!std::isfinite(alpha.back() + beta.back())) return std::numeric_limits<double>::infinity();
     const bool exhausted = beta.back() <= std::numeric_limits<double>::epsilon() * std::abs(alpha.front());
     if (exhausted || k % check_every == 0) {
       const auto diagonal = Eigen::Map<const Eigen::VectorXd>(alpha.data(), k);
@@ -66,17 +66,37 @@ double largest_eigenvalue(const System& system, const Eigen::VectorXd& scale) {
   return bound;
 }
 
+/// The exponent of a power of four of about this size.
+int even_exponent(double size) {
+  int exponent = 0;
+  std::frexp(size, &exponent);
+  return std::isfinite(size) ? exponent / 2 * 2 : 0;
+}
+
 }  // namespace
 
 double safe_step(const System& system) {
-  Eigen::VectorXd scale = system.cloth.masses.cwiseSqrt().cwiseInverse();
-  for (const int pin : system.cloth.pins) scale[pin] = 0;
+  Eigen::VectorXd free = Eigen::VectorXd::Ones(system.cloth.masses.size());
+  for (const int pin : system.cloth.pins) free[pin] = 0;
   for (const PinRelease& release : system.pin_releases) {
-    for (const int vertex : release.vertices) scale[vertex] = 1 / std::sqrt(system.cloth.masses[vertex]);
+    for (const int vertex : release.vertices) free[vertex] = 1;
   }
-  double largest = largest_eigenvalue(system, scale);
-  for (const auto& force : system.forces) largest += force->stiffness_bound();
-  return largest > 0 ? 2 / std::sqrt(largest) : std::numeric_limits<double>::infinity();
+  // In units of about the largest stiffness and the least mass, so that no product leaves the range of a double. They
+  // are powers of four, which change no bit of the result.
+  std::vector<Spring> bound = system.stiffness_bound();
+  double stiffest = 0;
+  for (const Spring& s : bound) stiffest = std::max(stiffest, std::abs(s.stiffness));
+  const int unit_of_stiffness = even_exponent(stiffest);
+  const int unit_of_mass = even_exponent(system.cloth.masses.minCoeff());
+  for (Spring& s : bound) s.stiffness = std::ldexp(s.stiffness, -unit_of_stiffness);
+  const auto scale = [&](double mass) { return 1 / std::sqrt(std::ldexp(mass, -unit_of_mass)); };
+  const double largest = largest_eigenvalue(bound, free.cwiseProduct(system.cloth.masses.unaryExpr(scale)));
+  double frequency = std::ldexp(std::sqrt(largest), (unit_of_stiffness - unit_of_mass) / 2);
+
+  double pushes = 0;
+  for (const auto& force : system.forces) pushes += force->stiffness_bound();
+  if (pushes > 0) frequency = std::hypot(frequency, std::sqrt(pushes));
+  return frequency > 0 ? 2 / frequency : std::numeric_limits<double>::infinity();
 }
 
 double condition_bound(const System& system) {

@@ -80,10 +80,15 @@ struct Correction {
 /// would do).
 struct MotionFilter {
   virtual ~MotionFilter() = default;
+  /// Takes note of the state in which a step begins at `time` [s], before anything has acted.
+  virtual void begin(const State& /*state*/, double /*time*/) {}
   /// Changes v, the velocities n×3 [m/s] with which the cloth is about to go from x to x + h·v, between `time` and
   /// time + h [s]. Leaves the rows of pinned vertices as they are. What it keeps between calls is memory only: the
   /// result depends on the arguments alone.
   virtual void apply(const Vertices& x, double time, double h, Vertices& v) = 0;
+  /// Makes of the velocities with which the vertices have moved those that they have where they are now: what bounces
+  /// on its way ends it with another velocity than it went with on average.
+  virtual void finish(Vertices& /*v*/) {}
   /// Whether the last call did all that the filter is for, rather than stop at its cap.
   [[nodiscard]] virtual bool converged() const { return true; }
 };
@@ -94,7 +99,7 @@ struct ColliderMotion {
   [[nodiscard]] virtual Collider at(double time) const = 0;
 };
 
-/// What acts on a cloth, as the integrators evaluate it. Filled by the effects a scene calls for, in the order of the
+/// What acts on a cloth, as the schemes evaluate it. Filled by the effects a scene calls for, in the order of the
 /// registry; a scene without effects leaves every list empty.
 struct System {
   const Cloth& cloth;
@@ -129,6 +134,11 @@ struct System {
   /// m/h² of every vertex [N/m], the inertia that holds it in an implicit step.
   [[nodiscard]] Eigen::VectorXd inertia() const { return cloth.masses / (step * step); }
 
+  /// Shows every filter the state in which a step begins.
+  void begin(const State& state) const {
+    for (const auto& filter : filters) filter->begin(state, time(state.step));
+  }
+
   /// Writes where the pins that move are when the step ends that begins at state.step into their rows of x.
   void place_pins(const State& state, Vertices& x) const {
     for (const PinMotion& motion : pin_motions) motion.place(time(state.step + 1), x);
@@ -148,6 +158,7 @@ struct System {
     for (const auto& filter : filters) filter->apply(state.x, time(state.step), step, state.v);
     state.x += step * state.v;
     place_pins(state, state.x);
+    for (const auto& filter : filters) filter->finish(state.v);
   }
 
   /// Applies every correction to the velocities of that step, and gives the pins that move theirs.

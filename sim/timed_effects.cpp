@@ -88,9 +88,17 @@ struct TimedCorrection final : Timed<Correction> {
 
 struct TimedFilter final : Timed<MotionFilter> {
   using Timed::Timed;
+  void begin(const State& state, double time) override {
+    const Stopwatch watch(seconds);
+    inner->begin(state, time);
+  }
   void apply(const Vertices& x, double time, double h, Vertices& v) override {
     const Stopwatch watch(seconds);
     inner->apply(x, time, h, v);
+  }
+  void finish(Vertices& v) override {
+    const Stopwatch watch(seconds);
+    inner->finish(v);
   }
   [[nodiscard]] bool converged() const override { return inner->converged(); }
 };

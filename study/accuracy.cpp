@@ -75,6 +75,15 @@ class SceneStudy {
     cases_ = accuracy_cases(scene_, file, result_.options, result_.notes);
   }
 
+  /// @throws UsageError if a case or a reference cannot be run
+  void check() const {
+    for (const ToleranceCase& one : cases_.tolerances) static_cast<void>(one.what.load());
+    for (const StepCase& one : cases_.steps) static_cast<void>(one.what.load());
+    for (const Method method : {Method::implicit, Method::quasi_newton}) {
+      const Simulation reference(to_rounding(scene_.simulation, method));
+    }
+  }
+
   std::optional<SceneAccuracy> run(const std::stop_token& stop, Progress& progress) {
     if (!find_references(stop, progress) || !measure_cases(stop, progress)) return std::nullopt;
     if (!find_solve_errors(stop, progress)) return std::nullopt;
@@ -184,6 +193,8 @@ class SceneStudy {
 };
 
 }  // namespace
+
+void check_accuracy(const std::string& file, const AccuracyOptions& options) { SceneStudy({}, file, options).check(); }
 
 std::optional<SceneAccuracy> study_accuracy(const std::string& name, const std::string& file,
                                             const AccuracyOptions& options, const std::stop_token& stop,

@@ -74,6 +74,10 @@ inline constexpr int most_study_iterations = 5000;
 /// @throws UsageError if a time is outside of the motion, or a step does not divide the first time
 AccuracyOptions complete(AccuracyOptions options, const Scene& scene);
 
+/// Finds out what study_accuracy() would only find out after hours: whether every case of the scene can be run.
+/// @throws UsageError
+void check_accuracy(const std::string& file, const AccuracyOptions& options);
+
 /// @param name  of the scene's files
 /// @param file  as a command names it, relative to the working folder
 /// @returns nothing if it was stopped

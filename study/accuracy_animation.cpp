@@ -24,7 +24,7 @@ std::vector<T> spread(const std::vector<T>& all) {
 }
 
 std::string cost_label(double microseconds) {
-  return fmt::format("{:.{}f} µs a step", microseconds, microseconds < 100 ? 1 : 0);
+  return fmt::format("{:.{}f} µs per step", microseconds, microseconds < 100 ? 1 : 0);
 }
 
 AnimationPanel panel(const TolerancePoint& p) {

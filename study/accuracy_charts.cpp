@@ -44,15 +44,20 @@ std::array<double, 2> spread(const Quartiles& time) { return {time.lower, time.u
 /// A series for each method, of the error that `error` takes from a point.
 template <class Error>
 html::Chart by_time(const SceneAccuracy& scene, const std::string& title, const std::string& y_title, Error error) {
-  html::Chart chart{
-      title, "µs a step, median and quartiles", y_title, html::Scale::logarithmic, html::Scale::logarithmic, {}, {}};
+  html::Chart chart{title,
+                    "time per step [µs], median and quartiles",
+                    y_title,
+                    html::Scale::logarithmic,
+                    html::Scale::logarithmic,
+                    {},
+                    {}};
   for (const Method method : scene.options.methods) {
-    html::ChartSeries series{method_name(method), {}};
+    html::ChartSeries series = method_series(method_name(method));
     for (const TolerancePoint& p : scene.points) {
       if (p.method != method) continue;
       const Quartiles time = p.measured.time();
       series.points.push_back({time.median, error(p),
-                               fmt::format("ε = {:g} {}: {:.1f} µs a step ({:.1f} to {:.1f}), {:.3g} m", p.tolerance,
+                               fmt::format("ε = {:g} {}: {:.1f} µs per step ({:.1f} to {:.1f}), {:.3g} m", p.tolerance,
                                            scene.tolerance_unit, time.median, time.lower, time.upper, error(p)),
                                commands(scene, p), spread(time)});
     }
@@ -82,12 +87,12 @@ html::Chart by_step(const SceneAccuracy& scene, const std::string& title, const 
                     bool with_spread) {
   html::Chart chart{title, x_title, "error [m]", html::Scale::logarithmic, html::Scale::logarithmic, {}, {}};
   for (const Method method : scene.options.methods) {
-    html::ChartSeries series{method_name(method), {}};
+    html::ChartSeries series = method_series(method_name(method));
     for (const StepPoint& p : scene.steps) {
       if (p.method != method) continue;
       const Quartiles cost = cost_of_motion(p);
       std::string label =
-          fmt::format("h = {:g} s: {:.3g} m, {:.3g} ms for a second of motion", p.step, p.error.max, cost.median);
+          fmt::format("h = {:g} s: {:.3g} m, {:.3g} ms per second of motion", p.step, p.error.max, cost.median);
       if (std::isfinite(p.order)) label += fmt::format(", order {:.2f} from the step before", p.order);
       html::ChartPoint point{across(p), p.error.max, std::move(label), commands(scene, p), {}};
       if (with_spread) point.spread = spread(cost);
@@ -101,6 +106,7 @@ html::Chart by_step(const SceneAccuracy& scene, const std::string& title, const 
 
 NamedChart apart_chart(const SceneAccuracy& scene) {
   html::ChartSeries series{"Newton and quasi-Newton", {}, false};
+  series.style = 5;  // which is no method's
   for (std::size_t i = 0; i < scene.apart_by_step.size(); ++i) {
     const double time = static_cast<double>(i + 1) * scene.step;
     series.points.push_back(
@@ -152,7 +158,7 @@ std::vector<NamedChart> accuracy_charts(const SceneAccuracy& scene) {
     charts.push_back(
         {scene.name + "-step-cost", by_step(
                                         scene, fmt::format("Error of the time step at {:g} s, by what it costs.", time),
-                                        "ms for a second of motion, median and quartiles",
+                                        "computing time per second of motion [ms], median and quartiles",
                                         [](const StepPoint& p) { return cost_of_motion(p).median; }, true)});
   }
   if (!scene.points.empty()) charts.push_back(apart_chart(scene));

@@ -18,7 +18,7 @@ ResultTable tolerance_table(const SceneAccuracy& scene) {
   ResultTable table{
       scene.name + "-tolerances",
       fmt::format("{}: methods and tolerances, h = {:g} s", scene.scene, scene.step),
-      {"method", fmt::format("ε [{}]", scene.tolerance_unit), "iterations", "capped steps", "µs a step",
+      {"method", fmt::format("ε [{}]", scene.tolerance_unit), "iterations", "capped steps", "µs per step",
        "lower quartile", "upper quartile", "set-up [µs]", "solve: max [m]", "RMS [m]", "‖∇g‖, relative"},
       {},
       {"Set-up is what comes before the first step, the factorisation of the constant matrix above all."}};
@@ -44,7 +44,7 @@ ResultTable step_table(const SceneAccuracy& scene) {
   ResultTable table{
       scene.name + "-steps",
       fmt::format("{}: time steps, error at {:g} s", scene.scene, scene.options.times.front()),
-      {"method", "h [s]", "iterations", "µs a step", "ms for a second of motion", "lower quartile", "upper quartile",
+      {"method", "h [s]", "iterations", "µs per step", "ms per second of motion", "lower quartile", "upper quartile",
        "error: max [m]", "RMS [m]", "order"},
       {},
       {fmt::format("Order: measured from the step before. The reference is extrapolated from h = {:g} s and "

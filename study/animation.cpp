@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <memory>
 
-#include "render/encode/encoder.hpp"
+#include "render/encode/gif_encoder.hpp"
 #include "render/montage.hpp"
 #include "render/renderer.hpp"
 #include "run/frame_sampler.hpp"
@@ -155,13 +157,9 @@ std::optional<std::string> animate_errors(const Scene& scene, const SimulationSe
   const Eigen::Vector2i size(picture_width, picture_width * scene.video.size.y() / scene.video.size.x());
   PanelPainter painter(scene, view_of(scene, size, motions), size, backend);
   const int columns = panels.size() == 3 ? 3 : 2;
-  OutputSpec spec;
-  spec.path = file.string();
-  spec.scene = scene.name;
-  spec.fps = video.fps;
-  spec.expected_frames = static_cast<int>(exact.size());
-  const std::unique_ptr<Encoder> encoder = make_encoder(spec);
-  progress.begin("drawing the animation", "frames", spec.expected_frames);
+  const std::unique_ptr<Encoder> encoder =
+      std::make_unique<GifEncoder>(file, video.fps, std::function<void(int, int)>());
+  progress.begin("drawing the animation", "frames", static_cast<std::int64_t>(exact.size()));
   Image bar;
   for (std::size_t f = 0; f < exact.size(); ++f) {
     if (stop.stop_requested()) return std::nullopt;

@@ -15,7 +15,7 @@ namespace drape {
 /// A motion in an animation, and what stands above it.
 struct AnimationPanel {
   StudyCase what;
-  std::string label;  ///< "liu13, tolerance 0.001: 190 µs a step": ASCII and µ
+  std::string label;  ///< "liu13, tolerance 0.001: 190 µs per step": ASCII and µ
 };
 
 /// A GIF in which several motions of a scene run side by side, each vertex in the colour of its distance to a reference

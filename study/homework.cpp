@@ -23,7 +23,7 @@ ResultTable make_table(int table, const std::vector<HomeworkRow>& rows, const st
   ResultTable result{fmt::format("table{}", table),
                      titles[static_cast<std::size_t>(table - 1)],
                      {"method", "h [s]", "ε [m]", "iterations: report", "its code again", "drape", "capped steps",
-                      "µs a step: report", "drape", "lower quartile", "upper quartile", "times faster"},
+                      "µs per step: report", "drape", "lower quartile", "upper quartile", "times faster"},
                      {},
                      {}};
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -66,7 +66,7 @@ void add_energies(HomeworkStudy& study) {
        "drape"},
       {},
       {"The report's positions are in single precision, which leaves noise of about 2e-10 J in its elastic "
-       "energy. The steady loss is the scheme's own, ½ M g² h² = 4.78e-5 J a step in free fall, and no "
+       "energy. The steady loss is the scheme's own, ½ M g² h² = 4.78e-5 J per step in free fall, and no "
        "damping.",
        what.command() + " --energies energies.csv"}};
   for (std::int64_t step = 1; step <= what.steps; ++step) {
@@ -86,7 +86,9 @@ void add_energies(HomeworkStudy& study) {
 }
 
 html::ChartSeries iterations_of(const Measured& measured, const std::string& name) {
-  html::ChartSeries series{name, {}, false, measured.what.command()};
+  html::ChartSeries series = method_series(name);
+  series.markers = false;
+  series.command = measured.what.command();
   for (std::size_t i = 0; i < measured.iterations.size(); ++i) {
     const double time = static_cast<double>(i + 1) * measured.step;
     series.points.push_back({time,
@@ -99,7 +101,9 @@ html::ChartSeries iterations_of(const Measured& measured, const std::string& nam
 
 /// @param every how many steps there is a point
 html::ChartSeries height_of(const Measured& measured, const std::string& name, std::size_t every) {
-  html::ChartSeries series{name, {}, false, measured.what.command()};
+  html::ChartSeries series = method_series(name);
+  series.markers = false;
+  series.command = measured.what.command();
   for (std::size_t i = every - 1; i < measured.height.size(); i += every) {
     const double time = static_cast<double>(i + 1) * measured.step;
     series.points.push_back(
@@ -121,7 +125,7 @@ NamedChart by_tolerance(const char* name, const char* title, const char* y_title
   using enum html::Scale;
   NamedChart chart{name, {title, "tolerance ε [m]", y_title, logarithmic, logarithmic, {}, {}}};
   const auto add = [&](const std::string& method, const char* source, const auto& value) {
-    html::ChartSeries series{method + source, {}};
+    html::ChartSeries series = method_series(method + source);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i].table != 3 || rows[i].method != method) continue;
       const double y = value(i);
@@ -152,11 +156,11 @@ void add_charts(HomeworkStudy& study, const std::vector<HomeworkRow>& rows, cons
       over_time("iterations-k180", "Iterations of every step over the motion, k = 180 N/m, ε = 1e-3 m.", "iterations",
                 {iterations_of(newton, "implicit"), iterations_of(liu13, "liu13")}),
       by_tolerance(
-          "iterations-by-tolerance", "Mean iterations a step by tolerance (table 3).", "iterations a step", rows,
+          "iterations-by-tolerance", "Mean iterations per step by tolerance (table 3).", "iterations per step", rows,
           measured, [](const Measured& m) { return m.mean_iterations(); },
           [](const Reported& r) { return r.iterations.value_or(0); }),
       by_tolerance(
-          "time-by-tolerance", "Time a step by tolerance (table 3).", "µs a step", rows, measured,
+          "time-by-tolerance", "Time per step by tolerance (table 3).", "time per step [µs]", rows, measured,
           [](const Measured& m) { return m.time().median; }, [](const Reported& r) { return r.microseconds; })};
 }
 

@@ -12,6 +12,8 @@ namespace {
 /// More than one pair in two frames can be seen; the report's Liu13 shows about four in each.
 constexpr double visible_pairs = 0.5;
 
+std::string per_frame(double pairs) { return pairs > 0 ? fmt::format("{:.2g}", pairs) : "none"; }
+
 /// The root mean square of a(t) − b(t) over the first `seconds`, at the steps of the coarser one, as a fraction of how
 /// far `a` moves in that time.
 double relative_distance(const Measured& a, const Measured& b, double seconds) {
@@ -57,8 +59,8 @@ class Results {
 Conclusion implicit_looks_right(const Results& of) {
   const double pairs = of(3, "implicit", "1").flipped_pairs;
   return {"Implicit Euler looks right even at ε = 1.", pairs < visible_pairs,
-          fmt::format("{:.3f} pairs of triangles a frame are flipped over at ε = 1, {:.3f} at ε = 1e-5.", pairs,
-                      of(3, "implicit", "1e-5").flipped_pairs)};
+          fmt::format("Pairs of triangles flipped over per frame: {} at ε = 1, {} at ε = 1e-5.", per_frame(pairs),
+                      per_frame(of(3, "implicit", "1e-5").flipped_pairs))};
 }
 
 Conclusion liu13_flips(const Results& of) {
@@ -66,8 +68,9 @@ Conclusion liu13_flips(const Results& of) {
                tight = of(3, "liu13", "1e-4").flipped_pairs;
   return {"Liu13 at ε = 1 or 0.1 shows triangles flipped over.",
           one > visible_pairs && tenth > visible_pairs && tight < visible_pairs,
-          fmt::format("{:.2f} pairs a frame at ε = 1, {:.2f} at 0.1, {:.2f} at 1e-2, {:.2f} at 1e-3, {:.3f} at 1e-4.",
-                      one, tenth, of(3, "liu13", "1e-2").flipped_pairs, of(3, "liu13", "1e-3").flipped_pairs, tight)};
+          fmt::format("Pairs per frame: {} at ε = 1, {} at 0.1, {} at 1e-2, {} at 1e-3, {} at 1e-4.", per_frame(one),
+                      per_frame(tenth), per_frame(of(3, "liu13", "1e-2").flipped_pairs),
+                      per_frame(of(3, "liu13", "1e-3").flipped_pairs), per_frame(tight))};
 }
 
 Conclusion liu13_slows_down(const Results& of) {
@@ -91,7 +94,7 @@ Conclusion sphere_slows_down(const Results& of, const Measured& semi_without) {
       "The sphere makes every method slower.",
       newton.mean_iterations() > newton_before && liu13.mean_iterations() > liu13_before && with > before,
       fmt::format("Iterations: implicit {:.2f} → {:.2f} over the first {} steps, liu13 {:.2f} → {:.2f}. Semi-implicit: "
-                  "{:.2f} µs → {:.2f} µs a step.",
+                  "{:.2f} µs → {:.2f} µs per step.",
                   newton_before, newton.mean_iterations(), steps, liu13_before, liu13.mean_iterations(), before, with)};
 }
 
@@ -101,7 +104,7 @@ Conclusion newton_at_the_lowest_point(const Results& of) {
   return {"Newton's method needs more iterations when the cloth swings through its lowest point.",
           soft_low > soft_high && low > high,
           fmt::format(
-              "Centre of mass in the lowest and in the highest quarter of its range: {:.2f} and {:.2f} iterations a "
+              "Centre of mass in the lowest and in the highest quarter of its range: {:.2f} and {:.2f} iterations per "
               "step at k = 18, {:.2f} and {:.2f} at k = 180.",
               soft_low, soft_high, low, high)};
 }

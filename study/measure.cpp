@@ -144,11 +144,13 @@ std::vector<Measured> measure(const std::vector<StudyCase>& cases, int runs, con
   return results;
 }
 
+std::string count_of_runs(int runs) { return fmt::format("{} run{}", runs, runs == 1 ? "" : "s"); }
+
 std::string describe_measuring(int runs) {
   return fmt::format(
       "Times are the computing time of one thread that stays on one processor, the mean over the steps of a run: the "
-      "median and the quartiles of {} runs, in which the cases take turns. A first run is not timed.",
-      runs);
+      "median and the quartiles of {}, in which the cases take turns. A first run is not timed.",
+      count_of_runs(runs));
 }
 
 }  // namespace drape

@@ -64,6 +64,9 @@ double thread_seconds();
 std::vector<Measured> measure(const std::vector<StudyCase>& cases, int runs, const std::stop_token& stop,
                               Progress& progress, const CaseWatch& watch = {});
 
+/// "1 run", "5 runs".
+std::string count_of_runs(int runs);
+
 /// How measure() measures, in a sentence or two.
 std::string describe_measuring(int runs);
 

@@ -5,7 +5,7 @@
 #include "core/atomic_file.hpp"
 #include "html/page.hpp"
 #include "sim/kernels/kernels.hpp"
-#include "study/gnuplot.hpp"
+#include "study/markdown.hpp"
 
 namespace drape {
 namespace {
@@ -31,7 +31,7 @@ html::Markup to_html(const StudySection& section, std::size_t number) {
   for (const NamedChart& chart : section.charts) content += html::chart(chart.chart);
   if (!section.maps.empty()) {
     std::vector<html::Markup> drawings;
-    for (const StabilityMap& map : section.maps) drawings.push_back(map_svg(map));
+    for (const StabilityMap& map : section.maps) drawings.push_back(map_figure(map));
     content += map_legend() + html::row(drawings);
   }
   for (const ResultTable& table : section.tables) content += to_html(table);
@@ -59,21 +59,23 @@ std::string to_text(const StudyReport& report) {
 }
 
 std::string to_markdown(const StudyReport& report) {
-  std::string text = fmt::format("# {}\n\n{}.\n\n{}\n\n", report.title, report.headline, report.introduction);
+  const auto image = [](const std::string& words, const std::string& file) {
+    return fmt::format("![{}]({})\n\n", markdown(words), link_target(file));
+  };
+  std::string text = fmt::format("# {}\n\n{}.\n\n{}\n\n", markdown(report.title), markdown(report.headline),
+                                 markdown(report.introduction));
   for (const StudyFinding& f : report.findings) {
-    text += fmt::format("- {}{} {}\n", f.verdict.empty() ? "" : "**" + f.verdict + "** ", f.claim, f.figures);
+    text += fmt::format("- {}{} {}\n", f.verdict.empty() ? "" : "**" + markdown(f.verdict) + "** ", markdown(f.claim),
+                        markdown(f.figures));
   }
   for (const StudySection& section : report.sections) {
-    text += fmt::format("\n## {}\n\n", section.title);
-    for (const std::string& paragraph : section.text) text += paragraph + "\n\n";
+    text += fmt::format("\n## {}\n\n", markdown(section.title));
+    for (const std::string& paragraph : section.text) text += markdown(paragraph) + "\n\n";
     for (const StudyPicture& picture : section.pictures) {
-      text += fmt::format("![{}]({})\n\n    {}\n\n", picture.caption, picture.file, picture.command);
+      text += image(picture.caption, picture.file) + fmt::format("    {}\n\n", picture.command);
     }
-    for (const NamedChart& chart : section.charts)
-      text += fmt::format("![{}]({}.svg)\n\n", chart.chart.title, chart.name);
-    for (const StabilityMap& map : section.maps) {
-      text += fmt::format("![{}]({}.svg)\n\n", map_title(map), map_name(map));
-    }
+    for (const NamedChart& chart : section.charts) text += image(chart.chart.title, chart.name + ".svg");
+    for (const StabilityMap& map : section.maps) text += image(map_title(map), map_name(map) + ".svg");
     for (const ResultTable& table : section.tables) text += to_markdown(table) + "\n";
   }
   return text + fmt::format("    {}\n", report.command);
@@ -105,11 +107,17 @@ std::string write_report(const StudyReport& report, const std::filesystem::path&
     for (const ResultTable& table : section.tables) {
       write_file_atomically(folder / (table.name + ".csv"), to_csv(table));
     }
-    for (const NamedChart& chart : section.charts) note(write_plot(chart.chart, folder, chart.name));
-    for (const StabilityMap& map : section.maps) note(write_map(map, folder));
+    for (const NamedChart& chart : section.charts) {
+      write_file_atomically(folder / (chart.name + ".csv"), to_csv(points_table(chart)));
+      note(write_diagram(html::still_chart(chart.chart), folder, chart.name));
+    }
+    for (const StabilityMap& map : section.maps) {
+      write_file_atomically(folder / (map_name(map) + ".csv"), map_csv(map));
+      note(write_diagram(map_diagram(map), folder, map_name(map)));
+    }
   }
   write_file_atomically(folder / "report.md", to_markdown(report));
-  write_file_atomically(folder / "report.html", to_page(report));
+  write_file_atomically(folder / report_page, to_page(report));
   return problem;
 }
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "html/chart.hpp"
 #include "html/components.hpp"
+#include "study/diagram_files.hpp"
 #include "study/result_table.hpp"
 #include "study/stability_map.hpp"
 
@@ -17,11 +17,6 @@ struct StudyFinding {
   std::string verdict;  ///< in a word, where there is one: "confirmed"
   std::string claim;
   std::string figures;
-};
-
-struct NamedChart {
-  std::string name;  ///< of its files
-  html::Chart chart;
 };
 
 /// An animation that a study has made.
@@ -60,8 +55,11 @@ std::string to_markdown(const StudyReport& report);
 /// A self-contained page.
 std::string to_page(const StudyReport& report);
 
-/// Writes all of it into a folder: report.html, report.md, a CSV file for every table, and the plots. Animations have
-/// been written where they were made.
+/// The name of the page's file.
+inline constexpr const char* report_page = "report.html";
+
+/// Writes all of it into a folder: the page, report.md, a CSV file for every table, and every diagram as CSV, SVG,
+/// PDF and PNG. Animations have been written where they were made.
 /// @returns what could not be done, as a sentence; empty if all is there
 /// @throws OutputError
 std::string write_report(const StudyReport& report, const std::filesystem::path& folder);

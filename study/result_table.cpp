@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "study/markdown.hpp"
+
 namespace drape {
 namespace {
 
@@ -22,7 +24,7 @@ bool is_numeric(const ResultTable& table, std::size_t column) {
 }
 
 std::string quoted(const std::string& cell) {
-  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
+  if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
   std::string text = "\"";
   for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
   return text + "\"";
@@ -32,12 +34,6 @@ std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
   for (std::size_t c = 0; c < cells.size(); ++c) line.append(c == 0 ? "" : ",").append(quoted(cells[c]));
   return line + "\n";
-}
-
-std::string escaped(const std::string& cell) {
-  std::string text;
-  for (const char c : cell) text += c == '|' ? std::string("\\|") : std::string(1, c);
-  return text;
 }
 
 }  // namespace
@@ -65,18 +61,18 @@ std::string to_text(const ResultTable& table) {
 }
 
 std::string to_markdown(const ResultTable& table) {
-  std::string text = fmt::format("### {}\n\n|", table.title), rule = "|";
+  std::string text = fmt::format("### {}\n\n|", markdown(table.title)), rule = "|";
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    text += fmt::format(" {} |", escaped(table.columns[c]));
+    text += fmt::format(" {} |", markdown(table.columns[c]));
     rule += is_numeric(table, c) ? "---:|" : "---|";
   }
   text += fmt::format("\n{}\n", rule);
   for (const auto& row : table.rows) {
     text += "|";
-    for (const std::string& cell : row) text += fmt::format(" {} |", escaped(cell));
+    for (const std::string& cell : row) text += fmt::format(" {} |", markdown(cell));
     text += "\n";
   }
-  for (const std::string& note : table.notes) text += fmt::format("\n{}\n", note);
+  for (const std::string& note : table.notes) text += fmt::format("\n{}\n", markdown(note));
   return text;
 }
 

@@ -54,8 +54,8 @@ ResultTable time_table(const ScalingStudy& study) {
   ResultTable table{
       "scaling-times",
       "Time and memory",
-      {"method", "grid", "vertices", "h [s]", "iterations", "µs a step", "lower quartile", "upper quartile",
-       "µs an iteration", "set-up [µs]", "of it, the factor", "memory [MB]"},
+      {"method", "grid", "vertices", "h [s]", "iterations", "µs per step", "lower quartile", "upper quartile",
+       "µs per iteration", "set-up [µs]", "of it, the factor", "memory [MB]"},
       {},
       {"A semi-implicit step is as long as is stable, with some room; set-up is then the search for that."}};
   for (const ScalingPoint& p : study.points) {
@@ -104,15 +104,16 @@ ResultTable share_table(const ScalingStudy& study) {
 
 template <class Value>
 NamedChart chart_of(const ScalingStudy& study, const std::string& name, const std::string& title,
-                    const std::string& y_title, Value value) {
-  html::Chart chart{title, "vertices", y_title, html::Scale::logarithmic, html::Scale::logarithmic, {}, {}};
+                    const std::string& quantity, const std::string& unit, Value value) {
+  html::Chart chart{title, "vertices", quantity + " [" + unit + "]", html::Scale::logarithmic, html::Scale::logarithmic,
+                    {},    {}};
   for (const std::string& method : methods_of(study)) {
-    html::ChartSeries series{method, {}};
+    html::ChartSeries series = method_series(method);
     for (const ScalingPoint& p : study.points) {
       if (p.method != method) continue;
       series.points.push_back({p.vertices,
                                value(p),
-                               fmt::format("{0}×{0}: {1} {2}", p.cells, three_digits(value(p)), y_title),
+                               fmt::format("{0}×{0}: {1} {2}", p.cells, three_digits(value(p)), unit),
                                p.what.command(),
                                {}});
     }
@@ -163,20 +164,20 @@ StudyReport scaling_report(const ScalingStudy& study) {
       {"Growth",
        study.notes,
        {growth_table(study), time_table(study)},
-       {chart_of(study, "scaling-step", "Time per step by the number of vertices.", "µs a step",
+       {chart_of(study, "scaling-step", "Time per step by the number of vertices.", "time per step", "µs",
                  [](const ScalingPoint& p) { return p.time.median; }),
-        chart_of(study, "scaling-iteration", "Time per iteration by the number of vertices.", "µs an iteration",
-                 per_iteration),
-        chart_of(study, "scaling-memory", "Memory by the number of vertices.", "MB",
+        chart_of(study, "scaling-iteration", "Time per iteration by the number of vertices.", "time per iteration",
+                 "µs", per_iteration),
+        chart_of(study, "scaling-memory", "Memory by the number of vertices.", "memory", "MB",
                  [](const ScalingPoint& p) { return 1e-6 * p.memory; })},
        {}},
       {"Where the time goes", {}, {share_table(study)}, {}, {}},
       {"How it was measured",
        {fmt::format("Five steps from the same state, as computing time of one thread that stays on one processor: the "
-                    "median and the quartiles of {} runs, in which the methods take turns on each grid. Every run sets "
+                    "median and the quartiles of {}, in which the methods take turns on each grid. Every run sets "
                     "the simulation up anew and takes a step that is not timed. Memory is what the "
                     "heap has given to the simulation.",
-                    study.options.runs)},
+                    count_of_runs(study.options.runs))},
        {},
        {},
        {}}};

@@ -44,12 +44,12 @@ ActiveEffect gravity(double acceleration) {
   return {"gravity", effect};
 }
 
-/// A level ground at height 0 without friction, which pushes with this stiffness [1/s²].
+/// A level ground at height 0, without friction and a push like a spring, of this stiffness [1/s²].
 ActiveEffect ground(double stiffness, Response response) {
   std::shared_ptr<Effect> effect = make_ground();
   set(*effect, "thickness", 0.0);
   set(*effect, "friction", 0.0);
-  set(*effect, "restitution", 1.0);
+  set(*effect, "restitution", std::optional<double>());
   set(*effect, "stiffness", stiffness);
   set(*effect, "response", response);
   return {"ground", effect};
@@ -94,7 +94,7 @@ StabilityMap empty_map(Method method, StabilityAxis axis, const StabilityDetail&
 }
 
 /// The borders of every map that has one.
-std::vector<StabilityBorder> measure_borders(std::size_t threads, const std::stop_token& stop) {
+std::vector<StabilityBorder> measure_borders(std::size_t threads, const std::stop_token& stop, Progress& progress) {
   std::vector<StabilityBorder> borders;
   for (const double stiffness : {1e-2, 1.0, 1e2, 1e4, 1e6, 1e8}) {
     borders.push_back({Method::semi_implicit, StabilityAxis::springs, stiffness});
@@ -104,8 +104,10 @@ std::vector<StabilityBorder> measure_borders(std::size_t threads, const std::sto
       borders.push_back({method, StabilityAxis::explicit_push, stiffness});
     }
   }
+  progress.begin("measuring where methods become unstable", "borders", static_cast<std::int64_t>(borders.size()));
   for_each_in_parallel(threads, borders.size(), stop, [&](std::size_t, std::size_t i) {
     borders[i] = stability_border(borders[i].method, borders[i].axis, borders[i].stiffness);
+    ++progress.done;
   });
   return borders;
 }
@@ -223,7 +225,7 @@ std::optional<StabilityStudy> study_stability(const StabilityDetail& detail, con
     });
     if (stop.stop_requested()) return std::nullopt;
   }
-  study.borders = measure_borders(threads, stop);
+  study.borders = measure_borders(threads, stop, progress);
   if (stop.stop_requested()) return std::nullopt;
   study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return study;

@@ -46,8 +46,7 @@ ResultTable border_table(const std::vector<StabilityBorder>& borders) {
 std::string headline(const std::vector<StabilityBorder>& borders) {
   const auto [lowest, highest] = std::minmax_element(borders.begin(), borders.end(),
                                                      [](const auto& a, const auto& b) { return ratio(a) < ratio(b); });
-  return fmt::format("What is unstable becomes so at {:.2f} to {:.2f} times the step that is predicted", ratio(*lowest),
-                     ratio(*highest));
+  return fmt::format("Instability sets in at {:.2f}–{:.2f} times the predicted step", ratio(*lowest), ratio(*highest));
 }
 
 StudySection section(const StabilityStudy& study, StabilityAxis axis, const char* title, const char* cloth) {
@@ -68,8 +67,8 @@ StudyReport stability_report(const StabilityStudy& study) {
   report.title = "How far each method goes";
   report.headline = headline(study.borders);
   report.introduction = fmt::format(
-      "Every square is a run of {} steps of a cloth of 6×6 cells and 1 kg. Its colour says how much of the energy that "
-      "moved was lost or gained.",
+      "Every square is a run of {} steps of a cloth of 6×6 cells and 1 kg. Its colour says how much energy was lost "
+      "or gained, relative to what was exchanged.",
       study.detail.steps);
   report.command =
       fmt::format("drape study stability --per-decade {} --steps {}", study.detail.per_decade, study.detail.steps);

@@ -38,6 +38,15 @@ int digits(const OutputSpec& spec) {
 
 }  // namespace
 
+std::vector<std::string> output_files(const OutputSpec& spec) {
+  const PathTemplate path(spec.path);
+  std::vector<std::string> files;
+  for (int i = 0; i < (path.has_frame() ? std::max(1, spec.expected_frames) : 1); ++i) {
+    files.push_back(path.path(spec.scene, spec.first_frame + i, digits(spec)));
+  }
+  return files;
+}
+
 std::unique_ptr<Encoder> make_encoder(const OutputSpec& spec) {
   const PathTemplate path_template(spec.path);
   const int width = digits(spec);
@@ -56,7 +65,7 @@ std::unique_ptr<Encoder> make_encoder(const OutputSpec& spec) {
   }
   if (extension == ".png") return std::make_unique<PngEncoder>(path);
   if (extension == ".gif") return std::make_unique<GifEncoder>(path, spec.fps, spec.progress);
-  return std::make_unique<VideoEncoder>(path, spec.fps, codecs);
+  return std::make_unique<VideoEncoder>(path, spec.fps, codecs, spec.width, spec.height);
 }
 
 }  // namespace drape

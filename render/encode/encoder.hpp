@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/atomic_file.hpp"
 #include "render/image.hpp"
 
 namespace drape {
@@ -28,10 +29,11 @@ struct OutputSpec {
   ///   .png                    one picture: the last frame added
   /// {scene} stands for the scene's name; "{{" and "}}" for a brace.
   std::string path;
-  std::string scene;        ///< name of the scene
-  double fps = 25;          ///< frames per second
-  int first_frame = 0;      ///< number of the first frame added
-  int expected_frames = 0;  ///< how many will be added; fewer is no error
+  std::string scene;            ///< name of the scene
+  double fps = 25;              ///< frames per second
+  int first_frame = 0;          ///< number of the first frame added
+  int expected_frames = 0;      ///< how many will be added; fewer is no error
+  int width = 64, height = 64;  ///< of the frames, to try beforehand what can be tried [pixels]
 
   /// Called in Encoder::finish() while it has frames left to encode: how many are done, and of how many.
   std::function<void(int done, int total)> progress;
@@ -50,10 +52,17 @@ class Encoder {
   virtual void add(const Image& image) = 0;
 
   /// Completes the files with the frames added up to now. Call it once, as the last thing.
+  /// @param ending  early: frames are missing, so that the film goes to its partial_name(); the pictures of a sequence
+  ///                keep theirs
   /// @returns what was written: nothing if there was no frame
   /// @throws OutputError
-  virtual std::vector<OutputFile> finish() = 0;
+  virtual std::vector<OutputFile> finish(Ending ending) = 0;
+  std::vector<OutputFile> finish() { return finish(Ending::complete); }
 };
+
+/// The names of all files that the frames of a spec go to.
+/// @throws UsageError if the path has an unknown placeholder
+std::vector<std::string> output_files(const OutputSpec& spec);
 
 /// Makes the encoder for a path, and the folders it needs. What can fail because of the path fails here, before the
 /// first frame is drawn.

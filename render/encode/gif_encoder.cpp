@@ -41,12 +41,12 @@ void GifEncoder::add(const Image& image) {
   palette_->add(image);
 }
 
-std::vector<OutputFile> GifEncoder::finish() {
+std::vector<OutputFile> GifEncoder::finish(Ending ending) {
   if (spool_.count() == 0) return {};
   encode();
   require_frames(file_, spool_.count());
-  const std::uintmax_t size = file_.commit();
-  return {{file_.file(), size}};
+  const std::uintmax_t size = file_.commit(ending);
+  return {{file_.name(ending), size}};
 }
 
 void GifEncoder::encode() {

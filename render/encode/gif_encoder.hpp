@@ -21,7 +21,7 @@ class GifEncoder : public Encoder {
   GifEncoder(const std::filesystem::path& file, double fps, std::function<void(int, int)> progress);
 
   void add(const Image& image) override;
-  std::vector<OutputFile> finish() override;
+  std::vector<OutputFile> finish(Ending ending) override;
 
  private:
   [[nodiscard]] std::int64_t start(int frame) const;  // [1/100 s]

@@ -25,7 +25,7 @@ std::string encode_two_frames(const std::filesystem::path& file) {
   const std::vector<VideoCodec> codecs = video_codecs(file.extension().string());
   for (const VideoCodec& codec : codecs) {
     try {
-      VideoEncoder encoder(file, 25, {codec});
+      VideoEncoder encoder(file, 25, {codec}, 64, 64);
       give_two_frames(encoder);
       return codec.name + ", " + by_opencv;
     } catch (const OutputError&) {

@@ -28,9 +28,12 @@ PngEncoder::PngEncoder(const std::filesystem::path& file) : file_(file) {
   const PartialFile writable(file_);  // or it throws
 }
 
-std::vector<OutputFile> PngEncoder::finish() {
+std::vector<OutputFile> PngEncoder::finish(Ending ending) {
   if (!last_) return {};
-  return {{file_, write_file_atomically(file_, encode_png(*last_))}};
+  PartialFile file(file_);
+  file.write(encode_png(*last_));
+  const std::uintmax_t size = file.commit(ending);
+  return {{file.name(ending), size}};
 }
 
 PngSequenceEncoder::PngSequenceEncoder(PathTemplate path, std::string scene, int first_frame, int default_width)

@@ -18,7 +18,7 @@ class PngEncoder : public Encoder {
   explicit PngEncoder(const std::filesystem::path& file);
 
   void add(const Image& image) override { last_ = image; }
-  std::vector<OutputFile> finish() override;
+  std::vector<OutputFile> finish(Ending ending) override;
 
  private:
   std::filesystem::path file_;
@@ -32,7 +32,7 @@ class PngSequenceEncoder : public Encoder {
   PngSequenceEncoder(PathTemplate path, std::string scene, int first_frame, int default_width);
 
   void add(const Image& image) override;
-  std::vector<OutputFile> finish() override { return std::move(files_); }
+  std::vector<OutputFile> finish(Ending) override { return std::move(files_); }
 
  private:
   [[nodiscard]] std::string next_path() const;

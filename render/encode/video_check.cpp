@@ -20,9 +20,14 @@ cv::VideoCapture opened(const std::string& name) {
 
 }  // namespace
 
-void require_frames(PartialFile& file, int count) {
+int readable_frames(const PartialFile& file) {
   int found = 0;
   for (cv::VideoCapture video = opened(file.temporary().string()); video.isOpened() && video.grab();) ++found;
+  return found;
+}
+
+void require_frames(PartialFile& file, int count) {
+  const int found = readable_frames(file);
   if (found == count) return;
   file.require_space();
   throw OutputError(

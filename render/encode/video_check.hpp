@@ -4,6 +4,9 @@
 
 namespace drape {
 
+/// How many frames a player would find in a video or GIF.
+int readable_frames(const PartialFile& file);
+
 /// Opens a finished video or GIF as a player would, and decodes all of it.
 /// @throws OutputError if it does not have this many frames: the system's reason where there is one, such as a full
 /// disk

@@ -32,62 +32,75 @@ std::vector<VideoCodec> video_codecs(const std::string& extension) {
   return {};
 }
 
-VideoEncoder::VideoEncoder(const std::filesystem::path& file, double fps, const std::vector<VideoCodec>& codecs)
+VideoEncoder::VideoEncoder(const std::filesystem::path& file, double fps, const std::vector<VideoCodec>& codecs,
+                           int width, int height)
     : fps_(checked_rate(file, fps)), file_(file) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  const cv::Size any_size(64, 64);
+  bool opened = false;
   std::string tried;
   for (const VideoCodec& codec : codecs) {
-    if (open(codec, any_size)) {
+    codec_ = codec;
+    if (open({width, height})) {
+      opened = true;
+      write(Image(width, height));
       const QuietStderr quiet;
-      writer_.release();  // which writes the end of a video without frames
-      return;
+      writer_.release();
+      if (readable_frames(file_) == 1) return;
     }
     tried += (tried.empty() ? "" : " or ") + codec.name;
   }
   file_.require_space();
+  if (opened) {
+    throw OutputError(
+        fmt::format("cannot write {}: OpenCV's {} encoder makes no video of {}x{} pixels at {} frames per second; it "
+                    "does with more of them, and a .gif or a .png sequence takes any",
+                    file.string(), tried, width, height, fps));
+  }
   throw OutputError(
       fmt::format("cannot write {}: OpenCV has no {} encoder; is it built with FFmpeg? A .gif or a .png "
                   "sequence needs none",
                   file.string(), tried));
 }
 
-bool VideoEncoder::open(const VideoCodec& codec, cv::Size size) {
+bool VideoEncoder::open(cv::Size size) {
   const QuietStderr quiet;
-  const std::string& c = codec.fourcc;
-  codec_ = codec;
-  const bool opened = writer_.open(file_.temporary().string(), cv::CAP_FFMPEG,
-                                   cv::VideoWriter::fourcc(c[0], c[1], c[2], c[3]), fps_, size);
+  const std::string& c = codec_.fourcc;
+  const bool opened =
+      writer_.open(file_.temporary().string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc(c[0], c[1], c[2], c[3]), fps_,
+                   {size.width + size.width % 2, size.height + size.height % 2});
   libav::silence();  // OpenCV turns its messages on when it is first used
   return opened;
 }
 
+void VideoEncoder::write(const Image& image) {
+  const cv::Mat rgb(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data()));
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  cv::copyMakeBorder(bgr, bgr, 0, image.height % 2, 0, image.width % 2, cv::BORDER_REPLICATE);
+  writer_.write(bgr);
+}
+
 void VideoEncoder::add(const Image& image) {
   const cv::Size size(image.width, image.height);
-  const cv::Size missing(size.width % 2, size.height % 2);
   if (count_ == 0) {
     size_ = size;
-    if (!open(codec_, size + missing)) {
+    if (!open(size)) {
       file_.require_space();
       throw OutputError(fmt::format("cannot write {}: OpenCV's {} encoder does not take pictures of {}x{}",
                                     file_.file().string(), codec_.name, size.width, size.height));
     }
   }
   if (size != size_) throw std::invalid_argument("the frames of a film must have one size");
-  const cv::Mat rgb(size, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data()));
-  cv::Mat bgr;
-  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  cv::copyMakeBorder(bgr, bgr, 0, missing.height, 0, missing.width, cv::BORDER_REPLICATE);
-  writer_.write(bgr);
+  write(image);
   ++count_;
 }
 
-std::vector<OutputFile> VideoEncoder::finish() {
+std::vector<OutputFile> VideoEncoder::finish(Ending ending) {
   if (count_ == 0) return {};
   writer_.release();
   require_frames(file_, count_);
-  const std::uintmax_t size = file_.commit();
-  return {{file_.file(), size}};
+  const std::uintmax_t size = file_.commit(ending);
+  return {{file_.name(ending), size}};
 }
 
 }  // namespace drape

@@ -25,16 +25,19 @@ std::vector<VideoCodec> video_codecs(const std::string& extension);
 /// name.
 class VideoEncoder : public Encoder {
  public:
-  /// Opens a small video to find out which codec there is.
+  /// Makes a video of one picture to find out which codec there is, and takes such pictures at this rate: of few and
+  /// small ones VP8 makes a video of no bits.
   /// @param codecs in the order to try
   /// @throws OutputError if there is none
-  VideoEncoder(const std::filesystem::path& file, double fps, const std::vector<VideoCodec>& codecs);
+  VideoEncoder(const std::filesystem::path& file, double fps, const std::vector<VideoCodec>& codecs, int width,
+               int height);
 
   void add(const Image& image) override;
-  std::vector<OutputFile> finish() override;
+  std::vector<OutputFile> finish(Ending ending) override;
 
  private:
-  bool open(const VideoCodec& codec, cv::Size size);
+  bool open(cv::Size size);
+  void write(const Image& image);
 
   double fps_;
   PartialFile file_;

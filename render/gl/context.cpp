@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "render/gl/llvmpipe.hpp"
 
 namespace drape {
 
@@ -25,6 +26,7 @@ const char* debian_packages(GlBackend backend) {
 std::unique_ptr<GlContext> make_gl_context(GlBackend backend) {
   if (backend == GlBackend::osmesa) return make_osmesa_context();
   if (backend == GlBackend::egl) return make_egl_context();
+  prepare_llvmpipe();  // an environment that is wrong is so for both
   std::string without_osmesa;
   try {
     return make_osmesa_context();

@@ -5,8 +5,8 @@
 #include <array>
 
 #include "core/error.hpp"
+#include "core/shared_library.hpp"
 #include "render/gl/context.hpp"
-#include "render/gl/library.hpp"
 #include "render/gl/llvmpipe.hpp"
 
 namespace drape {

@@ -30,6 +30,13 @@ void limit_llvmpipe_vector_width() {
 }
 
 void prepare_llvmpipe() {
+  const char* driver = std::getenv("GALLIUM_DRIVER");
+  if (driver != nullptr && *driver != '\0' && std::string_view(driver) != "llvmpipe") {
+    throw OutputError(fmt::format(
+        "cannot draw: the environment variable GALLIUM_DRIVER is \"{}\"; expected llvmpipe, Mesa's software "
+        "renderer: unset it",
+        driver));
+  }
   limit_llvmpipe_vector_width();
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0);
   setenv("EGL_LOG_LEVEL", "fatal", 0);

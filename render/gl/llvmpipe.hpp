@@ -11,6 +11,7 @@ void limit_llvmpipe_vector_width();
 /// environment says otherwise, that Mesa draws in software where there is a GPU as well, and that EGL says nothing of
 /// its own on the terminal. To be called before a GL library is loaded.
 /// @throws UsageError as limit_llvmpipe_vector_width()
+/// @throws OutputError if GALLIUM_DRIVER names another renderer: Mesa crashes where it has none of that name
 void prepare_llvmpipe();
 
 }  // namespace drape

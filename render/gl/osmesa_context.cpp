@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "core/error.hpp"
+#include "core/shared_library.hpp"
 #include "render/gl/context.hpp"
-#include "render/gl/library.hpp"
 #include "render/gl/llvmpipe.hpp"
 
 namespace drape {

@@ -1,6 +1,9 @@
 #include "sim/collision/intersection.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <limits>
 
 #include "sim/collision/spatial_hash.hpp"
 
@@ -9,16 +12,53 @@ namespace {
 
 using Point = Eigen::Vector3d;
 
-/// Six times the volume that four points span, with the sign of their orientation.
-double volume(const Point& a, const Point& b, const Point& c, const Point& d) {
-  return (b - a).cross(c - a).dot(d - a);
-}
+// Relative to the coordinates: how far rounding may have moved a vertex that was turned and then translated.
+constexpr double place_rounding = 8 * std::numeric_limits<double>::epsilon();
 
-/// Also through a triangle's side or corner.
+/// Six times the volume that four points span, with the sign of their orientation, and how far rounding may have taken
+/// it from that.
+struct Volume {
+  double value, error;
+
+  /// @param moved how far each point may be from its place
+  Volume(const Point& a, const Point& b, const Point& c, const Point& d, double moved) {
+    const Point u = b - a, v = c - a, w = d - a;
+    value = u.cross(v).dot(w);
+    // (7 + 56ε)ε of the sum of the products' sizes (Shewchuk 1997, section 4.3, with ε = 2⁻⁵³), and the sizes of the
+    // derivatives by the places.
+    const Point s = u.cwiseAbs(), t = v.cwiseAbs(), r = w.cwiseAbs();
+    const Point uv = sizes(s, t);
+    error = 4 * std::numeric_limits<double>::epsilon() * uv.dot(r) + 2 * moved * (uv + sizes(t, r) + sizes(r, s)).sum();
+  }
+
+  [[nodiscard]] bool positive() const { return value > error; }
+  [[nodiscard]] bool negative() const { return value < -error; }
+
+ private:
+  /// Of the terms of a cross product.
+  static Point sizes(const Point& a, const Point& b) {
+    return {a.y() * b.z() + a.z() * b.y(), a.z() * b.x() + a.x() * b.z(), a.x() * b.y() + a.y() * b.x()};
+  }
+};
+
+/// Also through a triangle's side or corner. What may lie in one plane but for rounding does not pass through it.
 bool passes_through(const Point& from, const Point& to, const Point& a, const Point& b, const Point& c) {
-  if (volume(a, b, c, from) * volume(a, b, c, to) >= 0) return false;
-  const double ab = volume(from, to, a, b), bc = volume(from, to, b, c), ca = volume(from, to, c, a);
-  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+  std::array<Point, 5> p{from, to, a, b, c};
+  double largest = 0, size = 0;
+  for (Point& point : p) {
+    largest = std::max(largest, point.cwiseAbs().maxCoeff());
+    point -= from;
+    size = std::max(size, point.cwiseAbs().maxCoeff());
+  }
+  for (Point& point : p) point /= size;  // no product leaves the range of a double, however small the cloth
+  const double moved = place_rounding * largest / size;
+  const Volume first(p[2], p[3], p[4], p[0], moved), second(p[2], p[3], p[4], p[1], moved);
+  if (!(first.positive() && second.negative()) && !(first.negative() && second.positive())) return false;
+
+  const Volume ab(p[0], p[1], p[2], p[3], 0), bc(p[0], p[1], p[3], p[4], 0), ca(p[0], p[1], p[4], p[2], 0);
+  const bool left = ab.positive() || bc.positive() || ca.positive();
+  const bool right = ab.negative() || bc.negative() || ca.negative();
+  return !left || !right;
 }
 
 template <class Vertex>

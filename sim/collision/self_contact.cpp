@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/collision/impact.hpp"
 
@@ -34,6 +35,10 @@ void SelfContact::apply(const Vertices& x, double, double h, Vertices& v) {
   converged_ = true;
   if (!x.allFinite() || !v.allFinite()) return;  // diverged: nothing to keep apart
   load(x, h, v);
+  if (!resolved()) {
+    converged_ = false;
+    return;
+  }
   find_candidates();
   if (candidates_.pairs().empty()) return;
   repel();
@@ -51,6 +56,12 @@ void SelfContact::load(const Vertices& x, double h, const Vertices& v) {
     moving_.velocities[Index(i)] = v.row(i).transpose();
     target_[Index(i)] = x_[Index(i)] + h * moving_.velocities[Index(i)];
   }
+}
+
+bool SelfContact::resolved() const {
+  double largest = 0;
+  for (const Point& target : target_) largest = std::max(largest, target.cwiseAbs().maxCoeff());
+  return largest * std::numeric_limits<double>::epsilon() <= values_.thickness;
 }
 
 void SelfContact::find_candidates() {

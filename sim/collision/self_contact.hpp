@@ -29,6 +29,8 @@ class SelfContact final : public MotionFilter {
 
  private:
   void load(const Vertices& x, double h, const Vertices& v);
+  /// Whether the places are so exact that layers can be told apart. Far from the origin, everything would touch.
+  [[nodiscard]] bool resolved() const;
   void find_candidates();
   void repel();
   void stop_impacts();

@@ -4,7 +4,7 @@
 
 namespace drape {
 
-void ContactValues::describe(Keys& keys) {
+void ContactValues::describe(Keys& keys, const std::string& without_restitution) {
   keys.add("stiffness", &stiffness, "1/s²", "Acceleration per metre that a vertex is within that reach.").at_least(0);
   keys.choice("response", response, {"explicit", "implicit"},
               "Whether the push is evaluated at the start of a step, or solved for together with the springs.");
@@ -12,7 +12,8 @@ void ContactValues::describe(Keys& keys) {
            "Coulomb's coefficient µ: what rests on a slope of tan θ ≤ µ stays there; 0 is slippery.")
       .at_least(0);
   keys.add("restitution", &restitution, "",
-           "How much of its speed a vertex keeps that the push throws back: 1 all of it, 0 none.")
+           "The share of the speed of its arrival with which a vertex leaves again: 1 all of it, 0 none" +
+               without_restitution + ".")
       .at_least(0)
       .at_most(1);
 }
@@ -37,6 +38,14 @@ void ContactValues::check(const SimulationSettings& settings, const Effect::Prob
                         "{:g} s the stiffness can be at most {:.4g}, or with this stiffness the step at most {:.3g} s",
                         product, h, 4 / (h * h), 2 / std::sqrt(stiffness)));
   }
+}
+
+std::vector<int> free_vertices(const Cloth& cloth) {
+  std::vector<int> vertices;
+  for (int i = 0; i < cloth.vertex_count(); ++i) {
+    if (!std::binary_search(cloth.pins.begin(), cloth.pins.end(), i)) vertices.push_back(i);
+  }
+  return vertices;
 }
 
 }  // namespace drape

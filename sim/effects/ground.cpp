@@ -5,21 +5,23 @@
 namespace drape {
 namespace {
 
-/// The half-space n·x < reach, which does not move.
+/// The half-space up·x < reach, which does not move.
 struct GroundSurface {
-  Eigen::Vector3d normal;
+  Eigen::Vector3d up;
   double reach;
 
   [[nodiscard]] const GroundSurface& at(double) const { return *this; }
   [[nodiscard]] Eigen::Vector3d displacement(double, double) const { return Eigen::Vector3d::Zero(); }
 
   bool find(const Eigen::Vector3d& point, Touch& touch) const {
-    touch.depth = reach - normal.dot(point);
+    touch.depth = reach - up.dot(point);
     if (touch.depth <= 0) return false;
-    touch.away = normal;
+    touch.away = up;
     touch.distance = 1;
     return true;
   }
+  [[nodiscard]] double clearance(const Eigen::Vector3d& point) const { return up.dot(point) - reach; }
+  [[nodiscard]] const Eigen::Vector3d& normal(const Eigen::Vector3d&) const { return up; }
 };
 
 struct RestingGround final : ColliderMotion {
@@ -43,7 +45,7 @@ class Ground final : public Effect {
              "Where it pushes: within this distance of the surface that is drawn, so that cloth lies on it and not in "
              "it.")
         .at_least(0);
-    contact_.describe(keys);
+    contact_.describe(keys, "");
   }
 
   void check(const SimulationSettings& settings, const ProblemSink& problem) const override {

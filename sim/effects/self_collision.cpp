@@ -22,7 +22,16 @@ class SelfCollision final : public Effect {
         .at_least(1);
   }
   void check(const SimulationSettings& settings, const ProblemSink& problem) const override {
-    const auto found = find_intersection(settings.cloth.triangles, settings.cloth.positions);
+    const Vertices& x = settings.cloth.positions;
+    const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
+    // Everything would touch everything, in a time that grows with the square of the mesh's size.
+    if (values_.thickness > size) {
+      problem("thickness",
+              fmt::format("expected less than the size of the whole cloth at its start, {:g} m, found {:g}", size,
+                          values_.thickness));
+      return;
+    }
+    const auto found = find_intersection(settings.cloth.triangles, x);
     if (!found) return;
     const auto& [edge, triangle] = *found;
     problem("",

@@ -23,6 +23,8 @@ struct Ball {
     touch.depth = reach - touch.distance;
     return true;
   }
+  [[nodiscard]] double clearance(const Eigen::Vector3d& point) const { return (point - center).norm() - reach; }
+  [[nodiscard]] Eigen::Vector3d normal(const Eigen::Vector3d& point) const { return (point - center).normalized(); }
 };
 
 /// The homework's penalty, a = k·max(s·r − ‖x−c‖, 0)·(x−c)/‖x−c‖, comes from the ball of s·r around c.
@@ -51,7 +53,7 @@ class Sphere final : public Effect {
     keys.add("center", &center_, "m", "Where its centre is at the start.").must_be_given_unless({"keyframes", "track"});
     keys.add("radius", &radius_, "m", "Its radius, as it is drawn.").must_be_given_unless({"track"}).above(0);
     keys.add("scale", &scale_, "", "Where it pushes: within scale·radius of the centre.").at_least(1);
-    contact_.describe(keys);
+    contact_.describe(keys, "; left out, the push gives back what it takes");
     keys.add("velocity", &velocity_, "m/s", "It moves straight on from `center`.");
     keys.add("orbit_period", &orbit_period_, "s",
              "It circles, starting from `center`, and takes as long for a turn; negative: the other way round.");

@@ -28,6 +28,7 @@ namespace {
 
 const Kernels& choose() {
   const char* cap = std::getenv("DRAPE_ISA");
+  if (cap != nullptr && *cap == '\0') cap = nullptr;  // as if it was not set
   const Kernels* best = nullptr;
   std::string names;
   for (const Kernels* version : all_kernels()) {

@@ -27,7 +27,7 @@ class SparseCholesky {
   /// @param order_given  keep the order of the rows as it is (a caller that has a fill-reducing one already); else
   ///                     CHOLMOD chooses a permutation
   /// @param caller_bytes that the caller will keep for each entry of the factor
-  /// @throws UsageError if the factor cannot fit into memory
+  /// @throws UsageError if the factor cannot fit into memory, or takes far longer than one of a surface
   SparseCholesky(const LowerPattern& pattern, FactorKind kind, bool order_given, double caller_bytes = 0);
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;

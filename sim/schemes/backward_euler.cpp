@@ -5,18 +5,22 @@ namespace drape {
 BackwardEuler::BackwardEuler(const System& system, const IntegratorSettings& settings, const MakeSolver& make_solver)
     : system_(system),
       objective_(system),
+      stop_(settings.stop),
       solver_(make_solver(objective_)),
       books_(system, objective_, settings),
       point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
       free_(is_free(system)) {}
 
 StepReport BackwardEuler::advance(State& state, const Vertices& force) {
+  system_.begin(state);
   objective_.begin(state, force);
   books_.begin(state);
   point_.x = objective_.y();
   point_.value = objective_.evaluate(point_.x, point_.gradient);
   StepReport report = solver_->minimise(point_, [this] { return !books_.gains(point_, true); });
-  if (books_.gains(point_, report.converged)) {
+  // A step that a small change ended has been looked at.
+  const bool looked = report.converged && stop_ == StoppingRule::change;
+  if (!looked && books_.gains(point_, report.converged)) {
     report.kept = books_.shed(point_);
     report.converged = false;
   }

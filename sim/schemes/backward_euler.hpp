@@ -30,6 +30,7 @@ class BackwardEuler final : public Scheme {
 
   const System& system_;
   StepObjective objective_;
+  StoppingRule stop_;
   std::unique_ptr<Minimiser> solver_;
   EnergyBooks books_;
   Point point_;

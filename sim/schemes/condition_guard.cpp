@@ -12,11 +12,15 @@ ConditionGuard::ConditionGuard(const System& system) : step_(system.step), condi
 
 std::optional<std::string> ConditionGuard::problem() const {
   if (condition_ <= largest_condition) return std::nullopt;
+  const bool finite = std::isfinite(condition_);
+  const std::string times = finite ? fmt::format("{:.2g}", condition_) : "more than 1e308";
+  const std::string shorter =
+      finite ? fmt::format("a step of at most {:.2g} s, ", step_ * std::sqrt(largest_condition / condition_)) : "";
   return fmt::format(
-      "with a step of {:g} s the springs hold a vertex {:.2g} times as fast as its inertia, and double precision keeps "
-      "{:.0e} apart: beyond that the motion is rounding; take a step of at most {:.2g} s, softer springs or more mass, "
+      "with a step of {:g} s the springs hold a vertex {} times as fast as its inertia, and double precision keeps "
+      "{:.0e} apart: beyond that the motion is rounding; take {}softer springs or more mass, "
       "or set [integrator] allow_unstable = true to run it nevertheless",
-      step_, condition_, largest_condition, step_ * std::sqrt(largest_condition / condition_));
+      step_, times, largest_condition, shorter);
 }
 
 }  // namespace drape

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 namespace drape {
@@ -34,34 +35,39 @@ EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, c
       tolerance_(settings.tolerance),
       start_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
       end_(start_.x),
+      steady_(system.filters.empty() && system.pin_motions.empty() && system.energies.empty()),
       trial_(start_) {}
 
 void EnergyBooks::begin(const State& state) {
   const double h = system_.step;
   state_ = &state;
-  start_.x = state.x;
-  system_.place_pins(state, start_.x);
   start_kinetic_ = 0.5 * h * h * inner(objective_.free_inertia(), state.v, state.v);
-  // Where the last step ended, the energy is known, unless what pushes may have moved. None is below zero.
-  const bool known = system_.energies.empty() && start_.x == end_;
-  start_.value = objective_.inertial_value(start_.x) + (known ? end_energy_ : 0);
+  start_.value = objective_.inertial_value(state.x);
+  // Where the last step ended, the energy is known, and nowhere is it below zero.
+  const auto bytes = static_cast<std::size_t>(state.x.size()) * sizeof(double);
+  if (steady_ && std::memcmp(state.x.data(), end_.data(), bytes) == 0) start_.value += end_energy_;
   start_exact_ = false;
 }
 
 bool EnergyBooks::gains(const Point& point, bool tolerant) {
+  // What pushes may be moved, and give energy as it curves away from the cloth: only stopping early is looked at there.
+  if (!system_.energies.empty() && !(given(point) > lost(point))) return false;
   const auto too_much = [&] {
     const double surplus = gain(point) - rounding(point);
     return surplus > 0 && !(tolerant && surplus <= tolerated(point));
   };
   if (!too_much()) return false;
-  if (!start_exact_) start_.value = objective_.evaluate(start_.x, start_.gradient);
+  if (start_exact_) return true;
+  start_.x = state_->x;
+  system_.place_pins(*state_, start_.x);
+  start_.value = objective_.evaluate(start_.x, start_.gradient);
   start_exact_ = true;
   return too_much();
 }
 
 double EnergyBooks::gain(const Point& point) const {
   // With g written out: g(x') − g(x) = ΔK + ΔE − W + K − h⁻¹Δx·M v.
-  const double along = system_.step * inner(objective_.free_inertia(), point.x - start_.x, state_->v);
+  const double along = system_.step * inner(objective_.free_inertia(), point.x - state_->x, state_->v);
   return point.value - start_.value - start_kinetic_ + along;
 }
 
@@ -70,16 +76,28 @@ double EnergyBooks::rounding(const Point& point) const {
   return objective_.rounding(point.value) + objective_.rounding(start_.value) + objective_.rounding(start_kinetic_);
 }
 
+double EnergyBooks::given(const Point& point) const {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    sum += (point.gradient.col(axis).array() * (point.x.col(axis) - state_->x.col(axis)).array()).sum();
+  }
+  return sum;
+}
+
+double EnergyBooks::lost(const Point& point) const {
+  const auto change = point.x - state_->x - system_.step * state_->v;  // h Δv
+  return 0.5 * inner(objective_.free_inertia(), change, change);
+}
+
 double EnergyBooks::tolerated(const Point& point) const {
   const double h = system_.step;
   const Eigen::VectorXd& inertia = objective_.free_inertia();
-  const auto way = point.x - start_.x;
+  const auto way = point.x - state_->x;
   if (stop_ == StoppingRule::gradient) return tolerance_ * way.norm();
-  const auto change = way - h * state_->v;                      // h Δv
-  const auto push = objective_.y() - start_.x - h * state_->v;  // h² M⁻¹f
-  const double work = inner(inertia, push, way), lost = 0.5 * inner(inertia, change, change);
+  const auto push = objective_.y() - state_->x - h * state_->v;  // h² M⁻¹f
+  const double work = inner(inertia, push, way);
   const double most = std::sqrt(inner(inertia, push, push) * inner(inertia, way, way));
-  return std::min(tolerated_share * most, std::max(lost, -work));
+  return std::min(tolerated_share * most, std::max(lost(point), -work));
 }
 
 double EnergyBooks::shed(Point& point) {
@@ -105,7 +123,9 @@ double EnergyBooks::shed(Point& point) {
 }
 
 void EnergyBooks::end(const Point& point) {
+  if (!steady_) return;
   end_ = point.x;
+  // A lower bound, so that a step which goes on from here comes to the same as one that starts here.
   const double energy = point.value - objective_.inertial_value(point.x);
   end_energy_ = std::max(0.0, energy - objective_.rounding(point.value));
 }

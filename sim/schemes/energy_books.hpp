@@ -17,7 +17,7 @@ namespace drape {
 /// that the forces can do in a step, ‖h M⁻¹f‖_M ‖v'‖_M, provided that the step loses as much otherwise, ½‖v' − v‖²_M,
 /// or that the forces take as much, −W. In proportion to speed it is what a tenth of the forces' size would give if it
 /// pushed along the way; it has no share in what the cloth has, so it cannot compound. Who stops at a gradient
-/// is given what that can do, tolerance·‖Δx‖.
+/// is given what that can do, tolerance·‖Δx‖. Where something solved for pushes the cloth, B is not looked at.
 class EnergyBooks {
  public:
   EnergyBooks(const System& system, const StepObjective& objective, const IntegratorSettings& settings);
@@ -39,6 +39,9 @@ class EnergyBooks {
   [[nodiscard]] double gain(const Point& point) const;
   /// The error that rounding can be expected to make in it [J].
   [[nodiscard]] double rounding(const Point& point) const;
+  /// ∇g·Δx, and ½‖v' − v‖²_M [J].
+  [[nodiscard]] double given(const Point& point) const;
+  [[nodiscard]] double lost(const Point& point) const;
   /// What a step that meets its tolerance may gain, see above [J].
   [[nodiscard]] double tolerated(const Point& point) const;
 
@@ -48,10 +51,11 @@ class EnergyBooks {
   double tolerance_;
   const State* state_ = nullptr;  // at the start of the step
   Point start_;                   // its x with its pins where they are when the step ends, and g there…
-  bool start_exact_ = false;      // …or, where it has not been needed, a lower bound of it
+  bool start_exact_ = false;      // …or, where it has not been needed, a lower bound of g and nothing else
   double start_kinetic_ = 0;      // ½‖v‖²_M [J]
   Vertices end_;                  // where the last step ended…
   double end_energy_ = 0;         // …and a lower bound of E there [J]
+  bool steady_;                   // a step starts where the last one ended, and E there is what it was
   Point trial_;
 };
 

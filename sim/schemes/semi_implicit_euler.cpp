@@ -19,6 +19,7 @@ SemiImplicitEuler::SemiImplicitEuler(const System& system)
 StepReport SemiImplicitEuler::advance(State& state, const Vertices& force) {
   // Where nothing changes the velocity in between, both updates are one pass.
   const bool at_once = system_.corrections.empty() && system_.filters.empty() && system_.pin_motions.empty();
+  system_.begin(state);
   springs_.kick_and_drift(pull_, with_energies(state, force), at_once ? system_.step : 0, state.v, state.x);
   if (!at_once) {
     system_.correct(state);

@@ -5,9 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "check/golden_folder.hpp"
+#include "check/html_report.hpp"
 #include "check/json_report.hpp"
 #include "check/junit_report.hpp"
+#include "check/motion_file.hpp"
 #include "check/record_motion.hpp"
+#include "core/text.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/usage_error.hpp"
@@ -117,6 +121,39 @@ TEST_F(CheckScene, NamesTheStepTheVertexAndTheDistance) {
   EXPECT_EQ(result.windows.first_bad_frame, 0);
 }
 
+TEST_F(CheckScene, SeesAChangedVelocityInAGoldenState) {
+  bless();
+  const Golden golden = read_golden(this->golden());
+  const auto check_with = [&](std::size_t window, double faster) {
+    std::vector<GoldenWindow> windows = golden.windows;
+    windows[window].start.v(20, 1) += faster;
+    put(this->golden() / "motion.bin", pack_motion(windows, golden.quantum));
+    return check();
+  };
+  for (const double faster : {1e-4, 1e-3, 1.0, 1e6}) {
+    const SceneResult first = check_with(0, faster);
+    EXPECT_EQ(first.windows.motion, MotionVerdict::changed) << faster;
+    EXPECT_NE(first.findings.at(0).find("the velocity at step 0 changed by "), std::string::npos) << first.findings[0];
+    EXPECT_NE(first.findings.at(0).find(" m/s at vertex 20"), std::string::npos) << first.findings[0];
+    EXPECT_EQ(check_with(2, faster).windows.motion, MotionVerdict::changed) << faster;
+    // The second window begins with step 16, whose bits the first one knows.
+    EXPECT_NE(test::usage_error([&] { check_with(1, faster); }).find("motion.bin: contradicts itself"),
+              std::string::npos);
+  }
+  // What leads nowhere within the window is what another processor's rounding looks like.
+  EXPECT_EQ(check_with(0, 1e-9).windows.motion, MotionVerdict::within_tolerance);
+}
+
+TEST_F(CheckScene, SeesAChangedPositionInAGoldenStep) {
+  bless();
+  Golden golden = read_golden(this->golden());
+  golden.windows[1].steps[3].x(20, 1) += 1e-4;
+  put(this->golden() / "motion.bin", pack_motion(golden.windows, golden.quantum));
+  const SceneResult result = check();
+  EXPECT_EQ(result.verdict, SceneVerdict::changed);
+  EXPECT_NE(result.findings.at(0).find("the golden is damaged: at step 20 "), std::string::npos) << result.findings[0];
+}
+
 TEST_F(CheckScene, ToleratesWhatRoundingDoes) {
   bless();
   Scene shaken = scene();
@@ -221,6 +258,66 @@ TEST_F(CheckScene, ReportsToMachines) {
   }
   EXPECT_EQ(cases, 6);
   EXPECT_EQ(failures, 2);
+}
+
+TEST_F(CheckScene, ReportsWhatCannotBeJudged) {
+  bless();
+  put(golden() / "motion.bin", "drape motion 1\n");
+  CheckReport report;
+  report.date = "2026-01-31T12:00:00Z";
+  Scene odd = scene();
+  odd.file = folder_ / "sw\xE4ng\x01.toml";  // Latin-1, and a control character
+  try {
+    check();
+  } catch (const UsageError& error) {
+    report.scenes.push_back(unjudged_scene(odd, "swing", odd.check, error));
+  }
+  ASSERT_EQ(report.scenes.size(), 1u);
+  EXPECT_EQ(report.exit_code(), ExitCode::usage);
+
+  const auto json = nlohmann::json::parse(json_report(report));
+  EXPECT_EQ(json.at("passed"), false);
+  EXPECT_EQ(json.at("scenes")[0].at("verdict"), "error");
+  EXPECT_NE(json.at("scenes")[0].at("findings")[0].get<std::string>().find("motion.bin: it is cut off"),
+            std::string::npos);
+
+  const std::string junit = junit_report(report);
+  EXPECT_EQ(junit, printable(junit));
+  tinyxml2::XMLDocument xml;
+  ASSERT_EQ(xml.Parse(junit.c_str()), tinyxml2::XML_SUCCESS);
+  const auto* suite = xml.RootElement()->FirstChildElement("testsuite");
+  EXPECT_EQ(suite->IntAttribute("errors"), 1);
+  EXPECT_EQ(suite->IntAttribute("failures"), 0);
+  EXPECT_NE(suite->FirstChildElement("testcase")->FirstChildElement("error"), nullptr);
+
+  const std::string page = html_report(report);
+  EXPECT_EQ(page, printable(page));
+  EXPECT_NE(page.find("The scene could not be judged"), std::string::npos);
+}
+
+TEST(CheckReport, IsAsBadAsItsWorstScene) {
+  CheckReport report;
+  EXPECT_EQ(report.exit_code(), ExitCode::ok);
+  const auto add = [&](SceneVerdict verdict, ExitCode error = ExitCode::ok) {
+    report.scenes.emplace_back().verdict = verdict;
+    report.scenes.back().error = error;
+    return report.exit_code();
+  };
+  EXPECT_EQ(add(SceneVerdict::updated), ExitCode::ok);
+  EXPECT_EQ(add(SceneVerdict::missing), ExitCode::differs);
+  EXPECT_EQ(add(SceneVerdict::error, ExitCode::diverged), ExitCode::diverged);
+  EXPECT_EQ(add(SceneVerdict::error, ExitCode::usage), ExitCode::diverged);
+  EXPECT_EQ(add(SceneVerdict::passed), ExitCode::diverged);
+}
+
+TEST_F(CheckScene, DrawsIntoAFolderOfAnyName) {
+  bless();
+  for (const char* name : {"{x}", "a{scene}b", "{frame}", "{"}) {
+    const fs::path folder = folder_ / name;
+    const SceneResult moved = check({"cloth.mass=1.2"}, {.update = UpdateMode::none, .artefacts = folder});
+    EXPECT_EQ(test::content(folder / "swing/difference.gif"), moved.animation) << name;
+    EXPECT_TRUE(moved.animation.starts_with("GIF89a")) << name;
+  }
 }
 
 TEST_F(CheckScene, AnInterruptedRecordingLeavesTheOldGolden) {

@@ -2,13 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
+#include <cmath>
 #include <cstring>
+#include <fstream>
+#include <functional>
 #include <limits>
 #include <random>
 
+#include "check/golden_folder.hpp"
 #include "check/motion_file.hpp"
 #include "render/encode/png_encoder.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/motion_bytes.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/synthetic_film.hpp"
 #include "tests/support/usage_error.hpp"
@@ -18,6 +25,20 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr double quantum = 1e-7;
+constexpr std::uint64_t enough = 1 << 20;  // words
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+
+std::vector<GoldenWindow> unpacked(std::string_view bytes) { return unpack_motion(bytes, quantum, enough); }
+
+/// What is wrong with bytes that unpack_motion() refuses; empty if it does not.
+std::string motion_refusal(std::string_view bytes, double of_quantum = quantum, std::uint64_t most_words = enough) {
+  try {
+    unpack_motion(bytes, of_quantum, most_words);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
 
 GoldenWindow window(int frame, std::int64_t step, int vertices, int steps) {
   std::mt19937 generator(static_cast<unsigned>(frame + 1));
@@ -45,7 +66,7 @@ TEST(MotionFile, KeepsStatesExactlyAndStepsToTheQuantum) {
   windows[1].frame.reset();
   windows[2].shown = windows[2].steps[0].x;
   windows[0].start.x(3, 1) = -0.0;
-  const std::vector<GoldenWindow> read = unpack_motion(pack_motion(windows, quantum), quantum);
+  const std::vector<GoldenWindow> read = unpacked(pack_motion(windows, quantum));
   ASSERT_EQ(read.size(), windows.size());
   for (std::size_t i = 0; i < windows.size(); ++i) {
     EXPECT_EQ(read[i].frame, windows[i].frame);
@@ -69,24 +90,116 @@ TEST(MotionFile, IsSmallerThanTheNumbersInIt) {
   EXPECT_LT(pack_motion(windows, quantum).size(), raw / 2);
 }
 
-TEST(MotionFile, RefusesPositionsThatAreNotFinite) {
-  std::vector<GoldenWindow> windows{window(0, 0, 3, 1)};
-  windows[0].steps[0].x(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(pack_motion(windows, quantum), std::domain_error);
+TEST(MotionFile, StoresNoPositionsThatAreNotFiniteOrTooFarAway) {
+  for (const double place : {nan, infinity, -1e12}) {
+    std::vector<GoldenWindow> windows{window(0, 0, 3, 1)};
+    windows[0].steps[0].x(0, 0) = place;
+    EXPECT_THROW(pack_motion(windows, quantum), std::domain_error) << place;
+    windows = {window(0, 0, 3, 0)};
+    windows[0].start.x(0, 0) = place;
+    EXPECT_THROW(pack_motion(windows, quantum), std::domain_error) << place;
+  }
+}
+
+TEST(MotionFile, KeepsPositionsFromOneEndToTheOther) {
+  // The differences of positions so far apart do not fit into 64 bits; what they are of does.
+  std::vector<GoldenWindow> windows{window(0, 0, 1, 3)};
+  for (std::size_t i = 0; i < 3; ++i) windows[0].steps[i].x.setConstant(i % 2 == 0 ? 8.9e11 : -8.9e11);
+  const std::vector<GoldenWindow> read = unpacked(pack_motion(windows, quantum));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(read[0].steps[i].x, windows[0].steps[i].x) << i;
+}
+
+TEST(MotionFile, RefusesWhatIsNotFinite) {
+  // Of a number that is stored bit for bit, the file with another one is the one that pack_motion() makes of it.
+  const std::vector<std::function<void(GoldenWindow&, double)>> places{
+      [](GoldenWindow& w, double value) { w.start.v(1, 1) = value; },
+      [](GoldenWindow& w, double value) { (*w.shown)(1, 1) = value; },
+      [](GoldenWindow& w, double value) { w.time = value; },
+      [](GoldenWindow& w, double value) { w.steps[0].energies.kinetic = value; },
+      [](GoldenWindow& w, double value) { w.steps[0].energies.gravity = value; },
+      [](GoldenWindow& w, double value) { w.steps[0].energies.elastic = value; }};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (const double value : {nan, infinity, -infinity}) {
+      GoldenWindow bad = window(0, 0, 3, 1);
+      bad.shown = bad.start.x;
+      places[i](bad, value);
+      EXPECT_EQ(motion_refusal(pack_motion({bad}, quantum)), "it holds a number that is not finite")
+          << i << ": " << value;
+    }
+  }
+}
+
+TEST(MotionFile, RefusesPositionsThatAreTooFarAway) {
+  GoldenWindow far = window(0, 0, 3, 1);
+  far.start.x(1, 1) = 1e11;
+  const std::string bytes = pack_motion({far}, quantum);
+  EXPECT_EQ(motion_refusal(bytes), "");
+  // A quantum from a damaged manifest.
+  for (const double of_quantum : {1e-10, 1e-300, 5e-324, 0.0}) {
+    EXPECT_EQ(motion_refusal(bytes, of_quantum), "it holds a position that is too far away") << of_quantum;
+  }
+  far = window(0, 0, 3, 1);
+  far.shown = far.start.x;
+  (*far.shown)(0, 0) = 1e300;
+  EXPECT_EQ(motion_refusal(pack_motion({far}, quantum)), "it holds a position that is too far away");
+}
+
+/// A motion.bin with one vertex that is at the origin, and two steps whose positions have these differences.
+std::string two_steps(std::uint64_t first, std::uint64_t second) {
+  std::vector<std::uint64_t> words{2, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 4};  // whole numbers are stored as 2n or −2n − 1
+  for (const std::uint64_t difference : {first, second}) {
+    for (const std::uint64_t word : {std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{0}, difference,
+                                     std::uint64_t{0}, std::uint64_t{0}}) {
+      words.push_back(word);
+    }
+  }
+  return test::motion_bytes(words);
+}
+
+TEST(MotionFile, RefusesStepsThatLeadOutOfAllBounds) {
+  // 1 quantum away after a step, and 2 + 3 after the next.
+  EXPECT_EQ(unpacked(two_steps(2, 6))[0].steps[1].x, (Vertices(1, 3) << 5 * quantum, 0, 0).finished());
+  constexpr std::uint64_t largest = ~std::uint64_t{1}, smallest = ~std::uint64_t{0};  // ±2⁶³
+  for (const std::uint64_t first : {largest, smallest}) {
+    EXPECT_EQ(motion_refusal(two_steps(first, 0)), "it holds a position that is too far away") << first;
+  }
+  EXPECT_EQ(motion_refusal(two_steps(2, 6), 1e308), "it holds a position that is too far away");
+}
+
+TEST(MotionFile, RefusesNumbersOfNothing) {
+  const std::vector<std::uint64_t> good{2, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0};
+  EXPECT_EQ(motion_refusal(test::motion_bytes(good)), "");
+  constexpr std::size_t count = 0, frame = 1, step = 3, vertices = 4, shown = 11, steps = 12;
+  for (const std::size_t place : {count, frame, step, vertices, shown, steps}) {
+    for (const std::uint64_t value : {3ULL, 1ULL << 33, 1ULL << 62, ~0ULL, ~1ULL}) {  // −2, 2³², 2⁶¹, −2⁶³, 2⁶³ − 1
+      std::vector<std::uint64_t> bad = good;
+      bad[place] = value;
+      if (place == step && (value == 1ULL << 33 || value == 1ULL << 62)) continue;  // the manifest knows better
+      EXPECT_NE(motion_refusal(test::motion_bytes(bad)), "") << place << ": " << value;
+    }
+  }
+}
+
+TEST(MotionFile, UnpacksNoMoreThanItMay) {
+  const std::string bytes = pack_motion({window(0, 0, 12, 3)}, quantum);
+  const std::uint64_t words = most_motion_words(1, 12, 3);
+  EXPECT_EQ(motion_refusal(bytes, quantum, words), "");
+  EXPECT_EQ(motion_refusal(bytes, quantum, words / 2), "it holds more than belongs to the manifest beside it");
 }
 
 TEST(MotionFile, RefusesEveryDamage) {
   const std::string good = pack_motion({window(0, 0, 12, 3)}, quantum);
-  EXPECT_THROW(unpack_motion("", quantum), std::invalid_argument);
-  EXPECT_THROW(unpack_motion("drape motion 1\n99999999999999\n", quantum), std::invalid_argument);
+  EXPECT_NE(motion_refusal(""), "");
+  EXPECT_NE(motion_refusal("drape motion 1\n99999999999999\n"), "");
+  EXPECT_EQ(motion_refusal(good + "x"), "it is damaged");
   std::size_t refused = 0;
   for (std::size_t i = 0; i < good.size(); ++i) {
-    EXPECT_THROW(unpack_motion(good.substr(0, i), quantum), std::invalid_argument) << "cut off at " << i;
+    EXPECT_NE(motion_refusal(good.substr(0, i)), "") << "cut off at " << i;
     std::string bad = good;
     bad[i] = static_cast<char>(bad[i] ^ 0x10);
     try {
       // A bit that the compression does not use may flip: then the numbers are the same.
-      EXPECT_EQ(pack_motion(unpack_motion(bad, quantum), quantum), good) << "byte " << i;
+      EXPECT_EQ(pack_motion(unpacked(bad), quantum), good) << "byte " << i;
     } catch (const std::invalid_argument&) {
       ++refused;
     }
@@ -137,14 +250,6 @@ TEST_F(GoldenFolder, GivesBackWhatWasWritten) {
   EXPECT_FALSE(same_camera(read.camera, moved));
 }
 
-TEST_F(GoldenFolder, ReplacesAnOlderOneWhole) {
-  Golden first = golden();
-  write_golden(folder(), first, {picture(), picture()});
-  put(folder() / "frames" / "0099.png", "old");
-  write_golden(folder(), first, {picture(), picture()});
-  EXPECT_EQ(file_count(), 4u);  // nothing old, nothing half-written
-}
-
 TEST_F(GoldenFolder, SaysWhichFileIsDamagedAndWhatToDo) {
   write_golden(folder(), golden(), {picture(), picture()});
   const auto message = [&] { return test::usage_error([&] { read_golden(folder()); }); };
@@ -157,10 +262,68 @@ TEST_F(GoldenFolder, SaysWhichFileIsDamagedAndWhatToDo) {
   EXPECT_EQ(message(), "(no error)");
   std::string manifest = test::content(folder() / "manifest.json");
   put(folder() / "manifest.json", "{");
-  EXPECT_NE(message().find("manifest.json"), std::string::npos) << message();
+  EXPECT_NE(message().find("manifest.json: is no JSON"), std::string::npos) << message();
   manifest.replace(manifest.find("\"vertices\": 12"), 14, "\"vertices\": 13");
   put(folder() / "manifest.json", manifest);
   EXPECT_NE(message().find("does not belong to the manifest"), std::string::npos) << message();
+}
+
+TEST_F(GoldenFolder, SaysWhichFileIsNone) {
+  const auto message = [&] { return test::usage_error([&] { read_golden(folder()); }); };
+  for (const char* name : {"manifest.json", "motion.bin"}) {
+    const fs::path file = folder() / name;
+    const auto expect = [&](const std::string& problem) {
+      EXPECT_EQ(message(), file.string() + ": " + problem + "; restore it, or record it anew with drape bless");
+      fs::remove_all(folder());
+      write_golden(folder(), golden(), {picture(), picture()});
+      fs::remove(file);
+    };
+    fs::remove_all(folder());
+    write_golden(folder(), golden(), {picture(), picture()});
+    fs::remove(file);
+    expect("is missing");
+    fs::create_directory(file);
+    expect("is a folder, not a file");
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    expect("is no regular file");
+    fs::create_symlink("/dev/zero", file);
+    expect("is no regular file");
+    fs::create_symlink(file, file);
+    EXPECT_NE(message().find(file.string() + ": cannot be read"), std::string::npos) << message();
+    fs::remove(file);
+    std::ofstream(file).close();
+    fs::resize_file(file, std::uintmax_t{1} << 40);
+    EXPECT_NE(message().find(file.string() + ": the file is too large"), std::string::npos) << message();
+  }
+}
+
+TEST_F(GoldenFolder, RefusesFilesThatDoNotBelongTogether) {
+  const auto message = [&](const Golden& of) {
+    fs::remove_all(folder());
+    write_golden(folder(), of, {picture(), picture()});
+    return test::usage_error([&] { read_golden(folder()); });
+  };
+  EXPECT_EQ(message(golden()), "(no error)");
+  Golden other = golden();
+  other.windows[1].steps[2].energies.kinetic += 1e-9;
+  message(other);
+  const std::string motion = test::content(folder() / "motion.bin");
+  message(golden());
+  put(folder() / "motion.bin", motion);
+  EXPECT_NE(test::usage_error([&] { read_golden(folder()); }).find("does not belong to the manifest"),
+            std::string::npos);
+
+  Golden backwards = golden();
+  std::swap(backwards.windows[0], backwards.windows[1]);
+  EXPECT_NE(message(backwards).find("windows that are not in order"), std::string::npos);
+
+  // Two windows pass through the same step; their hashes tell that the second does not begin where the first one went.
+  Golden overlapping = golden();
+  overlapping.windows[1].start.step = 2;
+  EXPECT_NE(message(overlapping).find("two windows have another state at the same step"), std::string::npos);
+  overlapping.windows[0].steps[1].bits = state_bits(overlapping.windows[1].start);
+  overlapping.windows[0].steps[2].bits = overlapping.windows[1].steps[0].bits;
+  EXPECT_EQ(message(overlapping), "(no error)");
 }
 
 }  // namespace

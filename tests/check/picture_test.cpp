@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+#include <string>
+
+#include "render/encode/png_encoder.hpp"
 #include "tests/support/synthetic_film.hpp"
 
 namespace drape::picture {
@@ -79,6 +83,45 @@ TEST(PictureDifference, IsAmplifiedToWhite) {
   EXPECT_EQ(shown.at(0, 0)[0], 0);
   EXPECT_EQ(shown.at(1, 0)[1], 0);
   EXPECT_EQ(amplification({}), 1);
+}
+
+/// What is wrong with a PNG file; empty if nothing is.
+std::string png_refusal(std::string_view png, const Eigen::Vector2i& size = {width, height}) {
+  try {
+    const Image image = decode_png(png, size);
+    EXPECT_EQ(image.width, size.x());
+    EXPECT_EQ(image.height, size.y());
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(DecodePng, IsTheInverseOfEncoding) { EXPECT_EQ(decode_png(encode_png(base()), {width, height}), base()); }
+
+TEST(DecodePng, RefusesWhatIsCutOff) {
+  const std::string png = encode_png(base());
+  for (const std::size_t bytes : {0, 7, 8, 23}) EXPECT_EQ(png_refusal(png.substr(0, bytes)), "is no PNG") << bytes;
+  for (const std::size_t bytes : {24, 33, 60, 500}) EXPECT_EQ(png_refusal(png.substr(0, bytes)), "is damaged") << bytes;
+  EXPECT_EQ(png_refusal("GIF89a" + png), "is no PNG");
+}
+
+TEST(DecodePng, RefusesAnotherSizeBeforeItUnpacksIt) {
+  std::string png = encode_png(base());
+  EXPECT_EQ(png_refusal(png, {width, height + 1}), "has 100x80 pixels, expected 100x81");
+  png.replace(16, 8, "\x7F\xFF\xFF\xFF\x7F\xFF\xFF\xFF");
+  EXPECT_EQ(png_refusal(png), "has 2147483647x2147483647 pixels, expected 100x80");
+}
+
+TEST(DecodePng, RefusesDamage) {
+  const std::string good = encode_png(base());
+  for (std::size_t i = 0; i < good.size(); i += 7) {
+    std::string png = good;
+    png[i] = static_cast<char>(png[i] ^ 0x10);
+    const std::string problem = png_refusal(png);  // or it is one that does not matter, as in the name of a comment
+    EXPECT_TRUE(problem.empty() || problem == "is damaged" || problem == "is no PNG" || problem.starts_with("has "))
+        << problem;
+  }
 }
 
 }  // namespace

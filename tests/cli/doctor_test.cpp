@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_drape.hpp"
+#include "tests/cli/without_opengl.hpp"
 
 namespace drape::doctor {
 namespace {
@@ -10,20 +11,8 @@ namespace {
 using test::drape;
 using test::Finished;
 using test::SceneFolder;
-
-/// Makes files in the folder that the loader finds instead of the OpenGL libraries, and that are none.
-/// @returns the assignment that makes the loader look there
-std::string without_libraries(const SceneFolder& folder, const std::vector<std::string>& names) {
-  for (const std::string& name : names) folder.write("no/" + name, "");
-  return "LD_LIBRARY_PATH='" + (folder.path() / "no").string() + "'";
-}
-const std::vector<std::string> osmesa{"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
-const std::vector<std::string> egl{"libEGL.so.1", "libEGL.so"};
-std::vector<std::string> both() {
-  std::vector<std::string> names = osmesa;
-  names.insert(names.end(), egl.begin(), egl.end());
-  return names;
-}
+using test::without_libraries;
+using test::without_opengl;
 
 const std::string scene = test::least_scene + "duration = 0.05\n[video]\nsize = [32, 32]\n";
 
@@ -53,7 +42,7 @@ TEST(Doctor, ObeysTheCapOnInstructionSets) {
 
 TEST(Doctor, SaysWhatToInstallAndExitsWith4IfNothingCanDraw) {
   const SceneFolder folder;
-  const std::string environment = without_libraries(folder, both());
+  const std::string environment = without_opengl(folder);
   Finished finished = drape(folder, "doctor", environment);
   EXPECT_EQ(finished.code, 4) << finished.text;
   EXPECT_NE(finished.text.find("\n  apt-get install --no-install-recommends libosmesa6 libegl1 libgl1-mesa-dri\n"),
@@ -66,11 +55,27 @@ TEST(Doctor, SaysWhatToInstallAndExitsWith4IfNothingCanDraw) {
   EXPECT_EQ(json.at("missing_packages"), (nlohmann::json{"libosmesa6", "libegl1", "libgl1-mesa-dri"}));
 }
 
+TEST(Doctor, NoticesThatTextWouldBeMissing) {
+  const SceneFolder folder;
+  const auto optional = [&](const std::string& environment) {
+    return nlohmann::json::parse(drape(folder, "doctor --json", environment).text).at("optional");
+  };
+  const auto here = optional("");
+  if (!here.at(0).at("works")) GTEST_SKIP() << here.at(0).at("problem");
+  EXPECT_EQ(here.at(0).at("name"), "diagrams");
+  // No folder has fonts.
+  const auto file = folder.write("fonts.conf", "<fontconfig></fontconfig>");
+  const auto without = optional("FONTCONFIG_FILE='" + file.string() + "'");
+  EXPECT_EQ(without.at(1).at("name"), "fonts");
+  EXPECT_FALSE(without.at(1).at("works")) << without;
+  EXPECT_EQ(without.at(1).at("packages"), "fonts-dejavu-core");
+}
+
 TEST(Doctor, DrawsWithEglIfThereIsNoOsMesa) {
   const SceneFolder folder;
   const auto present = nlohmann::json::parse(drape(folder, "doctor --json").text);
   if (!present.at("backends").at(1).at("works")) GTEST_SKIP() << present.at("backends").at(1).at("problem");
-  const std::string environment = without_libraries(folder, osmesa);
+  const std::string environment = without_libraries(folder, test::osmesa_libraries);
   const Finished finished = drape(folder, "doctor --json", environment);
   EXPECT_EQ(finished.code, 0) << finished.text;
   EXPECT_EQ(nlohmann::json::parse(finished.text).at("drawing").at("detail"), "egl");
@@ -82,7 +87,7 @@ TEST(Doctor, DrawsWithEglIfThereIsNoOsMesa) {
 TEST(Backend, ThatIsMissingExitsWith4AndSaysWhatToInstall) {
   const SceneFolder folder;
   folder.write("scene.toml", scene);
-  const std::string environment = without_libraries(folder, both());
+  const std::string environment = without_opengl(folder);
   const auto says = [&](const std::string& option, const std::string& what) {
     const Finished finished = drape(folder, "render scene.toml -o still.png " + option, environment);
     EXPECT_EQ(finished.code, 4) << finished.text;

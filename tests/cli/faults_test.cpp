@@ -62,7 +62,7 @@ TEST(Faults, AFullDiskExitsWith4AndLeavesTheOldFilm) {
     const std::string output =
         std::string(film).ends_with(".csv") ? "simulate scene.toml --energies " : "render scene.toml -o ";
     // The shell makes the system refuse to let any file grow, and drape inherits that.
-    const Finished finished = drape(folder, output + film, "trap '' XFSZ; ulimit -f 0;");
+    const Finished finished = drape(folder, output + film, "ulimit -f 0;");
     EXPECT_EQ(finished.code, 4) << finished.text;
     EXPECT_NE(finished.text.find(film), std::string::npos) << finished.text;
     EXPECT_EQ(content(folder.path() / film), "old");
@@ -104,12 +104,32 @@ TEST(Faults, CtrlCAtAnyMomentLeavesAPlayableFilmOrNone) {
     SCOPED_TRACE(moment);
     EXPECT_EQ(end_with(start_film(folder), SIGINT, moment), 130);
     std::vector<std::string> expected{"scene.toml"};
-    if (fs::exists(folder.path() / "film.gif")) {
-      EXPECT_GT(test::read_gif(folder.path() / "film.gif").delays.size(), 0U);
-      expected.insert(expected.begin(), "film.gif");
+    if (fs::exists(folder.path() / "film.partial.gif")) {
+      EXPECT_GT(test::read_gif(folder.path() / "film.partial.gif").delays.size(), 0U);
+      expected.insert(expected.begin(), "film.partial.gif");
     }
     EXPECT_EQ(names(folder), expected);
   }
+}
+
+TEST(Faults, CtrlCPutsWhatWasDrawnBesideACompleteFilm) {
+  const SceneFolder folder;
+  folder.write("scene.toml", scene);
+  folder.write("film.gif", "old");
+  EXPECT_EQ(end_with(start_film(folder), SIGINT, 3), 130);
+  EXPECT_EQ(content(folder.path() / "film.gif"), "old");
+  EXPECT_GT(test::read_gif(folder.path() / "film.partial.gif").delays.size(), 0U);
+  EXPECT_EQ(names(folder), (std::vector<std::string>{"film.gif", "film.partial.gif", "scene.toml"}));
+}
+
+TEST(Faults, CtrlCBeforeAnythingWasDrawnLeavesNothing) {
+  const SceneFolder folder;
+  // The motion is run once to find the camera's place, which takes long.
+  folder.write("scene.toml", scene.substr(0, scene.find("[camera]")));
+  folder.write("film.gif", "old");
+  EXPECT_EQ(end_with(start_film(folder), SIGINT, 1.5), 130);
+  EXPECT_EQ(content(folder.path() / "film.gif"), "old");
+  EXPECT_EQ(names(folder), (std::vector<std::string>{"film.gif", "scene.toml"}));
 }
 
 TEST(Faults, Kill9LeavesTheOldFilmWhole) {
@@ -122,9 +142,10 @@ TEST(Faults, Kill9LeavesTheOldFilmWhole) {
     EXPECT_EQ(end_with(start_film(folder), SIGKILL, random.between(0, 1.2)), 128 + SIGKILL);
     EXPECT_EQ(content(folder.path() / "film.gif"), old);
   }
-  // What is left of the killed ones does not stand in the way of the next.
+  // What is left of the killed ones is gone with the next.
   EXPECT_EQ(drape(folder, "render scene.toml --quiet -o film.gif").code, 0);
   EXPECT_EQ(content(folder.path() / "film.gif"), old);
+  EXPECT_EQ(names(folder), (std::vector<std::string>{"film.gif", "scene.toml"}));
 }
 
 TEST(Faults, ThirtyTwoAtOnceWriteTheSameFilm) {

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/run_drape.hpp"
+#include "tests/cli/without_opengl.hpp"
+#include "tests/support/files.hpp"
 
 namespace drape {
 namespace {
@@ -9,10 +11,17 @@ using test::drape;
 using test::Finished;
 using test::SceneFolder;
 
-/// The results have a page, its Markdown, and these files.
-void expect_results(const SceneFolder& folder, std::vector<std::string> names) {
-  names.insert(names.end(), {"report.html", "report.md"});
-  for (const std::string& name : names) {
+/// The results have a page, its Markdown, these tables, and these diagrams in every format.
+void expect_results(const SceneFolder& folder, const Finished& finished, std::vector<std::string> files,
+                    const std::vector<std::string>& diagrams) {
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  files.insert(files.end(), {"report.html", "report.md"});
+  const bool svg_only = finished.text.find("as SVG only") != std::string::npos;
+  for (const std::string& name : diagrams) {
+    files.insert(files.end(), {name + ".csv", name + ".svg"});
+    if (!svg_only) files.insert(files.end(), {name + ".pdf", name + ".png"});
+  }
+  for (const std::string& name : files) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "results" / name)) << name;
   }
 }
@@ -20,10 +29,9 @@ void expect_results(const SceneFolder& folder, std::vector<std::string> names) {
 TEST(Study, OfTheHomeworkWritesEverything) {
   const SceneFolder folder;
   const Finished finished = drape(folder, "study homework -o results --runs 1");
-  EXPECT_EQ(finished.code, 0) << finished.text;
   EXPECT_NE(finished.text.find("Table 3"), std::string::npos) << finished.text;
-  expect_results(folder, {"table1.csv", "table2.csv", "table3.csv", "energies.csv", "energy-log.csv",
-                          "iterations-k18.csv", "iterations-k18.gp", "time-by-tolerance.gp"});
+  expect_results(folder, finished, {"table1.csv", "table2.csv", "table3.csv", "energies.csv", "energy-log.csv"},
+                 {"iterations-k18", "time-by-tolerance"});
 }
 
 TEST(Study, NeedsAKindThatThereIs) {
@@ -53,11 +61,32 @@ TEST(Study, OfAccuracyWritesEverythingForEveryScene) {
       drape(folder,
             "study accuracy a.toml b/a.toml -o results --runs 1 --animate methods --methods liu13,implicit "
             "--tolerances 1e-2,1e-4 --times 0.1,0.2 --steps 0.02,0.01");
-  EXPECT_EQ(finished.code, 0) << finished.text;
   EXPECT_NE(finished.text.find("for an error"), std::string::npos) << finished.text;
-  expect_results(folder, {"b-a-solve.csv", "b-a-solve.gp", "b-a-motion-1.gp", "b-a-motion-2.gp", "b-a-step.gp",
-                          "b-a-by-methods.gif", "b-a-step-cost.gp", "b-a-apart.gp", "b-a-tolerances.csv",
-                          "b-a-steps.csv", "b-a-cheapest.csv"});
+  expect_results(folder, finished, {"b-a-by-methods.gif", "b-a-tolerances.csv", "b-a-steps.csv", "b-a-cheapest.csv"},
+                 {"b-a-solve", "b-a-motion-1", "b-a-motion-2", "b-a-step", "b-a-step-cost", "b-a-apart"});
+}
+
+// What a scene is called ends up in file names, links, tables, and commands.
+TEST(Study, OfAccuracyTakesScenesOfAnyName) {
+  const SceneFolder folder;
+  for (const std::string name : {"x';system(\"touch pwned\");#", "<b>&|{frame},\""}) {
+    folder.write(name + ".toml", swing);
+    folder.write("list/" + name + ".toml", swing);
+  }
+  const Finished finished = drape(folder,
+                                  "study accuracy *.toml -o results --runs 1 --animate methods --methods "
+                                  "liu13,implicit --tolerances 1e-2 --times 0.1 --steps 0.02");
+  expect_results(folder, finished, {"x';system(\"touch pwned\");#-by-methods.gif", "<b>&|{frame},\"-by-methods.gif"},
+                 {"x';system(\"touch pwned\");#-solve", "<b>&|{frame},\"-apart"});
+  for (const auto& file : std::filesystem::recursive_directory_iterator(folder.path())) {
+    EXPECT_NE(file.path().filename(), "pwned") << file.path();
+  }
+  const std::string page = test::content(folder.path() / "results/report.html");
+  EXPECT_EQ(page.find("<b>&"), std::string::npos);
+  EXPECT_NE(page.find("&lt;b&gt;&amp;|{frame},&quot;.toml"), std::string::npos);
+  const std::string text = test::content(folder.path() / "results/report.md");
+  EXPECT_NE(text.find("\n## \\<b\\>\\&\\|{frame},\".toml\n"), std::string::npos);
+  EXPECT_NE(text.find("](%3Cb%3E%26%7C%7Bframe%7D%2C%22-solve.svg)"), std::string::npos);
 }
 
 TEST(Study, OfAccuracySaysWhatItCannotMeasure) {
@@ -73,24 +102,54 @@ TEST(Study, OfAccuracySaysWhatItCannotMeasure) {
   expect_error("a.toml --times 0.1 --steps 0.03", "does not divide");
   expect_error("b.toml", "b.toml");
   expect_error("a.toml --tolerances -1", "--tolerances");
+  // Of one method only: semi-implicit Euler has nothing to solve for. Its turn would come after the reference motion.
+  folder.write("a.toml", swing + "[effects.sphere]\ncenter = [0, 0, -1]\nradius = 0.1\nresponse = \"implicit\"\n");
+  expect_error("a.toml --times 0.1 --set time.duration=1e5", "semi-implicit Euler");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
 TEST(Study, OfScalingWritesEverything) {
   const SceneFolder folder;
   const Finished finished = drape(folder, "study scaling --largest 10 --runs 1 -o results");
-  EXPECT_EQ(finished.code, 0) << finished.text;
-  expect_results(folder, {"scaling-times.csv", "scaling-growth.csv", "scaling-shares.csv", "scaling-step.gp",
-                          "scaling-iteration.gp", "scaling-memory.gp"});
+  expect_results(folder, finished, {"scaling-times.csv", "scaling-growth.csv", "scaling-shares.csv"},
+                 {"scaling-step", "scaling-iteration", "scaling-memory"});
 }
 
 TEST(Study, OfStabilityWritesEverything) {
   const SceneFolder folder;
   const Finished finished = drape(folder, "study stability --per-decade 1 --steps 5 -o results");
-  EXPECT_EQ(finished.code, 0) << finished.text;
   EXPECT_NE(finished.text.find("Where a method becomes unstable"), std::string::npos) << finished.text;
-  expect_results(folder, {"border.csv", "semi-implicit-springs.csv", "semi-implicit-springs.gp", "liu13-springs.gp",
-                          "implicit-explicit-push.gp", "quasi-newton-implicit-push.gp"});
+  expect_results(folder, finished, {"border.csv"},
+                 {"semi-implicit-springs", "liu13-springs", "implicit-explicit-push", "quasi-newton-implicit-push"});
+}
+
+// These studies would take hours: whether the results can be written is found out before.
+TEST(Study, LooksForItsFolderFirst) {
+  const SceneFolder folder;
+  folder.write("a.toml", swing);
+  folder.write("afile", "");
+  folder.write("taken/report.html/file", "");
+  const auto expect_refusal = [&](const std::string& study, const std::string& output) {
+    const Finished finished = drape(folder, "study " + study + " -o " + output, "timeout 60");
+    EXPECT_EQ(finished.code, 4) << study << " -o " << output << ": " << finished.text;
+    EXPECT_NE(finished.text.find("cannot write " + output), std::string::npos) << finished.text;
+  };
+  for (const std::string study : {"accuracy a.toml --set time.duration=1e5 --animate none",
+                                  "scaling --largest 10000 --runs 1000", "homework --runs 1000"}) {
+    expect_refusal(study, "afile");
+  }
+  for (const std::string output : {"afile", "afile/results", "taken", "/proc/results"}) {
+    expect_refusal("stability --steps 100000", output);
+  }
+}
+
+TEST(Study, OfAccuracyLooksWhetherItCanDrawFirst) {
+  const SceneFolder folder;
+  folder.write("a.toml", swing);
+  const std::string none = test::without_opengl(folder);
+  const Finished finished = drape(folder, "study accuracy a.toml --set time.duration=1e5", none + " timeout 60");
+  EXPECT_EQ(finished.code, 4) << finished.text;
+  EXPECT_NE(finished.text.find("apt-get install libosmesa6"), std::string::npos) << finished.text;
 }
 
 TEST(Study, ThatIsInterruptedWritesNothing) {

@@ -60,6 +60,17 @@ TEST_P(Video, HasTheRateItIsGiven) {
   }
 }
 
+TEST_P(Video, MayBeSmallAndSlow) {
+  // Which VP8 makes nothing of: its bit rate rounds to nothing.
+  for (const double fps : {0.2, 0.05}) {
+    const auto video = make_encoder(
+        {.path = file(), .scene = "test", .fps = fps, .expected_frames = 3, .width = 17, .height = 16, .progress = {}});
+    for (int k = 0; k < 3; ++k) video->add(synthetic_frame(k, 17, 16));
+    EXPECT_EQ(video->finish().size(), 1u);
+    EXPECT_EQ(decoded_film(file()).size(), 3u);
+  }
+}
+
 TEST_P(Video, MayHaveOneFrame) {
   write(1, 64, 48);
   EXPECT_EQ(decoded_film(file()).size(), 1u);

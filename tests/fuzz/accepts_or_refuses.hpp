@@ -7,12 +7,12 @@
 
 namespace drape {
 
-/// Calls a reader of input. It may return, or throw a UsageError with a message; anything else ends the program.
-template <class Read>
+/// Calls a reader of input. It may return, or throw a refusal with a message; anything else ends the program.
+template <class Refusal = UsageError, class Read>
 void accepts_or_refuses(Read&& read) {
   try {
     read();
-  } catch (const UsageError& error) {
+  } catch (const Refusal& error) {
     if (std::string_view(error.what()).empty()) std::abort();
   }
 }

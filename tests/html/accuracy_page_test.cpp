@@ -43,7 +43,7 @@ TEST_F(AccuracyPage, IsSound) {
 
 TEST_F(AccuracyPage, HoveringAPointShowsItsCommands) {
   open(page());
-  browser_->point_at(".series.s1 .point:nth-of-type(2) .sign");
+  browser_->point_at(".series.s3 .point:nth-of-type(2) .sign");
   const std::string tip = browser_->run("return document.getElementById('tip').textContent");
   EXPECT_TRUE(tip.starts_with("quasi-newton, ε = ")) << tip;
   EXPECT_NE(tip.find("--methods quasi-newton"), std::string::npos) << tip;

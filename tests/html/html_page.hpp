@@ -18,10 +18,10 @@ class InBrowser : public InScratchFolder {
     browser_ = std::make_unique<Browser>();
   }
 
-  void open(const std::string& html) {
-    put(path("page.html"), html);
+  void open(const std::string& content, const std::string& name = "page.html") {
+    put(path(name), content);
     browser_->set_width(1200);
-    browser_->open(path("page.html"));
+    browser_->open(path(name));
   }
 
   /// What every page must hold: nothing in the console, nothing from elsewhere, every picture there, every control with

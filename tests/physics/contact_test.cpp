@@ -6,7 +6,7 @@
 #include <string>
 
 #include "sim/simulation.hpp"
-#include "tests/support/setups.hpp"
+#include "tests/physics/contact_cases.hpp"
 
 namespace drape::test {
 namespace {
@@ -18,23 +18,7 @@ constexpr double g = 9.8;           // the default gravity [m/s²]
 constexpr double stiffness = 4000;  // [1/s²]
 constexpr double thickness = 0.02;  // [m]
 
-/// A method, and how the push enters its steps.
-struct Case {
-  NamedMethod method;
-  std::string response;
-};
-void PrintTo(const Case& c, std::ostream* out) { *out << c.method.name << " " << c.response; }
-
-std::vector<Case> cases() {
-  std::vector<Case> all;
-  for (const NamedMethod& method : all_methods) {
-    all.push_back({method, "explicit"});
-    if (method.method != Method::semi_implicit) all.push_back({method, "implicit"});
-  }
-  return all;
-}
-
-class Contact : public testing::TestWithParam<Case> {
+class Contact : public testing::TestWithParam<ContactCase> {
  protected:
   /// Solved to convergence, so that only the physics is left.
   SimulationSettings settings(Cloth cloth, double step) const {
@@ -46,33 +30,20 @@ class Contact : public testing::TestWithParam<Case> {
   }
 
   /// A ground that goes down by tan θ along x, through the origin.
-  ActiveEffect slope(double tangent, double friction, double restitution = 0) const {
+  ActiveEffect slope(double tangent, double friction) const {
     return effect("ground", {{"height", 0.0},
                              {"normal", Vector3d(tangent, 0, 1)},
                              {"thickness", thickness},
                              {"stiffness", stiffness},
                              {"response", GetParam().response},
-                             {"friction", friction},
-                             {"restitution", restitution}});
+                             {"friction", friction}});
   }
 };
-std::string case_name(const testing::TestParamInfo<Case>& info) {
-  return std::string(info.param.method.name) + "_" + info.param.response;
-}
-INSTANTIATE_TEST_SUITE_P(With, Contact, testing::ValuesIn(cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(With, Contact, testing::ValuesIn(contact_cases()), contact_case_name);
 
 /// The unit normal of that slope, and its direction down.
 Vector3d up_from(double tangent) { return Vector3d(tangent, 0, 1).normalized(); }
 Vector3d down_along(double tangent) { return Vector3d(1, 0, -tangent).normalized(); }
-
-/// Vertices that no spring joins.
-Cloth loose(const Vertices& positions) {
-  Cloth cloth;
-  cloth.positions = positions;
-  cloth.velocities = Vertices::Zero(positions.rows(), 3);
-  cloth.masses = Eigen::VectorXd::LinSpaced(positions.rows(), 0.5, 2);
-  return cloth;
-}
 
 /// A vertex so deep in the slope's layer that the push balances its weight.
 Cloth resting_on(double tangent) {
@@ -138,29 +109,6 @@ TEST_P(Contact, PinsAreNotMovedByFriction) {
   Simulation simulation(s);
   for (int step = 0; step < 10; ++step) simulation.step();
   EXPECT_TRUE(same_bits(simulation.state().x, cloth.positions));
-}
-
-/// The highest that a vertex gets after it has fallen from 0.5 m above the layer.
-double rebound(const SimulationSettings& s) {
-  Simulation simulation(s);
-  double highest = -1;
-  bool down = false;
-  for (int step = 0; step < 2000; ++step) {
-    simulation.step();
-    const double height = simulation.state().x(0, 2) - thickness;
-    down = down || height < 0;
-    if (down) highest = std::max(highest, height);
-  }
-  return highest;
-}
-
-TEST_P(Contact, RestitutionSaysWhetherAFallingVertexBounces) {
-  SimulationSettings s = settings(loose(RowVector3d(0, 0, thickness + 0.5)), 0.0005);
-  s.effects.push_back(slope(0, 0, 0));
-  EXPECT_LT(rebound(s), 1e-3);
-  // Implicit Euler itself takes some of the speed while the push is solved for.
-  s.effects.back() = slope(0, 0, 1);
-  EXPECT_NEAR(rebound(s), 0.5, GetParam().response == "explicit" ? 0.01 : 0.06);
 }
 
 /// A huge ball under a vertex that rests on it, moving along x.

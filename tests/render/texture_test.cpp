@@ -103,6 +103,27 @@ TEST(Texture, ThatIsMissingOrCutOrNoImageIsNamed) {
   EXPECT_NE(message_of(empty.path()).find(empty.path().string()), std::string::npos);
 }
 
+TEST(Texture, ThatIsTooLargeIsRefusedBeforeItIsDecoded) {
+  // Headers without pictures, of 8000×7 pixels.
+  const std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x1f\x40\0\0\0\x07\x08\x02\0\0\0", 29);
+  const std::string jpeg("\xff\xd8\xff\xe0\0\x04\0\0\xff\xc2\0\x0b\x08\0\x07\x1f\x40\x01\0\0\0", 21);
+  for (const std::string& header : {png, jpeg}) {
+    const TemporaryFile file("large", header);
+    try {
+      load_texture_image(file.path(), 7999);
+      ADD_FAILURE() << "no error";
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find("8000x7 pixels; at most 7999x7999"), std::string::npos) << error.what();
+    }
+    try {
+      load_texture_image(file.path(), 8000);
+      ADD_FAILURE() << "no error";
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find("is damaged"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(Texture, NeedsTextureCoordinates) {
   Mesh mesh = make_grid(1, 1);
   mesh.uvs.clear();

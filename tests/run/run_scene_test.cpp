@@ -115,8 +115,8 @@ allow_unstable = true
   const RunResult result = run(folder.load(stiff), options);
   EXPECT_EQ(result.outcome, Outcome::diverged);
   EXPECT_NE(result.divergence.find("step"), std::string::npos);
-  EXPECT_EQ(nlohmann::json::parse(test::content(options.records.stats))["outcome"], "diverged");
-  const auto rows = lines(options.records.energies);
+  EXPECT_EQ(nlohmann::json::parse(test::content(folder.path() / "stats.partial.json"))["outcome"], "diverged");
+  const auto rows = lines(folder.path() / "energies.partial.csv");
   EXPECT_EQ(rows.size(), 2u + static_cast<std::size_t>(result.statistics.steps()));
 }
 
@@ -129,7 +129,7 @@ TEST(RunScene, StopsWhenItIsToldToAndKeepsTheRecords) {
   Progress progress;
   const RunResult result = run_scene(folder.load(swinging), options, stop, progress, [&] { stop = true; });
   EXPECT_EQ(result.outcome, Outcome::interrupted);
-  EXPECT_EQ(nlohmann::json::parse(test::content(options.records.stats))["outcome"], "interrupted");
+  EXPECT_EQ(nlohmann::json::parse(test::content(folder.path() / "stats.partial.json"))["outcome"], "interrupted");
 }
 
 TEST(RunScene, AnUnwritableRecordIsKnownBeforeAnythingIsSimulated) {

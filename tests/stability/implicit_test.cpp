@@ -43,7 +43,7 @@ class HardCases : public testing::TestWithParam<std::tuple<HardCase, NamedMethod
     EXPECT_LE(std::abs(change - balance), b.gain_rounding())
         << static_cast<double>(change) << " J, and by the balance " << static_cast<double>(balance);
     // No energy out of nothing.
-    EXPECT_LE(b.gain(), (report.converged ? b.tolerated : 0) + b.gain_rounding());
+    EXPECT_LE(b.gain(), (report.converged ? b.tolerated : 0) + b.pushed + b.gain_rounding());
   }
 
   static Record run(Simulation& simulation, const StepLedger& ledger, std::int64_t steps) {

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "scene/tables.hpp"
+#include "sim/stability.hpp"
 #include "tests/support/scene_folder.hpp"
+#include "tests/support/setups.hpp"
 
 namespace drape::test {
 namespace {
@@ -61,6 +65,37 @@ TEST(Input, ThatIsNotFiniteIsAnErrorInAMesh) {
       EXPECT_NE(problem.find(mesh), std::string::npos) << number << ": " << problem;
     }
   }
+}
+
+/// The largest safe step of a hanging cloth [s].
+double safe_step_of(double mass, double stiffness) {
+  const Cloth cloth = cloth_of(make_grid(10, 10), mass, stiffness, {0});
+  return safe_step(System(cloth, 0.01));
+}
+
+// It is proportional to √(m/k), also where k/m is beyond the range of a double.
+TEST(Input, OfAnySizeHasASafeStep) {
+  const double usual = safe_step_of(1, 1);
+  ASSERT_GT(usual, 0);
+  for (const double exponent : {-300, -200, -100, 100, 200, 300}) {
+    const double root = std::pow(10, exponent / 2);
+    EXPECT_NEAR(safe_step_of(1, std::pow(10, exponent)) * root, usual, 1e-3 * usual) << "stiffness 1e" << exponent;
+    EXPECT_NEAR(safe_step_of(std::pow(10, exponent), 1) / root, usual, 1e-3 * usual) << "mass 1e" << exponent;
+  }
+  EXPECT_NEAR(safe_step_of(1e-300, 1e300) * 1e300, usual, 1e-3 * usual);
+}
+
+// Each of these took longer than anybody waits.
+TEST(Input, ThatCannotBeComputedWithIsRefused) {
+  const test::SceneFolder folder;
+  folder.write("far.obj", "v 0 0 0\nv 1e308 0 0\nv 0 1e308 0\nf 1 2 3\n");
+  const std::string alone = "effects.self_collision.thickness=0.01", anyway = "integrator.allow_unstable=true";
+  EXPECT_EQ(folder.problems(test::least_scene, {"cloth.transform.scale=1e-300", alone, anyway}),
+            "--set effects.self_collision.thickness=0.01: thickness: expected less than the size of the whole cloth at "
+            "its start, 2e-300 m, found 0.01");
+  EXPECT_EQ(folder.problems(test::least_scene, {"cloth.mesh=far.obj", alone, anyway}),
+            "--set cloth.mesh=far.obj: mesh: a vertex is at 1e+308 m, and what is further than 1e+90 m away cannot be "
+            "computed with");
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "study/markdown.hpp"
+
 namespace drape {
 namespace {
 
@@ -21,6 +23,16 @@ TEST(ResultTable, SetsNumbersToTheRightWhateverBytesTheyTake) {
 TEST(ResultTable, EscapesWhatMarkdownWouldSplit) {
   EXPECT_EQ(to_markdown(table),
             "### Title\n\n| method | µs |\n|---|---:|\n| a, \"b\" \\| c | 9.5 |\n| d | – |\n\nA note.\n");
+}
+
+TEST(Markdown, ShowsTextAsItIs) {
+  EXPECT_EQ(markdown("<b>&.toml"), "\\<b\\>\\&.toml");
+  EXPECT_EQ(markdown("a|b\n`c` *d* [e](f)"), "a\\|b \\`c\\` \\*d\\* \\[e\\](f)");
+}
+
+TEST(Markdown, LinksToAnyFile) {
+  EXPECT_EQ(link_target("a-1_b.svg"), "a-1_b.svg");
+  EXPECT_EQ(link_target("x';system(\"a b\");#µ.svg"), "x%27%3Bsystem%28%22a%20b%22%29%3B%23%C2%B5.svg");
 }
 
 }  // namespace

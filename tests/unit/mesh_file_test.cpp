@@ -55,6 +55,16 @@ TEST(MeshFile, SaysThatTheFileIsMissingOrAFolder) {
   EXPECT_EQ(usage_error([&] { read_mesh(folder); }), folder + ": this is a folder, not a file");
 }
 
+TEST(MeshFile, MayBeginWithAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF";
+  const Mesh mesh = read_mesh(write("marked.obj", mark + "v 1 2 3\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  ASSERT_EQ(mesh.positions.rows(), 3);
+  EXPECT_EQ(mesh.positions.row(0), Eigen::RowVector3d(1, 2, 3));
+  EXPECT_EQ(read_mesh(write("marked.usda", mark + kUsda)).positions.rows(), 3);
+  const std::string wide = write("wide.obj", std::string("\xFE\xFF\0v\0 ", 6));
+  EXPECT_EQ(usage_error([&] { read_mesh(wide); }), wide + ": the file is text in UTF-16: save it as UTF-8");
+}
+
 TEST(MeshFile, AsksForAsciiWhereTheUsdIsBinary) {
   const std::string crate = write("crate.usd", std::string("PXR-USDC\0\0\0\1", 12));
   EXPECT_EQ(usage_error([&] { read_mesh(crate); }),

@@ -1,7 +1,13 @@
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -55,6 +61,16 @@ TEST_F(AtomicFile, AppearsOnlyWhenCommitted) {
   EXPECT_EQ(test::content(path("x.txt")), "old");
   EXPECT_EQ(file.commit(), 3u);
   EXPECT_EQ(test::content(path("x.txt")), "new");
+}
+
+TEST_F(AtomicFile, ThatIsOnlyAskedAboutLeavesNothingBehind) {
+  put(path("old/x.txt"), "old");
+  require_writable(path("old/x.txt"));
+  require_writable(path("a/b/x.txt"));
+  EXPECT_EQ(test::content(path("old/x.txt")), "old");
+  EXPECT_FALSE(fs::exists(path("a")));
+  EXPECT_EQ(file_count(), 1u);
+  EXPECT_NE(output_error([&] { require_writable(path("old/x.txt/y")); }).find("Not a directory"), std::string::npos);
 }
 
 TEST_F(AtomicFile, LeavesTheOldFileAndNothingElseWithoutACommit) {
@@ -123,6 +139,66 @@ TEST_F(AtomicFile, CanBeWrittenTwiceAtOnceAndTheLastCommitWins) {
   second.commit();
   first.commit();
   EXPECT_EQ(test::content(path("x.txt")), "first");
+  EXPECT_EQ(file_count(), 1u);
+}
+
+TEST_F(AtomicFile, ThatEndedEarlyStandsBesideTheCompleteOne) {
+  put(path("x.tar.gz"), "old");
+  PartialFile file(path("x.tar.gz"));
+  file.write("half");
+  EXPECT_EQ(file.commit(Ending::early), 4u);
+  EXPECT_EQ(file.name(Ending::early), path("x.tar.partial.gz"));
+  EXPECT_EQ(test::content(path("x.tar.gz")), "old");
+  EXPECT_EQ(test::content(path("x.tar.partial.gz")), "half");
+
+  PartialFile longest(path(std::string(251, 'n') + ".gif"));
+  EXPECT_NO_THROW(longest.commit(Ending::early));
+}
+
+TEST_F(AtomicFile, RemovesWhatKilledProcessesLeftOfIt) {
+  const auto leave = [this](const char* text) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      PartialFile file(path("x.txt"));
+      PartialFile beside_it(path("x.txt"));
+      PartialFile another(path("y.txt"));
+      file.write(text);
+      ::kill(::getpid(), SIGKILL);
+    }
+    ::waitpid(child, nullptr, 0);
+  };
+  leave("left");
+  EXPECT_EQ(file_count(), 3u);
+  PartialFile held(path("x.txt"));
+  EXPECT_EQ(file_count(), 2u);  // what is held, and what is left of y.txt
+  {
+    const PartialFile second(path("x.txt"));
+    EXPECT_TRUE(fs::exists(held.temporary()));
+    EXPECT_EQ(file_count(), 3u);
+  }
+  held.commit();
+  write_file_atomically(path("y.txt"), "new");
+  EXPECT_EQ(file_count(), 2u);
+}
+
+TEST_F(AtomicFile, OfAnotherWriterIsNeverTakenForLeftBehind) {
+  std::atomic<int> failures = 0;
+  {
+    std::vector<std::jthread> writers;
+    for (int i = 0; i < 8; ++i) {
+      writers.emplace_back([&] {
+        for (int k = 0; k < 50; ++k) {
+          try {
+            write_file_atomically(path("x.txt"), "same");
+          } catch (const OutputError&) {
+            ++failures;
+          }
+        }
+      });
+    }
+  }
+  EXPECT_EQ(failures, 0);
+  EXPECT_EQ(test::content(path("x.txt")), "same");
   EXPECT_EQ(file_count(), 1u);
 }
 

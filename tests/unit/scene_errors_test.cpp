@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -273,6 +274,20 @@ TEST(SceneErrors, TheOrderDoesNotDependOnTheNumberOfDigitsOfALine) {
             "scene.toml:12:13: stiffness must be above 0, found 0");
 }
 
+TEST(SceneErrors, ComparedFramesBeyondTheFilmAreNamed) {
+  const SceneFolder folder;
+  const std::string scene = least_scene + "duration = 0.4\n[video]\nfps = 25\n[check]\nframes = [0, 10";
+  EXPECT_EQ(folder.problems(scene + "]\n"), "(no error)");
+  EXPECT_EQ(folder.problems(scene + ", 99]\n"), "scene.toml:10:18: frames: the film ends with frame 10, found 99");
+  EXPECT_EQ(folder.problems(scene + "]\n", {"check.frames=[11]"}),
+            "--set check.frames=[11]: frames: the film ends with frame 10, found 11");
+  // A film that is made shorter for once has nothing to do with what is compared.
+  EXPECT_EQ(folder.problems(scene + "]\n", {"time.duration=0.1"}), "(no error)");
+  EXPECT_EQ(folder.problems(scene + "]\n", {"video.fps=5"}), "(no error)");
+  EXPECT_EQ(folder.problems(scene + "]\n", {"time.duration=0.1", "check.frames=[0, 9]"}),
+            "--set check.frames=[0, 9]: frames: the film ends with frame 2, found 9");
+}
+
 TEST(SceneErrors, ASyntaxErrorHasItsPlace) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems("[cloth]\nmesh = { grid = [2, 2 }\n").substr(0, 17), "scene.toml:2:23: ");
@@ -295,7 +310,38 @@ TEST(SceneErrors, AFolderAndAMissingFileAreNoScenes) {
   const SceneFolder folder;
   const auto load = [](const std::filesystem::path& file) { return usage_error([&] { load_scene(file); }); };
   EXPECT_EQ(folder.without_folder(load(folder.path() / "none.toml")), "none.toml: no such file");
-  EXPECT_EQ(load(folder.path()), folder.path().string() + ": expected a scene file, found a folder");
+  EXPECT_EQ(load(folder.path()), folder.path().string() + ": this is a folder, not a file");
+}
+
+TEST(SceneErrors, OfManyTheFirstHundredAreTold) {
+  const SceneFolder folder;
+  std::string keys, pins;
+  for (int i = 0; i < 1000; ++i) {
+    keys += "key" + std::to_string(i) + " = 1\n";
+    pins += std::to_string(i + 9) + ",";
+  }
+  for (const std::string& lines : {keys, "pins = [" + pins + "]\n"}) {
+    const std::string message = folder.problems(with("cloth", lines));
+    EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 100);
+    EXPECT_TRUE(message.ends_with("\nand 900 more")) << message;
+  }
+}
+
+TEST(SceneErrors, AZeroDoesNotEndTheMessages) {
+  const SceneFolder folder;
+  const std::string color = "color = \"a\\u0000\\u001b[31m\"\nsamples = 9";
+  const std::string message = folder.problems(with("look", color));
+  EXPECT_NE(message.find("unknown colour 'a\\x00\\x1b[31m'; "), std::string::npos) << message;
+  EXPECT_NE(message.find("\nscene.toml:6:11: samples must be at least 1 and at most 4, found 9"), std::string::npos);
+  const std::string texture = folder.problems(with("look", "texture = \"plaid.png\\u0000\""));
+  EXPECT_TRUE(texture.starts_with("scene.toml:5:11: texture: no such file: neither plaid.png\\x00 nor ")) << texture;
+}
+
+TEST(SceneErrors, ASceneIsATextInUtf8) {
+  const SceneFolder folder;
+  EXPECT_EQ(folder.problems(std::string("\xff\xfe[\0c\0", 6)),
+            "scene.toml: the file is text in UTF-16: save it as UTF-8");
+  EXPECT_EQ(usage_error([] { load_scene("/dev/zero"); }), "/dev/zero: this is a device or socket, not a file");
 }
 
 }  // namespace

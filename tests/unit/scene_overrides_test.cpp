@@ -103,6 +103,22 @@ TEST(SceneOverrides, AreCheckedLikeTheFile) {
   EXPECT_EQ(folder.problems(least_scene, {"step=2"}), "--set step=2: 'step' belongs in [time]");
 }
 
+TEST(SceneOverrides, ReachItemsOfAnArrayThatIsLeftToItsDefault) {
+  const SceneFolder folder;
+  const Scene plain = folder.load(least_scene);
+  const Scene scene = folder.load(least_scene, {"video.size.0=96", "cloth.transform.rotate.2=90"});
+  EXPECT_EQ(scene.video.size, Eigen::Vector2i(96, plain.video.size.y()));
+  EXPECT_TRUE(scene.simulation.cloth.positions.row(0).isApprox(
+      Eigen::RowVector3d(-plain.simulation.cloth.positions(0, 1), plain.simulation.cloth.positions(0, 0), 0)));
+  EXPECT_EQ(folder.problems(least_scene, {"effects.gravity.acceleration.2=-1"}), "(no error)");
+  EXPECT_EQ(folder.problems(least_scene, {"effects.gravity.0.acceleration.2=-1"}), "(no error)");
+  EXPECT_EQ(folder.problems(least_scene, {"video.size.2=96"}),
+            "--set video.size.2=96: video.size has the items 0 to 1");
+  EXPECT_EQ(folder.problems(least_scene, {"camera.position.0=1"}),
+            "--set camera.position.0=1: camera.position has no items unless it is given: give all of it, "
+            "camera.position=…");
+}
+
 TEST(SceneOverrides, CanRepairAFile) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems("[cloth]\nmesh = { grid = [2, 2] }\nstiffness = -1\n", {"cloth.stiffness=1"}),

@@ -87,6 +87,42 @@ TEST(SceneRobustness, DeepNestingIsRefused) {
   EXPECT_NE(folder.problems(least_scene + "[look]\ncolor = " + std::string(100000, '[')), "(no error)");
 }
 
+std::string repeated(const std::string& text, int times) {
+  std::string result;
+  for (int i = 0; i < times; ++i) result += text;
+  return result;
+}
+
+TEST(SceneRobustness, DeepKeysAreRefusedWithTheirPlace) {
+  const SceneFolder folder;
+  const std::string more = "expected a key of at most 16 names, found more", deep = repeated("a.", 200'000) + "b";
+  EXPECT_EQ(folder.problems("[cloth]\n" + deep + " = 1\n"), "scene.toml:2:32: " + more);
+  EXPECT_EQ(folder.problems("[" + deep + "]\n"), "scene.toml:1:33: " + more);
+  EXPECT_EQ(folder.problems("[[" + deep + "]]\n"), "scene.toml:1:34: " + more);
+  EXPECT_EQ(folder.problems("x = { y = [{ " + deep + " = 1 }] }\n"), "scene.toml:1:45: " + more);
+  EXPECT_EQ(folder.problems(repeated("\"ö.=#\" . ", 17) + "b = 1\n"), "scene.toml:1:143: " + more);
+  EXPECT_EQ(folder.problems(least_scene, {deep + "=1"}),
+            "--set " + deep + "=1: expected names with dots between them before the '='");
+  EXPECT_TRUE(folder.problems(least_scene, {"look={" + deep + "=1}"}).ends_with(more));
+  EXPECT_EQ(folder.problems("x = " + repeated("{ a = [", 100'000)),
+            "scene.toml:1:61: expected values nested at most 16 deep, found more");
+}
+
+TEST(SceneRobustness, DotsInTextAndCommentsAreNoKeys) {
+  const SceneFolder folder;
+  const std::string dots = repeated("a.", 100), more = "16 names";
+  for (const std::string& text : {"# " + dots, "look.texture = \"\"  # " + dots, "look.texture = ''  # '" + dots,
+                                  "[look] # \"\"\" " + dots, "video.size = [64, # " + dots + "\n 64.\n]"}) {
+    EXPECT_EQ(folder.problems(least_scene + text + "\n").find(more), std::string::npos) << text;
+  }
+  for (const std::string quotes : {"\"", "'", "\"\"\"", "'''", "\"\"\"\"\"", "'''''"}) {
+    const std::string value = "mesh = " + quotes + " #" + dots + quotes + " # " + dots + '\n';
+    EXPECT_EQ(folder.problems("[cloth]\n" + value).find(more), std::string::npos) << value;
+    EXPECT_NE(folder.problems("[cloth]\n" + value + dots + "b = 1").find(more), std::string::npos) << value;
+  }
+  EXPECT_EQ(folder.problems("mesh = \"\\\"" + dots + "\\\\\" # " + dots).find(more), std::string::npos);
+}
+
 TEST(SceneSteps, AreTheNearestWholeNumberToTheDuration) {
   Scene scene;
   const auto steps = [&scene](double duration, double step) {

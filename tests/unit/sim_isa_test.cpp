@@ -49,6 +49,10 @@ TEST_F(InstructionSetDeathTest, IsTheFastestUnlessLimited) {
   EXPECT_EXIT(choose(nullptr), testing::ExitedWithCode(0), "chosen: " + std::string(fastest().name));
 }
 
+TEST_F(InstructionSetDeathTest, IsNotLimitedByAnEmptyName) {
+  EXPECT_EXIT(choose(""), testing::ExitedWithCode(0), "chosen: " + std::string(fastest().name));
+}
+
 TEST_F(InstructionSetDeathTest, IsNeverOneThatTheProcessorLacks) {
   const std::string largest(all_kernels().back()->name);
   EXPECT_EXIT(choose(largest.c_str()), testing::ExitedWithCode(0), "chosen: " + std::string(fastest().name));

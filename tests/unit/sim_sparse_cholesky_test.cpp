@@ -9,6 +9,7 @@
 #include "tests/support/matrices.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"
+#include "tests/support/usage_error.hpp"
 
 namespace drape::test {
 namespace {
@@ -116,6 +117,39 @@ TEST_P(SparseCholeskyOf, ShowsTheFactorItself) {
     }
   }
   EXPECT_LT(difference, 1e-12 * product.cwiseAbs().maxCoeff());
+}
+
+// Eliminating the rim first leaves every row of it with two entries below the diagonal.
+TEST(SparseCholesky, OfAStarIsAsSparseAsTheStar) {
+  constexpr int rim = 100'000;
+  LowerPattern star;
+  star.starts.push_back(0);
+  for (int column = 0; column <= rim; ++column) {
+    star.rows.push_back(column);
+    for (int row = column + 1; row <= (column == 0 ? rim : std::min(column + 1, rim)); ++row) star.rows.push_back(row);
+    star.starts.push_back(static_cast<int>(star.rows.size()));
+  }
+  std::vector<double> values(star.rows.size(), -1.0);
+  for (int column = 0; column <= rim; ++column) {
+    values[static_cast<std::size_t>(star.starts[static_cast<std::size_t>(column)])] = column == 0 ? 2.0 * rim : 4;
+  }
+  SparseCholesky factor(star, FactorKind::simplicial, false);
+  ASSERT_TRUE(factor.factorize(values.data()));
+  int entries = 0;
+  for (int column = 0; column <= rim; ++column) entries += factor.columns().counts[column];
+  EXPECT_LE(entries, 3 * (rim + 1));
+}
+
+TEST(SparseCholesky, RefusesAGraphWhereEverythingIsJoined) {
+  constexpr int n = 6000;
+  LowerPattern all;
+  all.starts.push_back(0);
+  for (int column = 0; column < n; ++column) {
+    for (int row = column; row < n; ++row) all.rows.push_back(row);
+    all.starts.push_back(static_cast<int>(all.rows.size()));
+  }
+  const std::string problem = usage_error([&] { SparseCholesky(all, FactorKind::simplicial, false); });
+  EXPECT_NE(problem.find("a sparse factor of 6000 rows takes 7.2e+10 operations"), std::string::npos) << problem;
 }
 
 }  // namespace

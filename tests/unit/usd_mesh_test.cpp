@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "scene/mesh_file.hpp"
@@ -46,7 +47,7 @@ TEST(UsdReader, TriangulatesAQuadAndKeepsTheTextureOfItsCorners) {
 
 TEST(UsdReader, FlipsALeftHandedMeshWithItsTexture) {
   const Mesh mesh = read_mesh(kData + "vertex_uvs.usda");
-  ASSERT_EQ(mesh.triangles.size(), 4U);
+  ASSERT_EQ(mesh.triangles.size(), 2U);
   EXPECT_EQ(mesh.triangles[0], (Triangle{0, 2, 1}));
   EXPECT_EQ(mesh.triangles[1], (Triangle{2, 3, 1}));
   for (std::size_t corner = 0; corner < 6; ++corner) {
@@ -62,15 +63,51 @@ TEST(UsdReader, KeepsTheFrontOfAMeshThatItsTransformMirrors) {
   EXPECT_EQ(mesh.triangles[0], (Triangle{0, 2, 1})) << "counterclockwise seen from +z, as before";
 }
 
-TEST(UsdReader, MergesMeshesAndReadsIndexedTextureCoordinates) {
-  const Mesh mesh = read_mesh(kData + "vertex_uvs.usda");
-  ASSERT_EQ(mesh.positions.rows(), 10);
-  EXPECT_EQ(mesh.triangles[2], (Triangle{4, 5, 6}));
-  EXPECT_EQ(mesh.triangles[3], (Triangle{9, 8, 7}));
-  ASSERT_EQ(mesh.uvs.size(), 12U);
-  EXPECT_EQ(mesh.uvs[6], (Uv{0.5, 0.125}));
-  EXPECT_EQ(mesh.uvs[7], (Uv{0.25, 0.75}));
-  EXPECT_EQ(mesh.uvs[9], (Uv{0, 0})) << "of a mesh without";
+TEST(UsdReader, ReadsIndexedTextureCoordinates) {
+  const Mesh mesh = read_mesh(kData + "indexed_uvs.usda");
+  EXPECT_EQ(mesh.uvs, (std::vector<Uv>{{0.5, 0.125}, {0.25, 0.75}, {0.5, 0.125}}));
+}
+
+TEST(UsdReader, RefusesSeveralMeshesAndListsThem) {
+  const std::string quad = "def Mesh \"b\" {\npoint3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]\n}\n";
+  EXPECT_EQ(error_of(kHeader + "def Xform \"a\" {\ndef Mesh \"m\" {\n" + kTriangle + "}\n}\n" + quad),
+            "cloth.usda: expected one Mesh in the file, found 2: /a/m (3 vertices), /b (4 vertices); export the cloth "
+            "alone");
+  std::string many = kHeader;
+  for (int i = 0; i < 1000; ++i) many += "def Mesh \"m" + std::to_string(i) + "\" {}\n";
+  const std::string message = error_of(many);
+  EXPECT_NE(message.find("/m19 (0 vertices) and 980 more"), std::string::npos) << message;
+}
+
+TEST(UsdReader, SaysWhyAMeshIsNoPartOfTheScene) {
+  const std::string mesh = "def Mesh \"m\" {\n" + kTriangle + "}\n";
+  EXPECT_EQ(error_of(kHeader + "over \"model\" {\n" + mesh + "}\n"),
+            "cloth.usda:5:1: the Mesh 'm' is not part of the scene: 'model' of line 4 is an 'over' or 'class', not a "
+            "'def'");
+  EXPECT_EQ(error_of(kHeader + "def \"a\" {}\nclass Mesh \"m\" {}\n"),
+            "cloth.usda:5:1: the Mesh 'm' is not part of the scene: 'm' of line 5 is an 'over' or 'class', not a "
+            "'def'");
+  const std::string variants = "variantSet \"lod\" = {\n\"high\" {\n" + mesh + "}\n}\n";
+  EXPECT_EQ(error_of(kHeader + "def \"a\" {\n" + variants + "}\n"),
+            "cloth.usda:7:1: this Mesh is within a variant set, which is not read, and there is no other: export what "
+            "is chosen there");
+  EXPECT_EQ(parse(kHeader + "def \"a\" {\n" + variants + "}\nover \"b\" {\n" + mesh + "}\n" + mesh).positions.rows(), 3)
+      << "the one that is";
+}
+
+/// Files that others made are not part of the project.
+std::filesystem::path real_file(const std::string& name) {
+  return std::filesystem::path(DRAPE_SOURCE_DIR "/../shared/reference/real") / name;
+}
+
+TEST(UsdReader, RefusesRealFilesWithSeveralMeshesAndWithVariants) {
+  const std::filesystem::path arm = real_file("arm_with_cloth.usda"), pyramid = real_file("wg_pyramid.usda");
+  if (!exists(arm) || !exists(pyramid)) GTEST_SKIP() << "no " << arm << " or no " << pyramid;
+  EXPECT_EQ(usage_error([&] { read_mesh(arm); }),
+            arm.string() +
+                ": expected one Mesh in the file, found 2: /root/Model/Mesh/Mesh (12 vertices), "
+                "/root/Grid/Grid (25 vertices); export the cloth alone");
+  EXPECT_TRUE(usage_error([&] { read_mesh(pyramid); }).starts_with(pyramid.string() + ":36:21: this Mesh is within"));
 }
 
 TEST(UsdReader, TakesTheUnitAndUpAxisOfTheSchemaWhereTheFileIsSilent) {
@@ -187,7 +224,7 @@ TEST(UsdReader, RefusesPrimsNestedTooDeep) {
 
 // A cut file is a valid one or gets a message; reading it never crashes or hangs.
 TEST(UsdReader, SurvivesAFileCutAnywhere) {
-  for (const char* name : {"house_y_up.usda", "vertex_uvs.usda"}) {
+  for (const char* name : {"house_y_up.usda", "vertex_uvs.usda", "indexed_uvs.usda"}) {
     const std::string text(SourceText::read(kData + name).text());
     const std::size_t last = text.find_last_not_of(" \n");
     for (std::size_t size = 0; size <= last; ++size) {
@@ -202,7 +239,7 @@ TEST(UsdReader, SurvivesAFileCutAnywhere) {
 
 // Any single damaged byte: the result does not matter, only that there is one.
 TEST(UsdReader, SurvivesAnyDamagedByte) {
-  const std::string text(SourceText::read(kData + "vertex_uvs.usda").text());
+  const std::string text(SourceText::read(kData + "indexed_uvs.usda").text());
   for (std::size_t i = 0; i < text.size(); ++i) {
     for (const char damage : {'\0', '(', ']', '"', '9', '-', '\xff'}) {
       std::string damaged = text;

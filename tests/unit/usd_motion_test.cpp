@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/usage_error.hpp"
 
 namespace drape::usd_motion {
@@ -140,6 +141,24 @@ TEST(UsdMotion, PrefersTheShapeThatMoves) {
   EXPECT_EQ(parse(kHeader + empty).times.size(), 3U);
   EXPECT_EQ(parse(kHeader + still).times, std::vector<double>{0});
   EXPECT_EQ(error_of(kHeader), "ball.usda: there is neither a Mesh nor a Sphere nor a moving prim in the file");
+}
+
+// What stands still is no track, nor what only its skeleton moves.
+TEST(UsdMotion, OfNothingIsNoTrack) {
+  const test::ScratchFolder folder;
+  const auto error_of_track = [&](const std::string& text) {
+    const std::filesystem::path file = folder.put(folder.path() / "ball.usda", text);
+    return usage_error([&] { read_sphere_track(file); }).substr(folder.path().string().size() + 1);
+  };
+  const std::string message =
+      "ball.usda: nothing moves in the file: expected a Mesh, a Sphere or an Xform with time samples of its transform";
+  EXPECT_EQ(error_of_track(ball("")), message);
+  EXPECT_EQ(error_of_track(kHeader + "def Mesh \"m\" {\npoint3f[] points.timeSamples = { 1: [(0, 0, 0)], 2: [(1, 0, "
+                                     "0)] }\n}\n"),
+            message);
+  EXPECT_EQ(error_of_track(ball("double3 xformOp:translate.timeSamples = { 1: (0, 0, 0) }\nuniform token[] "
+                                "xformOpOrder = [\"xformOp:translate\"]")),
+            message);
 }
 
 TEST(UsdMotion, BoundsTheShapeByASphereThatFollowsUnitsAndUpAxis) {

@@ -1,4 +1,4 @@
-#include "render/gl/library.hpp"
+#include "core/shared_library.hpp"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -25,8 +25,7 @@ SharedLibrary::SharedLibrary(std::string title, const std::vector<std::string>& 
 void* SharedLibrary::find(const char* name) const {
   void* const function = dlsym(handle_, name);
   if (function == nullptr) {
-    throw OutputError(
-        fmt::format("cannot draw: the {} library has no {}; it is too old, Mesa 12 or later is needed", title_, name));
+    throw OutputError(fmt::format("cannot draw: the {} library has no {}; it is too old", title_, name));
   }
   return function;
 }

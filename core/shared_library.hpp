@@ -5,8 +5,8 @@
 
 namespace drape {
 
-/// A shared library that is loaded at run time. It stays loaded until the process ends: LLVM inside Mesa does not
-/// survive unloading.
+/// A shared library that draws, loaded at run time: linking it would cost every start of the program. It stays loaded
+/// until the process ends: LLVM inside Mesa does not survive unloading.
 class SharedLibrary {
  public:
   /// Loads the first of these that is there.

@@ -1,0 +1,206 @@
+#include "check/golden_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+
+#include "check/manifest.hpp"
+#include "check/motion_file.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
+namespace drape {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void refuse(const fs::path& place, std::string_view what) {
+  throw UsageError(fmt::format("{}: {}; drape does not replace it: move it away", place.string(), what));
+}
+
+/// Whether a name in the folder of the frames is one that golden_picture() gives: "0040.png".
+bool names_picture(const fs::path& name) {
+  const std::string stem = name.stem().string();
+  return name.extension() == ".png" && stem.size() >= 4 &&
+         std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Whether a file holds some words within its first bytes.
+bool mentions(const fs::path& file, std::string_view words) {
+  constexpr std::size_t looked_at = 4096;
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return false;
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(looked_at, '\0');
+  stream.read(start.data(), looked_at);
+  return start.find(words) != std::string::npos;
+}
+
+/// A damaged golden is one, too: one of its two files is enough.
+bool is_golden(const fs::path& folder) {
+  return mentions(folder / "manifest.json", "\"scene_hash\"") || mentions(folder / "motion.bin", "drape motion ");
+}
+
+/// Nothing else may stand where a golden has a file or a folder.
+void require_type(const fs::path& place, fs::file_type type) {
+  std::error_code ignored;
+  const fs::file_type found = fs::symlink_status(place, ignored).type();
+  if (found == type || found == fs::file_type::not_found) return;
+  refuse(place, found == fs::file_type::symlink     ? "is a link"
+                : found == fs::file_type::directory ? "is a folder"
+                : type == fs::file_type::directory  ? "is no folder"
+                                                    : "is no regular file");
+}
+
+void require_own_files(const fs::path& folder) {
+  for (const char* name : {"manifest.json", "motion.bin"}) require_type(folder / name, fs::file_type::regular);
+  require_type(folder / "frames", fs::file_type::directory);
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder / "frames", ignored)) {
+    if (names_picture(entry.path().filename())) require_type(entry.path(), fs::file_type::regular);
+  }
+}
+
+[[noreturn]] void fail_to_write(const fs::path& folder, const std::error_code& error) {
+  throw OutputError(fmt::format("cannot write {}: {}", folder.string(), error.message()));
+}
+
+std::error_code last_error() { return {errno, std::generic_category()}; }
+
+/// The same file, folder or link under another name: by a second name of a file if the file system has them.
+void keep(const fs::path& from, const fs::path& to) {
+  if (fs::is_directory(fs::symlink_status(from))) {
+    fs::create_directory(to);
+    for (const auto& entry : fs::directory_iterator(from)) keep(entry.path(), to / entry.path().filename());
+    fs::permissions(to, fs::status(from).permissions());
+    return;
+  }
+  std::error_code error;
+  fs::create_hard_link(from, to, error);
+  if (error) fs::copy(from, to, fs::copy_options::copy_symlinks);
+}
+
+/// Keeps what is in a golden's folder and is not drape's.
+void keep_foreign(const fs::path& from, const fs::path& to) {
+  for (const auto& entry : fs::directory_iterator(from)) {
+    const fs::path name = entry.path().filename();
+    if (name != "manifest.json" && name != "motion.bin" && name != "frames") keep(entry.path(), to / name);
+  }
+  if (!fs::exists(from / "frames")) return;
+  for (const auto& entry : fs::directory_iterator(from / "frames")) {
+    const fs::path name = entry.path().filename();
+    if (!names_picture(name)) keep(entry.path(), to / "frames" / name);
+  }
+}
+
+/// Gives the files of a new golden, and its folders, the permissions of those that they replace.
+void keep_permissions(const fs::path& from, const fs::path& to) {
+  std::vector<fs::path> names{".", "frames", "manifest.json", "motion.bin"};
+  for (const auto& entry : fs::directory_iterator(to / "frames")) {
+    if (names_picture(entry.path().filename())) names.push_back("frames" / entry.path().filename());
+  }
+  for (const fs::path& name : names) {
+    const fs::path old = from / name;
+    if (!fs::exists(old)) continue;
+    if (::access(old.c_str(), W_OK) != 0) fail_to_write(old, last_error());
+    fs::permissions(to / name, fs::status(old).permissions());
+  }
+}
+
+/// Gives a complete folder its name. An older one of that name goes last.
+void give_name(const fs::path& complete, const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder)) {
+    fs::rename(complete, folder, error);
+    if (error) fail_to_write(folder, error);
+    return;
+  }
+  if (::renameat2(AT_FDCWD, complete.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) != 0) {
+    // Not every file system exchanges two names in one go.
+    if (errno != EINVAL && errno != ENOSYS) fail_to_write(folder, last_error());
+    const fs::path old = complete.string() + "-old";
+    fs::rename(folder, old, error);
+    if (error) fail_to_write(folder, error);
+    fs::rename(complete, folder, error);
+    std::error_code ignored;
+    if (error) {
+      fs::rename(old, folder, ignored);
+      fail_to_write(folder, error);
+    }
+    fs::rename(old, complete, ignored);
+  }
+  fs::remove_all(complete, error);
+}
+
+std::uintmax_t write_files(const fs::path& folder, const Golden& golden, const std::vector<Png>& pictures) {
+  std::uintmax_t size = write_file_atomically(folder / "manifest.json", manifest_text(golden));
+  size += write_file_atomically(folder / "motion.bin", pack_motion(golden.windows, golden.quantum));
+  auto picture = pictures.begin();
+  for (const GoldenWindow& window : golden.windows) {
+    if (window.frame) size += write_file_atomically(golden_picture(folder, *window.frame), *picture++);
+  }
+  return size;
+}
+
+/// Hidden, beside a folder, and of this process alone.
+fs::path partial_folder(const fs::path& folder) {
+  constexpr std::size_t longest = 200;  // a name has at most 255 bytes
+  return folder.parent_path() /
+         fmt::format(".{}.partial-{}", folder.filename().string().substr(0, longest), ::getpid());
+}
+
+}  // namespace
+
+bool has_golden(const fs::path& folder) {
+  std::error_code error;
+  const fs::file_type named = fs::symlink_status(folder, error).type();
+  if (named == fs::file_type::not_found) return false;
+  const fs::file_type type = fs::status(folder, error).type();
+  if (type == fs::file_type::not_found) refuse(folder, "is a link to nothing, where the golden should be");
+  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  if (type != fs::file_type::directory) refuse(folder, "is a file, where the golden should be a folder");
+  const bool empty = fs::is_empty(folder, error);
+  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  if (empty) return false;
+  if (!is_golden(folder)) refuse(folder, "is no golden, but has files of another kind in it");
+  require_own_files(folder);
+  return true;
+}
+
+std::uintmax_t write_golden(const fs::path& folder, const Golden& golden, const std::vector<Png>& pictures) {
+  has_golden(folder);  // or it throws
+  std::error_code error;
+  const bool exists = fs::exists(folder);
+  const fs::path target = exists ? fs::canonical(folder) : folder;
+  const fs::path partial = partial_folder(target);
+  fs::remove_all(partial, error);  // of a process that was killed and had the same number
+  try {
+    fs::create_directories(partial / "frames");
+    const std::uintmax_t size = write_files(partial, golden, pictures);
+    if (exists) keep_foreign(target, partial);
+    if (exists) keep_permissions(target, partial);
+    give_name(partial, target);
+    return size;
+  } catch (const std::domain_error&) {
+    fs::remove_all(partial, error);
+    throw UsageError(
+        fmt::format("{}: the motion goes too far from the origin to be kept to {:g} m; move the scene "
+                    "there, or raise [check] motion_tolerance",
+                    folder.string(), golden.quantum));
+  } catch (const fs::filesystem_error& problem) {
+    fs::remove_all(partial, error);
+    fail_to_write(folder, problem.code());
+  } catch (...) {
+    fs::remove_all(partial, error);
+    throw;
+  }
+}
+
+}  // namespace drape

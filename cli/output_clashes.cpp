@@ -1,0 +1,98 @@
+#include "cli/output_clashes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <unordered_map>
+
+#include "core/error.hpp"
+#include "core/file_identity.hpp"
+#include "run/films.hpp"
+
+namespace drape {
+namespace {
+
+/// An option that writes files.
+struct Writer {
+  std::size_t scene;
+  std::string option;              ///< "-o x.png", as it was given
+  std::vector<std::string> files;  ///< that it writes
+};
+
+std::vector<Writer> writers(std::size_t number, const Scene& scene, const RunOptions& options) {
+  std::vector<Writer> result;
+  for (const OutputSpec& spec : output_specs(scene, options)) {
+    result.push_back({number, "-o " + spec.path, output_files(spec)});
+  }
+  const RecordPaths& r = options.records;
+  for (const auto& [option, file] : {std::pair{"--stats", r.stats}, std::pair{"--energies", r.energies},
+                                     std::pair{"--positions", r.positions}, std::pair{"--trace", r.trace}}) {
+    if (!file.empty()) result.push_back({number, fmt::format("{} {}", option, file), {file}});
+  }
+  return result;
+}
+
+class Clashes {
+ public:
+  explicit Clashes(const std::vector<Scene>& scenes) : scenes_(scenes) {
+    for (const Scene& scene : scenes) {
+      for (const std::filesystem::path& input : scene.inputs) readers_.emplace(file_identity(input), &scene);
+    }
+  }
+
+  /// @returns what is wrong with the first of the writer's files that is not its own; empty if all are
+  std::string add(const Writer& writer) {
+    std::string problem;
+    for (const std::string& file : writer.files) {
+      const std::string identity = file_identity(file);
+      const auto reader = readers_.find(identity);
+      if (reader != readers_.end()) {
+        return fmt::format("{} would overwrite {}, which {} is read from", writer.option, file,
+                           reader->second->file.string());
+      }
+      const auto [other, free] = writers_.emplace(identity, Claim{writer.scene, writer.option, file});
+      if (!free && problem.empty()) problem = describe(writer, file, other->second);
+    }
+    return problem;
+  }
+
+ private:
+  struct Claim {
+    std::size_t scene;
+    std::string option, file;
+  };
+
+  [[nodiscard]] std::string describe(const Writer& writer, const std::string& file, const Claim& other) const {
+    if (writer.scene == other.scene) {
+      return fmt::format("{} and {} write the same file{}", other.option, writer.option,
+                         file == other.file ? "" : fmt::format(": {} is {}", file, other.file));
+    }
+    const Scene &first = scenes_[other.scene], &second = scenes_[writer.scene];
+    return fmt::format(
+        "'{}' would be written for {} and again for {}: {}", file, first.file.string(), second.file.string(),
+        first.name == second.name ? "they have the same name, so render them one at a time, to files of their own"
+                                  : "put {scene} into the name");
+  }
+
+  const std::vector<Scene>& scenes_;
+  std::unordered_map<std::string, const Scene*> readers_;
+  std::unordered_map<std::string, Claim> writers_;
+};
+
+}  // namespace
+
+void require_files_of_their_own(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options) {
+  Clashes clashes(scenes);
+  std::string problems;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    for (const Writer& writer : writers(i, scenes[i], options[i])) {
+      const std::string problem = clashes.add(writer);
+      if (!problem.empty()) problems += (problems.empty() ? "" : "\n") + problem;
+    }
+  }
+  if (!problems.empty()) throw UsageError(problems);
+}
+
+}  // namespace drape

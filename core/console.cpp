@@ -1,0 +1,36 @@
+#include "core/console.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+
+namespace drape {
+namespace {
+
+std::atomic<int> first_error = 0;  // of standard output
+
+}  // namespace
+
+void open_standard_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // The lowest free number is given to what is opened, and those below are open by now.
+    if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF) static_cast<void>(::open("/dev/null", O_RDWR));
+  }
+}
+
+void print_text(std::FILE* stream, std::string_view text) {
+  errno = 0;
+  const bool printed = std::fwrite(text.data(), 1, text.size(), stream) == text.size() && std::fflush(stream) == 0;
+  int none = 0;
+  if (!printed && stream == stdout) first_error.compare_exchange_strong(none, errno == 0 ? EIO : errno);
+}
+
+int lost_output() {
+  print_text(stdout, {});
+  const int error_number = first_error;
+  return error_number == EPIPE ? 0 : error_number;
+}
+
+}  // namespace drape

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdio>
+#include <string_view>
+
+namespace drape {
+
+/// Opens /dev/null on those of the three standard streams that are closed. Otherwise the next file that is opened takes
+/// the place of one, and what is printed goes into it.
+void open_standard_streams();
+
+/// Prints text for a person, at once. What the stream does not take is lost: telling must not cost the results that it
+/// tells of.
+void print_text(std::FILE* stream, std::string_view text);
+
+/// Why standard output has lost text, or what is still buffered for it cannot be written: an error number, or 0. Of a
+/// reader that has gone away (EPIPE) nothing is said: it has had enough.
+int lost_output();
+
+}  // namespace drape

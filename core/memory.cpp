@@ -1,0 +1,113 @@
+#include "core/memory.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace drape {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What this process holds already [bytes]; 0 where the system does not say.
+struct Held {
+  double mapped = 0, resident = 0;
+};
+
+Held held(const fs::path& root, double page_size) {
+  Held pages;
+  std::ifstream(root / "proc/self/statm") >> pages.mapped >> pages.resident;
+  return {.mapped = pages.mapped * page_size, .resident = pages.resident * page_size};
+}
+
+std::optional<double> number_in(const fs::path& file) {
+  double number = 0;
+  return std::ifstream(file) >> number ? std::optional(number) : std::nullopt;  // "max" is none
+}
+
+/// How a version of control groups calls its files.
+struct GroupFiles {
+  const char *limit, *usage, *inactive, *active;
+};
+constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file",
+                               "total_active_file"};
+constexpr GroupFiles version_2{"memory.max", "memory.current", "inactive_file", "active_file"};
+
+/// The file cache of a group, which the kernel gives up before it kills [bytes].
+double reclaimable(const fs::path& group, const GroupFiles& files) {
+  double sum = 0;
+  std::ifstream stream(group / "memory.stat");
+  std::string name;
+  for (double bytes = 0; stream >> name >> bytes;) {
+    if (name == files.inactive || name == files.active) sum += bytes;
+  }
+  return sum;
+}
+
+/// The least that a group and those around it leave [bytes]. In a container the process may be in a group whose path
+/// means nothing there; what is mounted is then the container's own.
+double left_in_group(const fs::path& mount, fs::path group, const GroupFiles& files) {
+  double least = std::numeric_limits<double>::infinity();
+  for (group = group.relative_path();; group = group.parent_path()) {
+    const fs::path folder = mount / group;
+    const std::optional<double> limit = number_in(folder / files.limit), usage = number_in(folder / files.usage);
+    if (limit && usage) least = std::min(least, *limit - std::max(0.0, *usage - reclaimable(folder, files)));
+    if (group.empty()) return least;
+  }
+}
+
+/// What the control groups of this process leave it [bytes]: /proc/self/cgroup has lines "number:controllers:path",
+/// of which version 2's has no controllers.
+double left_in_groups(const fs::path& root) {
+  double least = std::numeric_limits<double>::infinity();
+  std::ifstream stream(root / "proc/self/cgroup");
+  for (std::string line; std::getline(stream, line);) {
+    std::istringstream fields(line);
+    std::string number, controllers, path;
+    std::getline(fields, number, ':');
+    std::getline(fields, controllers, ':');
+    std::getline(fields, path);
+    const fs::path mounts = root / "sys/fs/cgroup";
+    if (controllers.empty()) {
+      // Beside version 1's it may be mounted in a folder of its own.
+      for (const fs::path& mount : {mounts, mounts / "unified"}) {
+        least = std::min(least, left_in_group(mount, path, version_2));
+      }
+    } else if (("," + controllers + ",").find(",memory,") != std::string::npos) {
+      least = std::min(least, left_in_group(mounts / "memory", path, version_1));
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+double memory_left(const fs::path& root) {
+  const auto page_size = static_cast<double>(sysconf(_SC_PAGESIZE));
+  const Held taken = held(root, page_size);
+  double left = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * page_size - taken.resident;
+  left = std::min(left, left_in_groups(root));
+  rlimit address_space{};
+  if (getrlimit(RLIMIT_AS, &address_space) == 0 && address_space.rlim_cur != RLIM_INFINITY) {
+    left = std::min(left, static_cast<double>(address_space.rlim_cur) - taken.mapped);
+  }
+  return std::max(0.0, left);
+}
+
+void require_memory(const std::string& what, double bytes, const std::string& remedy) {
+  const double left = memory_left();
+  if (bytes <= left) return;
+  throw UsageError(fmt::format("{} would take {:.2f} GB of memory, and {:.2f} GB are left: {}", what, bytes / 1e9,
+                               left / 1e9, remedy));
+}
+
+}  // namespace drape

@@ -1,0 +1,88 @@
+#include "core/read_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <string_view>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace drape {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& message) {
+  throw UsageError(escape_controls(file.string() + ": " + message));
+}
+
+[[noreturn]] void fail_by_system(const std::filesystem::path& file) {
+  if (errno == ENOENT || errno == ENOTDIR) fail(file, "no such file");
+  fail(file, "the file cannot be read: " + std::generic_category().message(errno));
+}
+
+/// What may be opened without waiting for ever, and has an end.
+void require_readable_kind(const std::filesystem::path& file) {
+  // The system would take such a name for what is before the zero.
+  if (file.native().find('\0') != std::string::npos) fail(file, "no such file");
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0) fail_by_system(file);
+  if (S_ISDIR(status.st_mode)) fail(file, "this is a folder, not a file");
+  if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode)) fail(file, "this is a device or socket, not a file");
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(const std::filesystem::path& file) : number_(open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (number_ < 0) fail_by_system(file);
+  }
+  ~Descriptor() { close(number_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  operator int() const { return number_; }
+
+ private:
+  int number_;
+};
+
+}  // namespace
+
+std::string read_file(const std::filesystem::path& file, std::size_t limit) {
+  require_readable_kind(file);
+  const Descriptor descriptor(file);
+  struct stat status {};
+  const bool known = fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  const std::size_t expected = known ? static_cast<std::size_t>(status.st_size) : 0;
+  // What is longer is not read at all; a pipe tells only by going on. One byte more than expected sees the end.
+  constexpr std::size_t least = 1 << 16;
+  std::string bytes(std::min(std::max(expected, least), limit) + 1, '\0');
+  std::size_t size = 0;
+  while (expected <= limit && size <= limit) {
+    if (size == bytes.size()) bytes.resize(std::min(2 * size, limit + 1));
+    const ssize_t got = read(descriptor, bytes.data() + size, bytes.size() - size);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail_by_system(file);
+    if (got == 0) {
+      bytes.resize(size);
+      return bytes;
+    }
+    size += static_cast<std::size_t>(got);
+  }
+  fail(file, fmt::format("the file is too large: expected at most {} bytes", limit));
+}
+
+std::string read_text(const std::filesystem::path& file, std::size_t limit) {
+  constexpr std::string_view utf8 = "\xEF\xBB\xBF", utf16_little = "\xFF\xFE", utf16_big = "\xFE\xFF";
+  std::string text = read_file(file, limit);
+  if (text.starts_with(utf16_little) || text.starts_with(utf16_big)) {
+    fail(file, "the file is text in UTF-16: save it as UTF-8");
+  }
+  if (text.starts_with(utf8)) text.erase(0, utf8.size());
+  return text;
+}
+
+}  // namespace drape

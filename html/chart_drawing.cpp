@@ -1,0 +1,141 @@
+#include "html/chart_drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace drape::html {
+namespace {
+
+// In the units of the drawing, which is scaled to the page.
+constexpr double width = 640, height = 340, left = 72, right = 24, top = 12, bottom = 50;
+constexpr std::size_t styles = 6;    // colours and signs of the style sheet
+constexpr std::size_t crowded = 60;  // points in a series from which on signs would cover the line
+
+struct Frame {
+  AxisMap x, y;
+  [[nodiscard]] double across(double value) const { return left + (width - left - right) * x.place(value); }
+  [[nodiscard]] double down(double value) const { return height - bottom - (height - top - bottom) * y.place(value); }
+};
+
+Frame frame_of(const Chart& chart) {
+  std::vector<double> xs, ys;
+  for (const ChartSeries& series : chart.series) {
+    for (const ChartPoint& point : series.points) {
+      xs.push_back(point.x);
+      ys.push_back(point.y);
+      if (point.spread) xs.insert(xs.end(), point.spread->begin(), point.spread->end());
+    }
+  }
+  for (const ChartLevel& level : chart.levels) ys.push_back(level.y);
+  return {AxisMap(chart.x_scale, xs), AxisMap(chart.y_scale, ys)};
+}
+
+Markup axes(const Chart& chart, const Frame& frame) {
+  Markup parts;
+  const double span = width - left - right, rise = height - top - bottom;
+  for (const AxisMap::Tick& tick : frame.y.ticks()) {
+    const double y = height - bottom - rise * tick.place;
+    parts += svg_line("grid", left, y, width - right, y) + svg_text(left - 8, y + 4, "end", tick.label);
+  }
+  for (const AxisMap::Tick& tick : frame.x.ticks()) {
+    const double x = left + span * tick.place;
+    parts += svg_line("grid", x, top, x, height - bottom) + svg_text(x, height - bottom + 18, "middle", tick.label);
+  }
+  parts += svg_line("axis", left, top, left, height - bottom) +
+           svg_line("axis", left, height - bottom, width - right, height - bottom);
+  return parts + element("g", {{"class", "title"}}, svg_text(left + span / 2, height - 8, "middle", chart.x_title));
+}
+
+Markup levels(const Chart& chart, const Frame& frame) {
+  Markup parts;
+  for (const ChartLevel& level : chart.levels) {
+    const double y = frame.down(level.y);
+    parts += svg_text(width - right - 4, y > top + 16 ? y - 5 : y + 14, "end", level.label) +
+             svg_line("level", left, y, width - right, y);
+  }
+  return element("g", {{"class", "levels"}}, parts);
+}
+
+/// The sign of a style, around the origin: a circle, a square, a diamond, triangles, a cross.
+Markup sign(std::size_t style) {
+  constexpr std::array<const char*, styles> paths{"M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z",
+                                                  "M-3.6 -3.6h7.2v7.2h-7.2z",
+                                                  "M0 -5L5 0L0 5L-5 0z",
+                                                  "M0 -4.8L4.8 3.6H-4.8z",
+                                                  "M0 4.8L4.8 -3.6H-4.8z",
+                                                  "M-1.6 -4.6h3.2v3h3v3.2h-3v3h-3.2v-3h-3v-3.2h3z"};
+  return element("path", {{"class", "sign"}, {"d", paths[style]}});
+}
+
+std::size_t style_of(const Chart& chart, std::size_t number) {
+  return chart.series[number].style.value_or(number) % styles;
+}
+
+std::string style_class(const Chart& chart, std::size_t number) {
+  return fmt::format("s{}{}", style_of(chart, number), chart.series[number].other ? " other" : "");
+}
+
+/// Whether a series is seen as a line only.
+bool is_line(const ChartSeries& series) { return series.points.size() > crowded || !series.markers; }
+
+Markup draw_point(const ChartSeries& series, const ChartPoint& point, const Markup& sign, const std::string& place,
+                  Medium medium) {
+  Attributes attributes{{"class", is_line(series) ? "point quiet" : "point"}, {"transform", place}};
+  if (medium == Medium::page) {
+    attributes.push_back({"data-label", series.name.empty() ? point.label : series.name + ", " + point.label});
+    if (!point.command.empty()) attributes.push_back({"data-command", point.command});
+  }
+  return element("g", attributes, sign);
+}
+
+Markup draw_series(const Chart& chart, std::size_t number, const Frame& frame, Medium medium) {
+  const ChartSeries& series = chart.series[number];
+  std::string path;
+  Markup points, spreads;
+  bool pen_down = false;
+  for (const ChartPoint& point : series.points) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
+      pen_down = false;
+      continue;
+    }
+    const std::string x = coordinate(frame.across(point.x)), y = coordinate(frame.down(point.y));
+    path += (pen_down ? "L" : "M") + x + " " + y;
+    pen_down = true;
+    if (medium == Medium::page || !is_line(series)) {
+      points += draw_point(series, point, sign(style_of(chart, number)), "translate(" + x + " " + y + ")", medium);
+    }
+    if (point.spread) {
+      const auto [from, to] = *point.spread;
+      spreads += element("path", {{"class", "spread"},
+                                  {"d", fmt::format("M{:.1f} {}H{:.1f}", frame.across(from), y, frame.across(to))}});
+    }
+  }
+  Attributes attributes{{"class", "series " + style_class(chart, number)}};
+  if (medium == Medium::page) attributes.push_back({"data-command", series.command});
+  return element("g", attributes, element("path", {{"class", "curve"}, {"d", path}}) + spreads + points);
+}
+
+std::vector<LegendEntry> legend_of(const Chart& chart) {
+  std::vector<LegendEntry> entries;
+  for (std::size_t i = 0; i < chart.series.size(); ++i) {
+    if (chart.series[i].name.empty()) continue;
+    Markup key = element("path", {{"class", "curve"}, {"d", "M-12 0L12 0"}});
+    if (!is_line(chart.series[i])) key += sign(style_of(chart, i));
+    entries.push_back({style_class(chart, i), std::move(key), chart.series[i].name});
+  }
+  return entries;
+}
+
+}  // namespace
+
+Diagram draw_chart(const Chart& chart, Medium medium) {
+  const Frame frame = frame_of(chart);
+  Markup drawing = axes(chart, frame);
+  for (std::size_t i = 0; i < chart.series.size(); ++i) drawing += draw_series(chart, i, frame, medium);
+  drawing += levels(chart, frame);
+  return {chart.title, chart.y_title, legend_of(chart), width, height, std::move(drawing)};
+}
+
+}  // namespace drape::html

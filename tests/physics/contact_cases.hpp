@@ -1,0 +1,43 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+
+/// A method, and how a surface's push enters its steps.
+struct ContactCase {
+  NamedMethod method;
+  std::string response;
+};
+inline void PrintTo(const ContactCase& c, std::ostream* out) { *out << c.method.name << " " << c.response; }
+
+inline std::vector<ContactCase> contact_cases() {
+  std::vector<ContactCase> all;
+  for (const NamedMethod& method : all_methods) {
+    all.push_back({method, "explicit"});
+    if (method.method != Method::semi_implicit) all.push_back({method, "implicit"});
+  }
+  return all;
+}
+
+/// Ends the name of a parametrised test with the method's and the response's.
+inline std::string contact_case_name(const testing::TestParamInfo<ContactCase>& info) {
+  return std::string(info.param.method.name) + "_" + info.param.response;
+}
+
+/// Vertices that no spring joins, of masses from 0.5 to 2 kg.
+inline Cloth loose(const Vertices& positions) {
+  Cloth cloth;
+  cloth.positions = positions;
+  cloth.velocities = Vertices::Zero(positions.rows(), 3);
+  cloth.masses = Eigen::VectorXd::LinSpaced(positions.rows(), 0.5, 2);
+  return cloth;
+}
+
+}  // namespace drape::test

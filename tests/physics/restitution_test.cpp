@@ -1,0 +1,232 @@
+// What bounces off a ground or a sphere leaves with its share of the speed, whatever the step, the stiffness, the
+// method and the response.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/simulation.hpp"
+#include "tests/physics/contact_cases.hpp"
+
+namespace drape::test {
+namespace {
+
+using Eigen::RowVector3d;
+using Eigen::Vector3d;
+
+constexpr double g = 9.8;           // the default gravity [m/s²]
+constexpr double thickness = 0.02;  // [m]
+constexpr double fall = 0.5;        // [m]
+
+class Restitution : public testing::TestWithParam<ContactCase> {
+ protected:
+  SimulationSettings settings(Cloth cloth, double step) const {
+    SimulationSettings result = setup(std::move(cloth), GetParam().method, step);
+    result.effects = {effect("gravity")};
+    return result;
+  }
+
+  KeyValues contact(double restitution, double stiffness, double friction) const {
+    return {{"stiffness", stiffness},
+            {"response", GetParam().response},
+            {"restitution", restitution},
+            {"friction", friction}};
+  }
+  ActiveEffect ground(double restitution, double stiffness, double friction = 0.3) const {
+    KeyValues keys = contact(restitution, stiffness, friction);
+    keys.insert(keys.end(), {{"height", 0.0}, {"thickness", thickness}});
+    return effect("ground", keys);
+  }
+
+  /// A soft stiffness and the hardest that this step takes, or one as hard as steel.
+  std::vector<double> stiffnesses(double step) const {
+    return {1000, GetParam().response == "explicit" ? 3 / (step * step) : 1e9};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(With, Restitution, testing::ValuesIn(contact_cases()), contact_case_name);
+
+/// Level, flat and strained by nothing, its vertices `fall` above a ground's layer. Soft enough for a step of 0.01 s.
+Cloth falling_sheet() {
+  Cloth cloth = cloth_of(make_grid(4, 4), 0.4, 2, {});
+  cloth.positions.col(2).setConstant(thickness + fall);
+  return cloth;
+}
+
+/// The highest and the lowest that any vertex gets above its lowest turning point, from its first way up on [m].
+struct Rebound {
+  double highest = -1, lowest = 1;
+};
+Rebound rebound(const SimulationSettings& settings, double seconds) {
+  Simulation simulation(settings);
+  Rebound result;
+  Eigen::VectorXd tops = Eigen::VectorXd::Constant(settings.cloth.vertex_count(), -1);
+  bool down = false;
+  while (simulation.time() < seconds) {
+    const double before = simulation.state().x.col(2).minCoeff();
+    simulation.step();
+    const Eigen::VectorXd heights = simulation.state().x.col(2).array() - thickness;
+    down = down || (before < thickness + fall / 2 && simulation.state().v.col(2).minCoeff() >= 0);
+    if (down) tops = tops.cwiseMax(heights);
+    result.lowest = std::min(result.lowest, heights.minCoeff());
+  }
+  result.highest = tops.maxCoeff();
+  EXPECT_NEAR(tops.minCoeff(), result.highest, 1e-9) << "not all of the sheet bounces alike";
+  return result;
+}
+
+TEST_P(Restitution, AFallingSheetRisesToItsSquareOfTheHeight) {
+  for (const double step : {0.01, 0.002}) {
+    for (const double stiffness : stiffnesses(step)) {
+      for (const double e : {0.0, 0.25, 0.5, 0.75, 0.9, 1.0}) {
+        SimulationSettings s = settings(falling_sheet(), step);
+        s.effects.push_back(ground(e, stiffness));
+        // The top of a parabola lies at most gh²/8 above the nearest step. What stays lies in the ground's layer.
+        const double share = rebound(s, 1).highest / fall;
+        if (e > 0) EXPECT_NEAR(share, e * e, g * step * step / 4 / fall) << e << ", " << step << ", " << stiffness;
+        if (e == 0) EXPECT_LT(share, g * step * step / fall) << step << ", " << stiffness;
+      }
+    }
+  }
+}
+
+TEST_P(Restitution, AVertexRisesFromTheTopOfASphereToItsSquareOfTheHeight) {
+  for (const double step : {0.01, 0.002}) {
+    for (const double e : {0.25, 0.5, 0.9, 1.0}) {
+      SimulationSettings s = settings(loose(RowVector3d(0, 0, thickness + fall)), step);
+      KeyValues keys = contact(e, 8000, 0.3);
+      keys.insert(keys.end(), {{"center", Vector3d(0, 0, thickness - 0.3)}, {"radius", 0.2}, {"scale", 1.5}});
+      s.effects.push_back(effect("sphere", keys));
+      EXPECT_NEAR(rebound(s, 1).highest / fall, e * e, g * step * step / 4 / fall) << e << ", " << step;
+    }
+  }
+}
+
+// The contact takes what a step of Euler's loses elsewhere into account: nothing is lost in ten seconds, nothing
+// gained.
+TEST_P(Restitution, OfOneNeitherGivesNorTakesHeight) {
+  constexpr double step = 0.01;
+  SimulationSettings s = settings(falling_sheet(), step);
+  s.effects.push_back(ground(1, 8000, 0));
+  Simulation simulation(s);
+  double last = 0;
+  for (int i = 0; i < 1000; ++i) {
+    simulation.step();
+    const double height = simulation.state().x.col(2).maxCoeff() - thickness;
+    EXPECT_LE(height, fall + g * step * step / 8 + 1e-9);
+    if (i >= 900) last = std::max(last, height);
+  }
+  EXPECT_NEAR(last, fall, g * step * step / 4);
+}
+
+// A sheet that lands on a corner shakes. The velocities of Euler's steps are half a step old, so that under gravity it
+// is K + V − ½·h·Σ m g·v that stays.
+TEST_P(Restitution, NeverGivesEnergyToASheetThatLandsOnACorner) {
+  constexpr double step = 0.005;
+  for (const double e : {0.5, 1.0}) {
+    SimulationSettings s = settings(falling_sheet(), step);
+    for (int i = 0; i < s.cloth.vertex_count(); ++i) {
+      s.cloth.positions(i, 2) += 0.12 * s.cloth.positions(i, 0) + 0.07 * s.cloth.positions(i, 1);
+    }
+    for (Spring& spring : s.cloth.springs) {
+      spring.rest_length = (s.cloth.positions.row(spring.i) - s.cloth.positions.row(spring.j)).norm();
+    }
+    s.effects.push_back(ground(e, 8000));
+    s.integrator.tolerance = 1e-9;
+    s.integrator.max_iterations = 1000;
+    Simulation simulation(s);
+    const auto total = [&] {
+      const Energies now = simulation.energies();
+      const double swing = -0.5 * step * g * s.cloth.masses.dot(simulation.state().v.col(2));
+      return now.kinetic + now.gravity + now.elastic + swing;
+    };
+    const double start = total();
+    double most = start, least = start;
+    while (simulation.time() < 2) {
+      simulation.step();
+      most = std::max(most, total());
+      least = std::min(least, total());
+    }
+    const double height = s.cloth.masses.sum() * g * fall;
+    EXPECT_LT(most - start, 1e-4 * height) << e;
+    if (e < 1) EXPECT_LT(least - start, -0.3 * height) << "nothing bounced";
+  }
+}
+
+TEST_P(Restitution, EndsInRest) {
+  constexpr double stiffness = 4000;
+  SimulationSettings s = settings(falling_sheet(), 0.005);
+  s.effects.push_back(ground(0.6, stiffness));
+  Simulation simulation(s);
+  while (simulation.time() < 4) simulation.step();
+  for (int i = 0; i < 100; ++i) {
+    simulation.step();
+    EXPECT_LT(simulation.state().v.cwiseAbs().maxCoeff(), 1e-6);
+  }
+  const Eigen::VectorXd depth = thickness - simulation.state().x.col(2).array();
+  EXPECT_NEAR(depth.minCoeff(), g / stiffness, 1e-6);
+  EXPECT_NEAR(depth.maxCoeff(), g / stiffness, 1e-6);
+}
+
+// Coulomb's cone holds for impacts: along the ground at most µ times what is taken and given back across it.
+TEST_P(Restitution, FrictionOfAnImpactIsCoulombs) {
+  constexpr double e = 0.6, friction = 0.25, step = 0.01;
+  const double arrival = std::sqrt(2 * g * (fall + g * step * step / 8));  // Euler's first step begins as high
+  const double lost = friction * (1 + e) * arrival;
+  for (const double speed : {3.0, 0.5}) {
+    Cloth cloth = loose(RowVector3d(0, 0, thickness + fall));
+    cloth.velocities.row(0) << 0.6 * speed, -0.8 * speed, 0;
+    SimulationSettings s = settings(cloth, step);
+    s.effects.push_back(ground(e, 8000, friction));
+    Simulation simulation(s);
+    while (simulation.time() < 0.4) simulation.step();
+    const double expected = std::max(0.0, speed - lost);
+    EXPECT_NEAR(simulation.state().v(0, 0), 0.6 * expected, 1e-9);
+    EXPECT_NEAR(simulation.state().v(0, 1), -0.8 * expected, 1e-9);
+  }
+}
+
+// On a slope the impact turns only what is normal to it.
+TEST_P(Restitution, TurnsTheSpeedAcrossASlope) {
+  constexpr double e = 0.5, step = 0.005;
+  const Vector3d n = Vector3d(0.6, 0, 0.8);
+  Cloth cloth = loose(RowVector3d(0.4 * n.transpose()));
+  cloth.velocities.row(0) = -2 * n.transpose() + RowVector3d(0.8, 0.3, -0.6);
+  SimulationSettings s = settings(cloth, step);
+  KeyValues keys = contact(e, 8000, 0);
+  keys.insert(keys.end(), {{"height", 0.0}, {"thickness", 0.0}, {"normal", n}});
+  s.effects = {effect("ground", keys)};
+  Simulation simulation(s);
+  while (simulation.time() < 0.3) simulation.step();
+  const RowVector3d expected = e * 2 * n.transpose() + RowVector3d(0.8, 0.3, -0.6);
+  EXPECT_LT((simulation.state().v.row(0) - expected).norm(), 1e-9);
+}
+
+TEST_P(Restitution, IsRelativeToASphereThatMoves) {
+  constexpr double e = 0.7;
+  SimulationSettings s = settings(loose(RowVector3d(0, 0, 0)), 0.01);
+  KeyValues keys = contact(e, 8000, 0);
+  keys.insert(keys.end(),
+              {{"center", Vector3d(0, 0, -1.013)}, {"radius", 1.0}, {"scale", 1.0}, {"velocity", Vector3d(0, 0, 1.5)}});
+  s.effects = {effect("sphere", keys)};
+  Simulation simulation(s);
+  for (int i = 0; i < 10; ++i) simulation.step();
+  EXPECT_NEAR(simulation.state().v(0, 2), 1.5 * (1 + e), 1e-9);
+}
+
+TEST_P(Restitution, DependsOnTheStateOnly) {
+  SimulationSettings s = settings(falling_sheet(), 0.01);
+  s.effects.push_back(ground(0.8, 8000));
+  Simulation first(s), second(s);
+  for (int i = 0; i < 25; ++i) first.step();
+  const State middle = first.state();  // shortly before the impact
+  for (int i = 0; i < 60; ++i) first.step();
+  for (int i = 0; i < 40; ++i) second.step();
+  second.restore(middle);
+  for (int i = 0; i < 60; ++i) second.step();
+  EXPECT_TRUE(same_bits(first.state().x, second.state().x));
+  EXPECT_TRUE(same_bits(first.state().v, second.state().v));
+}
+
+}  // namespace
+}  // namespace drape::test

@@ -1,0 +1,110 @@
+// Whether a mesh goes through itself: what is flat does not, however it lies in space, and what does is found.
+
+#include "sim/collision/intersection.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/random.hpp"
+
+namespace drape::test {
+namespace {
+
+using Eigen::Vector3d;
+
+Eigen::Matrix3d turned(double x, double y, double z) {
+  const double degree = std::numbers::pi / 180;
+  return (Eigen::AngleAxisd(z * degree, Vector3d::UnitZ()) * Eigen::AngleAxisd(y * degree, Vector3d::UnitY()) *
+          Eigen::AngleAxisd(x * degree, Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+/// Turned, as large and as far away as it happens to be.
+Mesh placed(Mesh mesh, Random& random) {
+  const double size = std::pow(10, random.between(-6, 3));
+  const Eigen::Matrix3d turn = turned(random.between(-180, 180), random.between(-180, 180), random.between(-180, 180));
+  mesh.positions *= size * turn.transpose();
+  for (int axis = 0; axis < 3; ++axis) mesh.positions.col(axis).array() += size * random.between(-100, 100);
+  return mesh;
+}
+
+/// A second mesh beside the first.
+Mesh joined(Mesh mesh, const Mesh& other) {
+  const auto count = static_cast<int>(mesh.positions.rows());
+  mesh.positions.conservativeResize(count + other.positions.rows(), Eigen::NoChange);
+  mesh.positions.bottomRows(other.positions.rows()) = other.positions;
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + count, b + count, c + count});
+  return mesh;
+}
+
+bool goes_through_itself(const Mesh& mesh) { return find_intersection(mesh.triangles, mesh.positions).has_value(); }
+
+/// A flat sheet, and a spike whose tip is so far behind it, at (x, y).
+Mesh pierced_sheet(double x, double y, double depth) {
+  Mesh spike;
+  spike.positions.resize(3, 3);
+  spike.positions << x, y, -depth, x, y + 0.05, 0.5, x + 0.01, y - 0.05, 0.5;
+  spike.triangles = {{0, 1, 2}};
+  return joined(make_grid(20, 20), spike);
+}
+
+TEST(Intersection, IsNotWhereAFlatClothIsTurned) {
+  for (const double x : {0, 10, 30, 45, 60, 77, 90}) {
+    for (const double y : {0, 20, 40}) {
+      for (const double z : {0, 15}) {
+        Mesh mesh = make_grid(20, 20);
+        mesh.positions *= turned(x, y, z).transpose();
+        EXPECT_FALSE(goes_through_itself(mesh)) << x << ", " << y << ", " << z;
+      }
+    }
+  }
+}
+
+TEST(Intersection, IsNotWhereAFlatClothIsPlacedAnywhere) {
+  Random random;
+  for (int i = 0; i < 300; ++i) {
+    const Mesh grid = make_grid(1 + i % 20, 1 + i % 13);
+    EXPECT_FALSE(goes_through_itself(placed(grid, random))) << i;
+    EXPECT_FALSE(goes_through_itself(placed(joined(grid, grid), random))) << i << ", folded flat upon itself";
+  }
+}
+
+// A cell is 0.1 wide, so the tip is behind the sheet by a millionth of that.
+TEST(Intersection, IsFoundHoweverLittleGoesThrough) {
+  Random random;
+  for (int i = 0; i < 300; ++i) {
+    const double x = random.between(-0.9, 0.9), y = random.between(-0.9, 0.9);
+    EXPECT_TRUE(goes_through_itself(placed(pierced_sheet(x, y, 1e-7), random))) << i;
+    EXPECT_FALSE(goes_through_itself(placed(pierced_sheet(x, y, -1e-7), random))) << i;
+  }
+}
+
+TEST(Intersection, IsFoundAtASideAndAtACorner) {
+  Random random;
+  for (const Vector3d& tip : {Vector3d(0.05, 0.05, 0), Vector3d(0.1, 0.05, 0), Vector3d(0.1, 0.1, 0)}) {
+    Mesh needle;
+    needle.positions.resize(3, 3);
+    needle.positions << tip.x(), tip.y(), -1, tip.x(), tip.y(), 1, 5, 5, 1;
+    needle.triangles = {{0, 1, 2}};
+    const Mesh mesh = joined(make_grid(20, 20), needle);
+    EXPECT_TRUE(goes_through_itself(mesh)) << tip.transpose();
+    for (int i = 0; i < 100; ++i) EXPECT_TRUE(goes_through_itself(placed(mesh, random))) << tip.transpose();
+  }
+}
+
+TEST(Intersection, IsFoundInMeshesOfAnySize) {
+  for (const double size : {1e-290, 1e-150, 1.0, 1e100, 1e290}) {
+    Mesh mesh = pierced_sheet(0.12, 0.34, 0.01);
+    mesh.positions *= size;
+    EXPECT_TRUE(goes_through_itself(mesh)) << size;
+    mesh = make_grid(5, 5);
+    mesh.positions *= size * turned(30, 40, 0).transpose();
+    EXPECT_FALSE(goes_through_itself(mesh)) << size;
+  }
+}
+
+}  // namespace
+}  // namespace drape::test
