@@ -19,7 +19,7 @@
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
 #include "sim/simulation.hpp"
-#include "sim/stability.hpp"
+#include "sim/schemes/registry.hpp"
 
 namespace drape {
 namespace {

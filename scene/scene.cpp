@@ -14,7 +14,7 @@
 #include "scene/table_reader.hpp"
 #include "scene/tables.hpp"
 #include "sim/simulation.hpp"
-#include "sim/stability.hpp"
+#include "sim/schemes/registry.hpp"
 
 namespace drape {
 namespace {

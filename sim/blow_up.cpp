@@ -41,31 +41,16 @@ std::optional<double> BlowUpWatch::look(double work, double energy) {
   return energy / explained_;
 }
 
-DivergedError diverged(const State& state, double time, const BlowUp& what) {
+DivergedError diverged(const State& state, double time, std::optional<double> growth, const std::string& remedy) {
   const Eigen::Index worst = worst_vertex(state);
   const double speed = state.v.row(worst).stableNorm();
   std::string text =
       fmt::format("the simulation diverged at step {} (t = {:g} s): vertex {} ", state.step, time, worst);
   text += std::isfinite(speed) && state.x.row(worst).allFinite() ? fmt::format("moves at {:.3g} m/s", speed)
                                                                  : "is no longer at a finite place";
-  text += what.growth
-              ? fmt::format(" and the energy has grown to {:.2g} times what the cloth had and was given", *what.growth)
-              : " and the energy has grown without bound";
-  if (what.safe_step && what.step <= *what.safe_step) {
-    text += fmt::format(
-        ", though the step is below {:.4g} s, up to which semi-implicit Euler is stable as long as springs do not pass "
-        "through zero length, where each gains a little: take a step far below it, or method = \"liu13\", \"implicit\" "
-        "or \"quasi-newton\"",
-        *what.safe_step);
-  } else if (what.safe_step) {
-    text += fmt::format(
-        "; semi-implicit Euler is stable up to a step of {:.4g} s here: take a shorter one, or method = "
-        "\"liu13\", \"implicit\" or \"quasi-newton\"",
-        *what.safe_step);
-  } else {
-    text += "; take a shorter [time] step, or weaker forces";
-  }
-  return DivergedError(text);
+  text += growth ? fmt::format(" and the energy has grown to {:.2g} times what the cloth had and was given", *growth)
+                 : " and the energy has grown without bound";
+  return DivergedError(text + remedy);
 }
 
 }  // namespace drape

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "core/error.hpp"
 #include "sim/system.hpp"
@@ -47,15 +48,10 @@ class BlowUpWatch {
   double explained_ = 0;  // [J]
 };
 
-/// A motion's last state and why it cannot go on.
-struct BlowUp {
-  std::optional<double> growth;     ///< of the energy, see BlowUpWatch; absent: the numbers are no longer finite
-  std::optional<double> safe_step;  ///< of semi-implicit Euler [s]; absent for the implicit methods
-  double step = 0;                  ///< that it was run with [s]
-};
-
-/// Names the step, the time, the worst vertex (the first that is not finite, else the fastest), the energy's growth,
-/// and the largest stable step or the methods to use instead.
-DivergedError diverged(const State& state, double time, const BlowUp& what);
+/// Names the step, the time, the worst vertex of a motion's last state (the first that is not finite, else the
+/// fastest), the energy's growth, and what to change.
+/// @param growth of the energy, see BlowUpWatch; absent: the numbers are no longer finite
+/// @param remedy see StabilityGuard
+DivergedError diverged(const State& state, double time, std::optional<double> growth, const std::string& remedy);
 
 }  // namespace drape

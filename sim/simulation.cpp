@@ -3,27 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "sim/effects/effect.hpp"
-#include "sim/stability.hpp"
+#include "sim/schemes/registry.hpp"
 #include "sim/timed_effects.hpp"
 
 namespace drape {
 namespace {
 
-bool is_explicit(const SimulationSettings& settings) { return settings.integrator.method == Method::semi_implicit; }
+std::unique_ptr<StabilityGuard> make_guard(const SimulationSettings& settings, const System& system) {
+  auto guard = method_type(settings.integrator.method).make_guard(system);
+  if (settings.integrator.allow_unstable) return guard;
+  if (const auto problem = guard->problem()) throw UsageError(*problem);
+  return guard;
+}
 
-/// Makes the integrator, unless the motion is known beforehand to be unstable.
-/// @param safe_step of semi-implicit Euler, which takes a while to find
-std::unique_ptr<Integrator> make_stable_integrator(const SimulationSettings& settings, const System& system,
-                                                   double safe_step) {
-  if (!settings.integrator.allow_unstable) {
-    const auto problem =
-        is_explicit(settings) ? step_problem(settings.step, safe_step) : stability_problem(settings, system);
-    if (problem) throw UsageError(*problem);
-  }
-  return make_integrator(settings.integrator, system);
+std::unique_ptr<Scheme> make_scheme(const SimulationSettings& settings, const System& system) {
+  return method_type(settings.integrator.method).make(settings.integrator, system);
 }
 
 State initial_state(const Cloth& cloth) {
@@ -60,15 +55,14 @@ Simulation::Simulation(SimulationSettings settings, Timing timing)
       state_(initial_state(settings_.cloth)),
       constant_force_(constant_force(*system_, state_)),
       force_(constant_force_),
-      safe_step_(is_explicit(settings_) ? safe_step(*system_) : 0),
-      integrator_(make_stable_integrator(settings_, *system_, safe_step_)),
-      springs_(system_->springs, settings_.cloth.vertex_count()) {
-  if (!is_explicit(settings_)) return;
-  // What pins and filters do to the cloth is no force. Beyond the safe step that does not count.
-  if (settings_.step > safe_step_ || (system_->pin_motions.empty() && system_->filters.empty())) {
-    watch_.emplace(*system_, safe_step_);
-    restore(state_);
-  }
+      guard_(make_guard(settings_, *system_)),
+      scheme_(make_scheme(settings_, *system_)),
+      springs_(system_->springs, settings_.cloth.vertex_count()),
+      energy_([this] {
+        const Energies now = energies();
+        return now.kinetic + now.elastic;
+      }) {
+  guard_->begin(state_, energy_);
 }
 
 Simulation::~Simulation() = default;
@@ -77,40 +71,27 @@ void Simulation::enter_phase() {
   std::size_t now = phases_.size() - 1;
   while (phases_[now].first_step > state_.step) --now;
   if (now == phase_) return;
-  integrator_.reset();  // it refers to the system
+  scheme_.reset();  // it refers to the system
   phase_ = now;
   settings_.cloth.pins = phases_[now].pins;
   system_.emplace(make_system(settings_, effect_seconds_.empty() ? nullptr : &effect_seconds_));
-  integrator_ = make_integrator(settings_.integrator, *system_);
+  scheme_ = make_scheme(settings_, *system_);
 }
 
 StepReport Simulation::step() {
   if (phases_.size() > 1) enter_phase();
   const Vertices& push = force();
-  StepReport report = integrator_->advance(state_, push);
+  StepReport report = scheme_->advance(state_, push);
   for (const auto& filter : system_->filters) report.converged = report.converged && filter->converged();
   ++state_.step;
   // What is not finite makes the sum of its squares so, and any velocity that is not moves its vertex there.
-  if (!std::isfinite(norm(state_.x))) throw diverged_with(std::nullopt);
-  if (watch_) look_for_blow_up(push);
+  if (!std::isfinite(norm(state_.x))) throw diverged_by(std::nullopt);
+  if (const auto growth = guard_->look(state_, push, &push == &constant_force_, energy_)) throw diverged_by(growth);
   return report;
 }
 
-void Simulation::look_for_blow_up(const Vertices& push) {
-  const bool constant = &push == &constant_force_;
-  if (!constant) work_ += settings_.step * std::abs(push.cwiseProduct(state_.v).sum());
-  if (state_.step % watch_->interval() != 0) return;
-  if (constant) work_ = std::abs(push.cwiseProduct(state_.x - looked_at_).sum());
-  const Energies now = energies();
-  if (const auto growth = watch_->look(work_, now.kinetic + now.elastic)) throw diverged_with(growth);
-  looked_at_ = state_.x;
-  work_ = 0;
-}
-
-DivergedError Simulation::diverged_with(std::optional<double> growth) const {
-  BlowUp what{.growth = growth, .safe_step = {}, .step = settings_.step};
-  if (is_explicit(settings_)) what.safe_step = safe_step_;
-  return diverged(state_, time(), what);
+DivergedError Simulation::diverged_by(std::optional<double> growth) const {
+  return diverged(state_, time(), growth, guard_->remedy());
 }
 
 const Vertices& Simulation::force() {
@@ -127,11 +108,7 @@ const Vertices& Simulation::force() {
 
 void Simulation::restore(const State& state) {
   state_ = state;
-  if (!watch_) return;
-  const Energies now = energies();
-  watch_->begin(now.kinetic + now.elastic);
-  looked_at_ = state_.x;
-  work_ = 0;
+  guard_->begin(state_, energy_);
 }
 
 Energies Simulation::energies() const {

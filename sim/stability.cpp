@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <vector>
-
-#include <fmt/format.h>
 
 namespace drape {
 namespace {
@@ -113,30 +110,6 @@ double condition_bound(const System& system) {
   for (const int pin : system.cloth.pins) stiffness[pin] = 0;
   const double h = system.step;
   return 1 + (h * h * stiffness.array() / masses.array()).maxCoeff();
-}
-
-std::optional<std::string> step_problem(double step, double safe_step) {
-  if (step <= safe_step) return std::nullopt;
-  return fmt::format(
-      "{:g} s is too long for semi-implicit Euler: with these springs and masses it is stable up to {:.4g} s; take a "
-      "shorter step or an implicit method, or set [integrator] allow_unstable = true to run it nevertheless",
-      step, safe_step);
-}
-
-std::optional<std::string> stability_problem(const SimulationSettings& settings, const System& system) {
-  if (settings.integrator.method == Method::semi_implicit) return step_problem(settings.step, safe_step(system));
-  const double condition = condition_bound(system);
-  if (condition <= largest_condition) return std::nullopt;
-  const bool finite = std::isfinite(condition);
-  const std::string times = finite ? fmt::format("{:.2g}", condition) : "more than 1e308";
-  const std::string shorter =
-      finite ? fmt::format("a step of at most {:.2g} s, ", settings.step * std::sqrt(largest_condition / condition))
-             : "";
-  return fmt::format(
-      "with a step of {:g} s the springs hold a vertex {} times as fast as its inertia, and double precision keeps "
-      "{:.0e} apart: beyond that the motion is rounding; take {}softer springs or more mass, "
-      "or set [integrator] allow_unstable = true to run it nevertheless",
-      settings.step, times, largest_condition, shorter);
 }
 
 }  // namespace drape

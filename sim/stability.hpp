@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-
-#include "sim/settings.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
@@ -26,12 +22,5 @@ double condition_bound(const System& system);
 
 /// Beyond this condition_bound() double precision no longer holds the inertia beside the springs.
 inline constexpr double largest_condition = 1e14;
-
-/// Why semi-implicit Euler cannot run with a step beyond its safe one, in a sentence; nothing where it is not beyond.
-std::optional<std::string> step_problem(double step, double safe_step);
-
-/// Why the motion cannot be computed with these settings, in a sentence: the method is semi-implicit Euler and the step
-/// is beyond safe_step(), or it is implicit and condition_bound() is beyond largest_condition. Nothing where it can.
-std::optional<std::string> stability_problem(const SimulationSettings& settings, const System& system);
 
 }  // namespace drape

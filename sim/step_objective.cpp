@@ -8,7 +8,7 @@ namespace drape {
 StepObjective::StepObjective(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count()),
-      inertia_(system.cloth.masses / (system.step * system.step)),
+      inertia_(system.inertia()),
       free_inertia_(inertia_),
       push_(inertia_.cwiseInverse()),
       y_(system.cloth.vertex_count(), 3) {
@@ -25,7 +25,7 @@ StepObjective::StepObjective(const System& system)
 void StepObjective::begin(const State& state, const Vertices& force) {
   const Kernels& k = kernels();
   const auto count = static_cast<std::size_t>(state.x.rows());
-  time_ = static_cast<double>(state.step + 1) * system_.step;
+  time_ = system_.time(state.step + 1);
   y_ = state.x;
   k.add_multiple(3 * count, system_.step, state.v.data(), y_.data());
   for (int axis = 0; axis < 3; ++axis) {

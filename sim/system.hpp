@@ -99,7 +99,7 @@ struct ColliderMotion {
   [[nodiscard]] virtual Collider at(double time) const = 0;
 };
 
-/// What acts on a cloth, as the integrators evaluate it. Filled by the effects a scene calls for, in the order of the
+/// What acts on a cloth, as the schemes evaluate it. Filled by the effects a scene calls for, in the order of the
 /// registry; a scene without effects leaves every list empty.
 struct System {
   const Cloth& cloth;
@@ -128,39 +128,43 @@ struct System {
     return bound;
   }
 
-  /// Applies every correction to the velocity of a step.
-  void correct(State& state) const {
-    for (const auto& correction : corrections) correction->apply(state, step);
-  }
+  /// When a step begins, and so the one before it ends [s]: never a running sum.
+  [[nodiscard]] double time(std::int64_t number) const { return static_cast<double>(number) * step; }
+
+  /// m/h² of every vertex [N/m], the inertia that holds it in an implicit step.
+  [[nodiscard]] Eigen::VectorXd inertia() const { return cloth.masses / (step * step); }
 
   /// Shows every filter the state in which a step begins.
   void begin(const State& state) const {
-    for (const auto& f : filters) f->begin(state, time_after(state, 0));
-  }
-
-  /// Applies every filter to the velocities with which a step is about to leave state.x.
-  void filter(State& state) const {
-    for (const auto& f : filters) f->apply(state.x, time_after(state, 0), step, state.v);
-  }
-
-  /// Lets every filter finish the velocities once the vertices have moved.
-  void finish(State& state) const {
-    for (const auto& f : filters) f->finish(state.v);
-  }
-
-  /// Gives the pins that move the velocities of the step that begins at state.step.
-  void drive_pins(State& state) const {
-    for (const PinMotion& motion : pin_motions) motion.drive(time_after(state, 0), time_after(state, 1), state.v);
+    for (const auto& filter : filters) filter->begin(state, time(state.step));
   }
 
   /// Writes where the pins that move are when the step ends that begins at state.step into their rows of x.
   void place_pins(const State& state, Vertices& x) const {
-    for (const PinMotion& motion : pin_motions) motion.place(time_after(state, 1), x);
+    for (const PinMotion& motion : pin_motions) motion.place(time(state.step + 1), x);
   }
 
- private:
-  [[nodiscard]] double time_after(const State& state, int steps) const {
-    return static_cast<double>(state.step + steps) * step;
+  // What ends every step. A scheme whose velocities are those of the end corrects them before it moves by them; one
+  // that solves for where the cloth is moves first.
+
+  /// Moves the cloth to the end of the step that begins at state.step: lets every filter change its velocities, and
+  /// goes x + h·v.
+  /// @param reached if given, where that is without filters, to the bit
+  void move(State& state, const Vertices* reached) const {
+    if (filters.empty() && reached != nullptr) {
+      state.x = *reached;
+      return;
+    }
+    for (const auto& filter : filters) filter->apply(state.x, time(state.step), step, state.v);
+    state.x += step * state.v;
+    place_pins(state, state.x);
+    for (const auto& filter : filters) filter->finish(state.v);
+  }
+
+  /// Applies every correction to the velocities of that step, and gives the pins that move theirs.
+  void correct(State& state) const {
+    for (const auto& correction : corrections) correction->apply(state, step);
+    for (const PinMotion& motion : pin_motions) motion.drive(time(state.step), time(state.step + 1), state.v);
   }
 };
 

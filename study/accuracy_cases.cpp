@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/stability.hpp"
+#include "sim/schemes/registry.hpp"
 
 namespace drape {
 namespace {

@@ -13,7 +13,7 @@
 namespace drape {
 
 /// Something that acts on the cloth because a scene's table [effects.NAME] asks for it. The object holds what the table
-/// says; `install` turns that into what the integrators evaluate. An effect that no scene table names is never made.
+/// says; `install` turns that into what the schemes evaluate. An effect that no scene table names is never made.
 class Effect {
  public:
   virtual ~Effect() = default;

@@ -43,7 +43,7 @@ class VelocityChanges {
 /// Newton's law of impact: a vertex that would come within a surface's reach in this step leaves it with the share e of
 /// the speed at which it arrives, and friction takes at most µ(1 + e) times that speed from the one along the surface.
 ///
-/// A velocity of the integrators is the mean over the step that leads there, so under gravity alone, g, the vertices
+/// A velocity of the schemes is the mean over the step that leads there, so under gravity alone, g, the vertices
 /// are on a parabola to rounding: t seconds into a step of mean velocity w the velocity is w + (t − h/2)·g. The time of
 /// the impact is where that parabola meets the surface, and the step ends on the parabola that begins there. A vertex
 /// in free flight thus rises to e² of its height, whatever the step. It moves with the mean velocity that leads to

@@ -29,7 +29,7 @@ Matrix assemble(const System& system, const FreeVertices& free) {
     const auto end = rows.begin() + starts[static_cast<std::size_t>(column) + 1];
     return matrix.values[static_cast<std::size_t>(std::lower_bound(begin, end, row) - rows.begin())];
   };
-  Eigen::VectorXd diagonal = system.cloth.masses / (system.step * system.step);
+  Eigen::VectorXd diagonal = system.inertia();
   for (const auto& energy : system.energies) energy->add_bound(diagonal);
   for (int f = 0; f < free.count(); ++f) at(f, f) = diagonal[free.vertex(f)];
   for (const Spring& spring : springs) {

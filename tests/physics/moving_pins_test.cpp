@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "sim/simulation.hpp"
-#include "sim/stability.hpp"
+#include "sim/schemes/registry.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <regex>
 
+#include "sim/schemes/registry.hpp"
 #include "sim/stability.hpp"
 #include "study/stability.hpp"
 #include "tests/stability/hard_cases.hpp"

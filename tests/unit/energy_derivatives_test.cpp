@@ -9,7 +9,7 @@
 #include <string>
 
 #include "sim/linear/conjugate_gradients.hpp"
-#include "sim/linear/newton_system.hpp"
+#include "sim/linear/newton_cholesky.hpp"
 #include "sim/step_objective.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
@@ -180,7 +180,7 @@ TEST_P(EveryEnergy, EntersBothOfNewtonsLinearSolvers) {
     return (left - b).norm() / b.norm();
   };
   Vertices p(x.rows(), 3);
-  NewtonSystem(system, objective).solve(x, b, p);
+  NewtonCholesky(system, objective).solve(x, b, p);
   EXPECT_LT(residual(p), 1e-10);
   ConjugateGradients(system, objective).solve(x, b, p);
   EXPECT_LT(residual(p), 1.01e-2);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/linear/conjugate_gradients.hpp"
-#include "sim/linear/newton_system.hpp"
+#include "sim/linear/newton_cholesky.hpp"
 #include "sim/step_objective.hpp"
 #include "tests/support/cloths.hpp"
 
@@ -95,7 +95,7 @@ TEST_P(Derivatives, BothLinearSolversSolveTheSameEquations) {
   const Vertices& x = cloth_.positions;
   const Vertices g = gradient(x);
   Vertices exact(x.rows(), 3), iterated(x.rows(), 3);
-  NewtonSystem(system_, *objective_).solve(x, g, exact);
+  NewtonCholesky(system_, *objective_).solve(x, g, exact);
   ConjugateGradients(system_, *objective_).solve(x, g, iterated);
   // To the tolerance of the inner iteration, in the norm of the forces, which the equations' smallest eigenvalue m/h²
   // turns into one of lengths.

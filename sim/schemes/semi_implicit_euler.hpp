@@ -1,13 +1,14 @@
 #pragma once
 
-#include "sim/integrators/integrator.hpp"
+#include "sim/schemes/scheme.hpp"
 #include "sim/spring_network.hpp"
 
 namespace drape {
 
 /// Symplectic (semi-implicit) Euler: v += h·a(x), the corrections, x += h·v.
-class SemiImplicitEuler final : public Integrator {
+class SemiImplicitEuler final : public Scheme {
  public:
+  /// @throws UsageError if the system has energies that are solved for
   explicit SemiImplicitEuler(const System& system);
   StepReport advance(State& state, const Vertices& force) override;
 

@@ -1,4 +1,4 @@
-#include "sim/integrators/secant_history.hpp"
+#include "sim/solvers/lbfgs_history.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -10,7 +10,7 @@ std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 
-SecantHistory::SecantHistory(int vertex_count) : last_preconditioned_(vertex_count, 3) {
+LbfgsHistory::LbfgsHistory(int vertex_count) : last_preconditioned_(vertex_count, 3) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   for (Pair& pair : pairs_) {
     pair.step.resize(vertex_count, 3);
@@ -18,12 +18,12 @@ SecantHistory::SecantHistory(int vertex_count) : last_preconditioned_(vertex_cou
   }
 }
 
-void SecantHistory::clear() {
+void LbfgsHistory::clear() {
   count_ = 0;
   pending_ = false;
 }
 
-void SecantHistory::moved(const Vertices& direction, double length, double slope) {
+void LbfgsHistory::moved(const Vertices& direction, double length, double slope) {
   pending_ = length > 0;
   if (!pending_) return;
   if (count_ == capacity) {
@@ -35,7 +35,7 @@ void SecantHistory::moved(const Vertices& direction, double length, double slope
   newest().step_gradient = -length * slope;
 }
 
-void SecantHistory::observe(const Vertices& gradient, const Vertices& preconditioned) {
+void LbfgsHistory::observe(const Vertices& gradient, const Vertices& preconditioned) {
   const double before = gradient_norm_;
   gradient_norm_ = dot(gradient, preconditioned);
   if (pending_) {
@@ -51,7 +51,7 @@ void SecantHistory::observe(const Vertices& gradient, const Vertices& preconditi
   last_preconditioned_ = preconditioned;
 }
 
-void SecantHistory::measure(const Vertices& gradient) {
+void LbfgsHistory::measure(const Vertices& gradient) {
   std::array<const double*, 2 * capacity> vectors{};
   std::array<double, 2 * capacity> products{};
   for (int k = 0; k < count_; ++k) {
@@ -74,7 +74,7 @@ void SecantHistory::measure(const Vertices& gradient) {
   }
 }
 
-void SecantHistory::find_direction(const Vertices& preconditioned, Vertices& direction) const {
+void LbfgsHistory::find_direction(const Vertices& preconditioned, Vertices& direction) const {
   direction = preconditioned;
   if (count_ == 0) return;
   std::array<double, capacity> alpha{}, beta{};

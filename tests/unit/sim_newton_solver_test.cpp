@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "sim/linear/conjugate_gradients.hpp"
-#include "sim/linear/newton_system.hpp"
+#include "sim/linear/newton_cholesky.hpp"
 #include "tests/support/matrices.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/plain_springs.hpp"
@@ -45,7 +45,7 @@ class NewtonEquations : public testing::TestWithParam<Case> {
 };
 // Conjugate gradients stop at a hundredth: the next iteration of Newton's method makes up for it.
 INSTANTIATE_TEST_SUITE_P(By, NewtonEquations,
-                         testing::Values(Case{"Cholesky", make<NewtonSystem>, 1e-11},
+                         testing::Values(Case{"Cholesky", make<NewtonCholesky>, 1e-11},
                                          Case{"ConjugateGradients", make<ConjugateGradients>, 1.01e-2}),
                          [](const auto& tested) { return tested.param.name; });
 

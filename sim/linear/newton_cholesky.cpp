@@ -1,4 +1,4 @@
-#include "sim/linear/newton_system.hpp"
+#include "sim/linear/newton_cholesky.hpp"
 
 #include <algorithm>
 
@@ -60,7 +60,7 @@ Eigen::Matrix3d spring_hessian(const Spring& spring, const Vertices& x) {
 
 }  // namespace
 
-NewtonSystem::NewtonSystem(const System& system, const StepObjective& objective)
+NewtonCholesky::NewtonCholesky(const System& system, const StepObjective& objective)
     : system_(system), objective_(objective) {
   const FreeVertices free(system.cloth);
   const int n = free.count();
@@ -75,7 +75,7 @@ NewtonSystem::NewtonSystem(const System& system, const StepObjective& objective)
     const int number = analysis.permutation()[row];
     rank[Index(number)] = row;
     vertices_.push_back(free.vertex(number));
-    inertia_.push_back(system.cloth.masses[vertices_.back()] / (system.step * system.step));
+    inertia_.push_back(objective.inertia()[vertices_.back()]);
   }
 
   const LowerPattern blocks = permuted(graph, rank);
@@ -97,28 +97,28 @@ NewtonSystem::NewtonSystem(const System& system, const StepObjective& objective)
   factor_.emplace_back(pattern, n <= largest_simplicial ? FactorKind::simplicial : FactorKind::supernodal, true);
 }
 
-void NewtonSystem::add(const Place& place, const Eigen::Matrix3d& block) {
+void NewtonCholesky::add(const Place& place, const Eigen::Matrix3d& block) {
   if (place.high >= 0) add_diagonal(place.high, block);
   if (place.low < 0) return;
   add_diagonal(place.low, block);
   add_below(place.low, place.rank, -block);
 }
 
-void NewtonSystem::add_diagonal(int row, const Eigen::Matrix3d& block) {
+void NewtonCholesky::add_diagonal(int row, const Eigen::Matrix3d& block) {
   for (int axis = 0; axis < 3; ++axis) {
     double* column = values_.data() + column_starts_[Index(3 * row + axis)];
     for (int below = axis; below < 3; ++below) column[below - axis] += block(below, axis);
   }
 }
 
-void NewtonSystem::add_below(int column_block, int rank, const Eigen::Matrix3d& block) {
+void NewtonCholesky::add_below(int column_block, int rank, const Eigen::Matrix3d& block) {
   for (int axis = 0; axis < 3; ++axis) {
     double* column = values_.data() + column_starts_[Index(3 * column_block + axis)] + (3 - axis) + 3 * rank;
     for (int row = 0; row < 3; ++row) column[row] += block(row, axis);
   }
 }
 
-bool NewtonSystem::factorize(const Vertices& x) {
+bool NewtonCholesky::factorize(const Vertices& x) {
   std::fill(values_.begin(), values_.end(), 0.0);
   for (Index row = 0; row < inertia_.size(); ++row) {
     add_diagonal(static_cast<int>(row), inertia_[row] * Eigen::Matrix3d::Identity());
@@ -139,7 +139,7 @@ bool NewtonSystem::factorize(const Vertices& x) {
   return true;
 }
 
-void NewtonSystem::add_coupled_energies(const Vertices& x) {
+void NewtonCholesky::add_coupled_energies(const Vertices& x) {
   const Place* place = places_.data() + system_.springs.size();
   for (Index e = 0; e < coupled_.size(); ++e) {
     coupled_[e]->linearise(x);
@@ -149,7 +149,7 @@ void NewtonSystem::add_coupled_energies(const Vertices& x) {
   }
 }
 
-void NewtonSystem::add_energies(const Vertices& x) {
+void NewtonCholesky::add_energies(const Vertices& x) {
   if (system_.energies.empty()) return;
   diagonal_.setZero(x.rows(), 6);
   for (const auto& energy : system_.energies) energy->add_hessian(x, objective_.time(), diagonal_);
@@ -161,7 +161,7 @@ void NewtonSystem::add_energies(const Vertices& x) {
   }
 }
 
-void NewtonSystem::solve(const Vertices& x, const Vertices& gradient, Vertices& direction) {
+void NewtonCholesky::solve(const Vertices& x, const Vertices& gradient, Vertices& direction) {
   direction.setZero();
   if (factor_.empty() || !factorize(x)) return;
   for (Index row = 0; row < vertices_.size(); ++row) {

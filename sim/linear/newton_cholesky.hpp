@@ -12,9 +12,9 @@ namespace drape {
 /// Newton's equations by a Cholesky factor of H = M/h² + Σ Kₛ, with one symmetric 3×3 block per spring and per pair of
 /// vertices that an energy couples, and the blocks of the system's other energies on its diagonal. The sparsity is
 /// analysed once, on the n×n graph of vertices; every assembly writes the values in place.
-class NewtonSystem final : public NewtonSolver {
+class NewtonCholesky final : public NewtonSolver {
  public:
-  NewtonSystem(const System& system, const StepObjective& objective);
+  NewtonCholesky(const System& system, const StepObjective& objective);
   void solve(const Vertices& x, const Vertices& gradient, Vertices& direction) override;
 
  private:

@@ -1,7 +1,7 @@
-#include "sim/integrators/implicit_newton.hpp"
+#include "sim/solvers/newton.hpp"
 
 #include "sim/linear/conjugate_gradients.hpp"
-#include "sim/linear/newton_system.hpp"
+#include "sim/linear/newton_cholesky.hpp"
 
 namespace drape {
 namespace {
@@ -9,18 +9,18 @@ namespace {
 constexpr int newton_iterations = 20;  // the homework's
 
 std::unique_ptr<NewtonSolver> make_solver(LinearSolver choice, const System& system, const StepObjective& objective) {
-  if (choice == LinearSolver::cholesky) return std::make_unique<NewtonSystem>(system, objective);
+  if (choice == LinearSolver::cholesky) return std::make_unique<NewtonCholesky>(system, objective);
   return std::make_unique<ConjugateGradients>(system, objective);
 }
 
 }  // namespace
 
-ImplicitNewton::ImplicitNewton(const System& system, const IntegratorSettings& settings)
-    : ImplicitEuler(system, settings, newton_iterations),
-      solver_(make_solver(settings.linear_solver, system, objective())),
+Newton::Newton(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
+    : Minimiser(objective, settings, newton_iterations),
+      solver_(make_solver(settings.linear_solver, system, objective)),
       direction_(system.cloth.vertex_count(), 3) {}
 
-double ImplicitNewton::iterate(Point& point) {
+double Newton::iterate(Point& point) {
   solver_->solve(point.x, point.gradient, direction_);
   return descend(point, direction_, dot(point.gradient, direction_)) * norm(direction_);
 }

@@ -1,16 +1,16 @@
 #pragma once
 
-#include "sim/integrators/implicit_euler.hpp"
 #include "sim/linear/constant_factor.hpp"
+#include "sim/solvers/minimiser.hpp"
 
 namespace drape {
 
-/// Implicit Euler by the local/global alternation of Liu, Bargteil, O'Brien and Kavan, "Fast Simulation of Mass-Spring
+/// The local/global alternation of Liu, Bargteil, O'Brien and Kavan, "Fast Simulation of Mass-Spring
 /// Systems", 2013. Its local step d = L·x̂ for every spring and its global step (M + h²L)x' = h²Jd + My are computed
 /// together as x' = x − A⁻¹∇g(x), A = M/h² + L: at the d of the local step, ∇g(x) = A x − (J d + M y/h²).
-class Liu13 final : public ImplicitEuler {
+class LocalGlobal final : public Minimiser {
  public:
-  Liu13(const System& system, const IntegratorSettings& settings);
+  LocalGlobal(const System& system, const StepObjective& objective, const IntegratorSettings& settings);
 
  private:
   double iterate(Point& point) override;

@@ -11,12 +11,12 @@ namespace drape {
 /// an initial inverse Hessian γA⁻¹. As A⁻¹∇g is known at every point anyway, A⁻¹q is kept in place of q, and the
 /// two-loop recursion (Nocedal and Wright 2006, algorithm 7.4) runs on the pairs' inner products instead of on vectors:
 /// an iteration reads the kept vectors twice, whatever their number, and solves with A once.
-class SecantHistory {
+class LbfgsHistory {
  public:
   /// Pairs kept. Iterations to Newton's accuracy with 1, 3, 5, 8 pairs: 43, 40, 40, 39 (20×20, k = 180, ε = 1e-3).
   static constexpr int capacity = 4;
 
-  explicit SecantHistory(int vertex_count);
+  explicit LbfgsHistory(int vertex_count);
 
   void clear();
 

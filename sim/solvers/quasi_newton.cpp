@@ -1,4 +1,4 @@
-#include "sim/integrators/quasi_newton.hpp"
+#include "sim/solvers/quasi_newton.hpp"
 
 namespace drape {
 namespace {
@@ -7,8 +7,8 @@ constexpr int quasi_newton_iterations = 500;
 
 }  // namespace
 
-QuasiNewton::QuasiNewton(const System& system, const IntegratorSettings& settings)
-    : ImplicitEuler(system, settings, quasi_newton_iterations),
+QuasiNewton::QuasiNewton(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
+    : Minimiser(objective, settings, quasi_newton_iterations),
       factor_(system, Precision::automatic),
       history_(system.cloth.vertex_count()),
       preconditioned_(Vertices::Zero(system.cloth.vertex_count(), 3)),

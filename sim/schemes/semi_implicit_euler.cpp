@@ -1,4 +1,6 @@
-#include "sim/integrators/semi_implicit.hpp"
+#include "sim/schemes/semi_implicit_euler.hpp"
+
+#include "core/error.hpp"
 
 namespace drape {
 
@@ -6,6 +8,11 @@ SemiImplicitEuler::SemiImplicitEuler(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count()),
       pull_(-system.step * system.cloth.masses.cwiseInverse()) {
+  if (!system.energies.empty()) {
+    throw UsageError(
+        "semi-implicit Euler solves for nothing: it cannot have an energy that is, such as a contact with response = "
+        "\"implicit\"");
+  }
   for (const int pin : system.cloth.pins) pull_[pin] = 0;
 }
 
@@ -16,11 +23,7 @@ StepReport SemiImplicitEuler::advance(State& state, const Vertices& force) {
   springs_.kick_and_drift(pull_, with_energies(state, force), at_once ? system_.step : 0, state.v, state.x);
   if (!at_once) {
     system_.correct(state);
-    system_.drive_pins(state);
-    system_.filter(state);
-    kernels().add_multiple(static_cast<std::size_t>(state.x.size()), system_.step, state.v.data(), state.x.data());
-    system_.place_pins(state, state.x);
-    system_.finish(state);
+    system_.move(state, nullptr);
   }
   return {};
 }

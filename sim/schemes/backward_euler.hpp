@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "sim/schemes/energy_books.hpp"
+#include "sim/schemes/scheme.hpp"
+#include "sim/solvers/minimiser.hpp"
+
+namespace drape {
+
+/// Backward (implicit) Euler as a minimisation: x' = argmin g, v' = (x' − x)/h, then the corrections. It gains no
+/// energy but what EnergyBooks tolerates.
+///
+/// A cloth that nothing holds has Σ∇g = Σ m(x' − y)/h², since what it solves for pulls with opposite forces. Every
+/// exact solve makes that zero; what the rounding of a factor leaves of it is taken out by a translation, which keeps
+/// the momentum to rounding.
+class BackwardEuler final : public Scheme {
+ public:
+  using MakeSolver = std::function<std::unique_ptr<Minimiser>(const StepObjective& objective)>;
+
+  BackwardEuler(const System& system, const IntegratorSettings& settings, const MakeSolver& make_solver);
+
+  StepReport advance(State& state, const Vertices& force) override;
+  [[nodiscard]] double residual() override { return norm(point_.gradient); }
+
+ private:
+  /// Moves the cloth as a whole to where Σ∇g = 0.
+  void balance_momentum();
+
+  const System& system_;
+  StepObjective objective_;
+  StoppingRule stop_;
+  std::unique_ptr<Minimiser> solver_;
+  EnergyBooks books_;
+  Point point_;
+  bool free_;  // see is_free()
+};
+
+}  // namespace drape

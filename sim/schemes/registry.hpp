@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "sim/schemes/scheme.hpp"
+#include "sim/schemes/stability_guard.hpp"
+#include "sim/settings.hpp"
+
+namespace drape {
+
+/// What a method is made of.
+struct MethodType {
+  Method method;
+  bool iterates;  ///< whether a step is minimised: it has a stopping rule, iterations and a residual
+  /// Refers to the system. @throws UsageError if something acts in it that the scheme cannot evaluate, or a matrix
+  /// would not fit into memory or cannot be factored to working precision
+  std::unique_ptr<Scheme> (*make)(const IntegratorSettings& settings, const System& system);
+  std::unique_ptr<StabilityGuard> (*make_guard)(const System& system);
+};
+
+/// The only list of what each method is.
+const MethodType& method_type(Method method);
+
+/// Why the motion cannot be computed with these settings, in a sentence: the step is beyond what the method's guard
+/// allows. Nothing where it can.
+std::optional<std::string> stability_problem(const SimulationSettings& settings, const System& system);
+
+}  // namespace drape

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "sim/step_report.hpp"
+#include "sim/system.hpp"
+
+namespace drape {
+
+/// How time advances: a discretisation of M ẍ = f − ∇E in steps of the system's h.
+class Scheme {
+ public:
+  virtual ~Scheme() = default;
+
+  /// Moves x and v to the end of the step; leaves state.step to the caller.
+  /// @param force the sum of the system's forces at the start of the step, n×3 [N]
+  virtual StepReport advance(State& state, const Vertices& force) = 0;
+
+  /// ‖∇g‖ [N] where the last step ended: the 2-norm of the forces left out of balance on all unknowns together.
+  /// Zero for a method that minimises nothing. Not counted in the step: it is evaluated when asked for.
+  [[nodiscard]] virtual double residual() { return 0; }
+};
+
+}  // namespace drape

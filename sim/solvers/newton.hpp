@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+
+#include "sim/linear/newton_solver.hpp"
+#include "sim/solvers/minimiser.hpp"
+
+namespace drape {
+
+/// Newton's method on g, with a backtracking line search.
+class Newton final : public Minimiser {
+ public:
+  Newton(const System& system, const StepObjective& objective, const IntegratorSettings& settings);
+
+ private:
+  double iterate(Point& point) override;
+
+  std::unique_ptr<NewtonSolver> solver_;
+  Vertices direction_;
+};
+
+}  // namespace drape

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace drape {
+
+/// How a step was computed.
+struct StepReport {
+  int iterations = 0;     ///< linear solves; 0 for a method that has none
+  bool converged = true;  ///< whether the stopping rule was met within max_iterations, and every motion filter's too
+  double kept = 1;        ///< the part of the way to the last iterate that the step went, see BackwardEuler
+  double rise = 0;        ///< the most by which an iteration raised g beyond what rounding explains [J]: a fault
+};
+
+}  // namespace drape
