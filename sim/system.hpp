@@ -150,16 +150,7 @@ struct System {
   /// Moves the cloth to the end of the step that begins at state.step: lets every filter change its velocities, and
   /// goes x + h·v.
   /// @param reached if given, where that is without filters, to the bit
-  void move(State& state, const Vertices* reached) const {
-    if (filters.empty() && reached != nullptr) {
-      state.x = *reached;
-      return;
-    }
-    for (const auto& filter : filters) filter->apply(state.x, time(state.step), step, state.v);
-    state.x += step * state.v;
-    place_pins(state, state.x);
-    for (const auto& filter : filters) filter->finish(state.v);
-  }
+  void move(State& state, const Vertices* reached) const;
 
   /// Applies every correction to the velocities of that step, and gives the pins that move theirs.
   void correct(State& state) const {

@@ -14,7 +14,7 @@ BackwardEuler::BackwardEuler(const System& system, const IntegratorSettings& set
 StepReport BackwardEuler::advance(State& state, const Vertices& force) {
   system_.begin(state);
   objective_.begin(state, force);
-  books_.begin(state);
+  books_.begin(state, point_.x);
   point_.x = objective_.y();
   point_.value = objective_.evaluate(point_.x, point_.gradient);
   StepReport report = solver_->minimise(point_, [this] { return !books_.gains(point_, true); });

@@ -34,18 +34,17 @@ EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, c
       stop_(settings.stop),
       tolerance_(settings.tolerance),
       start_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
-      end_(start_.x),
       steady_(system.filters.empty() && system.pin_motions.empty() && system.energies.empty()),
       trial_(start_) {}
 
-void EnergyBooks::begin(const State& state) {
+void EnergyBooks::begin(const State& state, const Vertices& last_end) {
   const double h = system_.step;
   state_ = &state;
   start_kinetic_ = 0.5 * h * h * inner(objective_.free_inertia(), state.v, state.v);
   start_.value = objective_.inertial_value(state.x);
   // Where the last step ended, the energy is known, and nowhere is it below zero.
   const auto bytes = static_cast<std::size_t>(state.x.size()) * sizeof(double);
-  if (steady_ && std::memcmp(state.x.data(), end_.data(), bytes) == 0) start_.value += end_energy_;
+  if (steady_ && std::memcmp(state.x.data(), last_end.data(), bytes) == 0) start_.value += end_energy_;
   start_exact_ = false;
 }
 
@@ -124,7 +123,6 @@ double EnergyBooks::shed(Point& point) {
 
 void EnergyBooks::end(const Point& point) {
   if (!steady_) return;
-  end_ = point.x;
   // A lower bound, so that a step which goes on from here comes to the same as one that starts here.
   const double energy = point.value - objective_.inertial_value(point.x);
   end_energy_ = std::max(0.0, energy - objective_.rounding(point.value));

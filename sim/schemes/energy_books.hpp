@@ -22,9 +22,10 @@ class EnergyBooks {
  public:
   EnergyBooks(const System& system, const StepObjective& objective, const IntegratorSettings& settings);
 
-  /// Notes what the cloth has at the start of a step, whose y the objective has. @param state must stay as it is until
-  /// the step ends
-  void begin(const State& state);
+  /// Notes what the cloth has at the start of a step, whose y the objective has.
+  /// @param state must stay as it is until the step ends
+  /// @param last_end where end() was told that the last step ended
+  void begin(const State& state, const Vertices& last_end);
   /// Whether ΔK + ΔE − W at the point is more than rounding explains.
   /// @param tolerant and more than is tolerated
   [[nodiscard]] bool gains(const Point& point, bool tolerant);
@@ -53,8 +54,7 @@ class EnergyBooks {
   Point start_;                   // its x with its pins where they are when the step ends, and g there…
   bool start_exact_ = false;      // …or, where it has not been needed, a lower bound of g and nothing else
   double start_kinetic_ = 0;      // ½‖v‖²_M [J]
-  Vertices end_;                  // where the last step ended…
-  double end_energy_ = 0;         // …and a lower bound of E there [J]
+  double end_energy_ = 0;         // a lower bound of E where the last step ended [J]
   bool steady_;                   // a step starts where the last one ended, and E there is what it was
   Point trial_;
 };
