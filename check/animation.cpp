@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
+#include <filesystem>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -13,6 +12,7 @@
 #include "check/compare_motion.hpp"
 #include "check/draw_windows.hpp"
 #include "check/picture.hpp"
+#include "core/read_file.hpp"
 #include "render/encode/gif_encoder.hpp"
 #include "render/montage.hpp"
 
@@ -102,8 +102,7 @@ std::string difference_animation(const Scene& scene, const Golden& golden, const
   const double factor = common_amplification(pairs);
   for (const Pair& pair : pairs) encoder->add(side_by_side(pair, factor));
   encoder->finish();
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return read_file(file, std::filesystem::file_size(file));
 }
 
 }  // namespace drape

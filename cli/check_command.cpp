@@ -217,7 +217,7 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
   add_backend_option(*sub, arguments->backend);
   sub->add_option("--report", arguments->report, "Folder for the reports (HTML, JSON, JUnit); default out/check");
   sub->add_option("--threads", arguments->threads, "How many windows of motion are computed at once")
-      ->check(CLI::Range(1, 1024));
+      ->check(whole_number_in({1, 1024}));
   add_limits(*sub, *arguments);
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return check(*arguments, common); }; });

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
+#include <filesystem>
 #include <functional>
-#include <iterator>
 #include <memory>
 
+#include "core/read_file.hpp"
 #include "render/encode/gif_encoder.hpp"
 #include "render/montage.hpp"
 #include "render/renderer.hpp"
@@ -175,8 +175,7 @@ std::optional<std::string> animate_errors(const Scene& scene, const SimulationSe
     ++progress.done;
   }
   encoder->finish();
-  std::ifstream stream(file, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(stream), {});
+  return read_file(file, std::filesystem::file_size(file));
 }
 
 }  // namespace drape
