@@ -18,8 +18,8 @@
 #include "run/films.hpp"
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
-#include "sim/simulation.hpp"
 #include "sim/schemes/registry.hpp"
+#include "sim/simulation.hpp"
 
 namespace drape {
 namespace {

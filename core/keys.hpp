@@ -61,11 +61,10 @@ class SphereTrack;
 /// One key of a settings table: its name, the variable its value is written to, which values make sense, and one
 /// sentence that says what it means. Readers, error messages and the reference pages are all made from this.
 struct Key {
-  using Target =
-      std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice, OwnForm, KeyframeList,
-                   VertexSelection, std::shared_ptr<const SphereTrack>*, Eigen::Vector2i*, Eigen::Vector3d*,
-                   std::vector<int>*, std::optional<int>*, std::optional<double>*, std::optional<Rgb>*,
-                   std::optional<Eigen::Vector2i>*, std::optional<Eigen::Vector3d>*>;
+  using Target = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice, OwnForm,
+                              KeyframeList, VertexSelection, std::shared_ptr<const SphereTrack>*, Eigen::Vector2i*,
+                              Eigen::Vector3d*, std::vector<int>*, std::optional<int>*, std::optional<double>*,
+                              std::optional<Rgb>*, std::optional<Eigen::Vector2i>*, std::optional<Eigen::Vector3d>*>;
 
   std::string name;
   Target target;

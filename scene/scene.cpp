@@ -13,8 +13,8 @@
 #include "scene/overrides.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/tables.hpp"
-#include "sim/simulation.hpp"
 #include "sim/schemes/registry.hpp"
+#include "sim/simulation.hpp"
 
 namespace drape {
 namespace {

@@ -88,8 +88,8 @@ SimulationSettings eventful(Solver solver) {
        effect("air", {{"velocity", Vector3d(1, 2, 0)}, {"gust", 1.0}}),
        effect("moving_pins", {{"pins", std::vector{0, 10}}, {"keyframes", path}, {"interpolation", "smooth"}}),
        effect("sphere", {{"center", Vector3d(0, 0, -0.3)}, {"radius", 0.3}, {"response", response}, {"friction", 0.3}}),
-       effect("ground", {{"height", -0.05}, {"response", response}, {"restitution", 0.5}}), effect("damping", {{"factor", 0.5}}),
-       effect("bending", {{"rigidity", 1e-4}, {"cross_stiffness", 1.0}}),
+       effect("ground", {{"height", -0.05}, {"response", response}, {"restitution", 0.5}}),
+       effect("damping", {{"factor", 0.5}}), effect("bending", {{"rigidity", 1e-4}, {"cross_stiffness", 1.0}}),
        effect("strain_limit", {{"max_stretch", 1.1}}), effect("self_collision", {{"thickness", 0.02}})});
   return settings;
 }

@@ -100,7 +100,8 @@ TEST(BendingEnergy, IsZeroForEveryPlaceAndDirectionOfAFlatSheet) {
   Vertices x = mesh.positions * turn.transpose();
   x.rowwise() += Eigen::RowVector3d(100, -50, 20);
   Vertices gradient = Vertices::Zero(x.rows(), 3);
-  const double energy = BendingEnergy(curvature_elements(cloth, rigidity), cloth.vertex_count()).add_gradient(x, gradient);
+  const double energy =
+      BendingEnergy(curvature_elements(cloth, rigidity), cloth.vertex_count()).add_gradient(x, gradient);
   EXPECT_NEAR(energy, 0, 1e-9 * analytic_energy(1));
   EXPECT_LT(gradient.cwiseAbs().maxCoeff(), 1e-9);
 }

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "sim/simulation.hpp"
 #include "sim/schemes/registry.hpp"
+#include "sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {
