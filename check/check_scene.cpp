@@ -16,6 +16,7 @@
 #include "check/machine.hpp"
 #include "check/record_motion.hpp"
 #include "core/error.hpp"
+#include "run/films.hpp"
 
 namespace drape {
 namespace {
@@ -270,24 +271,10 @@ class SceneCheck {
 
 }  // namespace
 
-std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
-                                    const std::stop_token& stop, Progress& progress) {
-  has_golden(golden_folder(scene.file));  // or it throws
-  std::optional<Golden> golden = record_motion(scene, settings, plan_windows(scene, settings), stop, progress);
-  if (!golden) return std::nullopt;
-  DrawWindows drawing(scene, golden->size, golden->view, backend);
-  const std::vector<Png> pictures = drawing.draw(golden->windows, stop, progress);
-  if (stop.stop_requested()) return std::nullopt;
-  golden->date = utc_now();
-  golden->machine = this_machine(drawing.renderer());
-  Blessing blessing{.folder = golden_folder(scene.file), .frames = static_cast<int>(pictures.size())};
-  blessing.size = write_golden(blessing.folder, *golden, pictures);
-  return blessing;
-}
-
 SceneResult check_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
                         const CheckOptions& options, const std::stop_token& stop, Progress& progress) {
   const auto begin = std::chrono::steady_clock::now();
+  require_texture(scene);
   SceneResult result = SceneCheck(scene, name, settings, options, stop, progress).run();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

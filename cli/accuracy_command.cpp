@@ -10,6 +10,7 @@
 #include "core/nearest.hpp"
 #include "core/shell.hpp"
 #include "render/gl/inspect.hpp"
+#include "run/films.hpp"
 #include "study/accuracy_animation.hpp"
 #include "study/accuracy_report.hpp"
 
@@ -84,7 +85,10 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, options.overrides);
   // What is wrong is said before hours of work.
   for (const std::string& file : arguments.scenes) check_accuracy(file, options);
-  if (!animations.empty()) inspect_backend(arguments.backend);
+  if (!animations.empty()) {
+    inspect_backend(arguments.backend);
+    for (const Scene& scene : scenes) require_texture(scene);
+  }
   const std::vector<std::string> names = unique_names(scenes);
   return run_study(
       arguments.folder, common, [&](const std::stop_token& stop, Progress& progress) -> std::optional<StudyReport> {

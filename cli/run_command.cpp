@@ -78,19 +78,18 @@ void look_ahead(const std::vector<Scene>& scenes, const std::vector<RunOptions>&
   const int largest_texture = drawn ? inspect_backend(options.front().backend).max_texture_size : 0;
   ExitCode worst = ExitCode::ok;
   std::string problems;
-  const auto attempt = [&](const std::string& where, const auto& work) {
+  const auto attempt = [&](const auto& work) {
     try {
       work();
     } catch (const Error& error) {
-      problems += (problems.empty() ? "" : "\n") + where + error.what();
+      problems += (problems.empty() ? "" : "\n") + std::string(error.what());
       worst = std::max(worst, error.code());
     }
   };
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const Scene& scene = scenes[i];
-    attempt("", [&] { require_outputs(scene, options[i]); });
-    if (options[i].outputs.empty() || scene.look.texture.empty()) continue;
-    attempt(scene.texture_place + ": ", [&] { require_texture_image(scene.look.texture, largest_texture); });
+    attempt([&] { require_outputs(scene, options[i]); });
+    if (!options[i].outputs.empty()) attempt([&] { require_texture(scene, largest_texture); });
   }
   if (worst != ExitCode::ok) throw Error(worst, problems);
 }

@@ -34,6 +34,15 @@ void require_outputs(const Scene& scene, const RunOptions& options) {
   const Records records(options.records);
 }
 
+void require_texture(const Scene& scene, int largest) {
+  if (scene.look.texture.empty()) return;
+  try {
+    require_texture_image(scene.look.texture, largest);
+  } catch (const UsageError& error) {
+    throw UsageError(scene.texture_place + ": " + error.what());
+  }
+}
+
 Films::Films(const std::vector<OutputSpec>& specs) {
   for (const OutputSpec& spec : specs) films_.push_back({spec.path, make_encoder(spec)});
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/encode/encoder.hpp"
+#include "render/texture_image.hpp"
 #include "run/run_scene.hpp"
 
 namespace drape {
@@ -21,6 +22,11 @@ std::vector<OutputSpec> output_specs(const Scene& scene, const RunOptions& optio
 /// Opens everything that a run would write, and leaves nothing of it.
 /// @throws Error what the run would end with otherwise, perhaps after hours
 void require_outputs(const Scene& scene, const RunOptions& options);
+
+/// Looks whether the texture of a scene that is to be drawn can be, if it has one.
+/// @param largest the most pixels that a texture may be wide or high
+/// @throws UsageError that names the place in the scene
+void require_texture(const Scene& scene, int largest = largest_texture);
 
 /// The outputs of a run that is drawn. One that cannot be written is given up, and does not keep the others from being
 /// completed.

@@ -95,6 +95,19 @@ TEST(Faults, ATextureThatIsMissingOrCutIsNamed) {
   }
 }
 
+TEST(Faults, ATextureThatCannotBeReadIsNamedWithItsPlaceByWhateverDraws) {
+  const SceneFolder folder;
+  folder.write("cut.png", content(fs::path(DRAPE_SOURCE_DIR) / "textures/plaid.png").substr(0, 2000));
+  folder.write("scene.toml", test::least_scene + "[look]\ntexture = \"cut.png\"\n");
+  for (const char* command : {"render", "bless", "check", "study accuracy"}) {
+    const Finished finished = drape(folder, std::string(command) + " scene.toml");
+    EXPECT_EQ(finished.code, 2) << command << finished.text;
+    EXPECT_NE(finished.text.find("scene.toml:"), std::string::npos) << command << finished.text;
+    EXPECT_NE(finished.text.find("the texture"), std::string::npos) << command << finished.text;
+    EXPECT_FALSE(fs::exists(folder.path() / "scene.golden")) << command;
+  }
+}
+
 TEST(Faults, CtrlCAtAnyMomentLeavesAPlayableFilmOrNone) {
   test::Random random(static_cast<std::uint64_t>(getpid()));
   for (int attempt = 0; attempt < 6; ++attempt) {
