@@ -31,6 +31,7 @@ step = 0.02
 duration = 2
 [integrator]
 method = "liu13"
+tolerance = 1e-3
 [effects.gravity]
 [video]
 fps = 30

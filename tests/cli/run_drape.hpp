@@ -41,6 +41,7 @@ inline const std::string swinging_scene =
     "duration = 0.4\n"
     "[integrator]\n"
     "method = \"liu13\"\n"
+    "tolerance = 1e-3\n"
     "[effects.gravity]\n";
 
 }  // namespace drape::test

@@ -50,6 +50,7 @@ step = 0.02
 duration = 1
 [integrator]
 method = "liu13"
+tolerance = 1e-3
 [effects.gravity]
 )";
 

@@ -20,7 +20,7 @@ class AccuracyPage : public test::InBrowser {
     const auto file = path("small.toml");
     put(file,
         "[cloth]\nmesh = { grid = [4, 4] }\nstiffness = 20\npins = [\"corner:x-y-\"]\n[time]\nstep = 0.02\nduration = "
-        "1\n[effects.gravity]\n");
+        "1\n[integrator]\nmethod = \"liu13\"\ntolerance = 1e-3\n[effects.gravity]\n");
     AccuracyOptions options;
     options.methods = {Method::liu13, Method::quasi_newton};
     options.tolerances = {1e-2, 1e-4, 1e-6};

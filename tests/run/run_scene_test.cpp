@@ -22,6 +22,7 @@ step = 0.02
 duration = 0.4
 [integrator]
 method = "liu13"
+tolerance = 1e-3
 [effects.gravity]
 )";
 

@@ -23,6 +23,7 @@ step = 0.02
 duration = 4
 [integrator]
 method = "liu13"
+tolerance = 1e-3
 [effects.gravity]
 )";
 

@@ -17,7 +17,8 @@ TEST(Animation, HasAPanelForEachMotionAndAFrameForEachMoment) {
   const std::string file = folder
                                .write("small.toml",
                                       "[cloth]\nmesh = { grid = [3, 3] }\nstiffness = 20\n[time]\nstep = 0.02\n"
-                                      "duration = 0.4\n[video]\nfps = 50\nsize = [340, 170]\n[effects.gravity]\n")
+                                      "duration = 0.4\n[integrator]\nmethod = \"liu13\"\ntolerance = "
+                                      "1e-3\n[video]\nfps = 50\nsize = [340, 170]\n[effects.gravity]\n")
                                .string();
   const Scene scene = load_scene(file);
   std::vector<AnimationPanel> panels;

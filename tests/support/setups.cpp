@@ -14,6 +14,8 @@ SimulationSettings setup(Cloth cloth, Solver solver, double step) {
   settings.step = step;
   settings.integrator.method = solver.method;
   settings.integrator.linear_solver = solver.linear_solver;
+  settings.integrator.stop = StoppingRule::change;
+  settings.integrator.tolerance = 1e-3;
   return settings;
 }
 

@@ -8,7 +8,7 @@
 
 namespace drape::test {
 
-/// A cloth without effects, to which a test adds what it is about.
+/// A cloth without effects, to which a test adds what it is about. A step ends at a change below 1e-3 m.
 SimulationSettings setup(Cloth cloth, Solver solver, double step);
 
 /// make_cloth of a mesh that is its own rest shape.
