@@ -7,22 +7,26 @@
 
 #include "bench/moving_cloth.hpp"
 #include "bench/subject.hpp"
+#include "sim/effects/air.hpp"
+#include "sim/effects/bending.hpp"
+#include "sim/effects/gravity.hpp"
+#include "sim/effects/ground.hpp"
+#include "sim/effects/self_collision.hpp"
+#include "sim/effects/sphere.hpp"
+#include "sim/effects/strain_limit.hpp"
+#include "sim/effects/wind.hpp"
 #include "sim/simulation.hpp"
-#include "tests/support/effects.hpp"
 
 namespace drape {
 namespace {
 
-using test::effect;
-using test::KeyValues;
-
 constexpr int steps = 10;
 constexpr double step = 0.01;  // [s]
 
-/// An effect with its keys, on a cloth of so many cells along each side.
+/// An effect, on a cloth of so many cells along each side.
 struct Case {
-  std::string name, effect;
-  KeyValues keys;
+  std::string name;
+  Effect effect;
   Cloth (*cloth)(int cells);
 };
 
@@ -43,21 +47,20 @@ Cloth make_folded_cloth(int cells) {
 }
 
 std::vector<Case> cases() {
-  const Eigen::Vector3d below(0, 0, -0.5);
+  const Sphere sphere{.center = Eigen::Vector3d(0, 0, -0.5), .radius = 0.4};
+  Sphere solved_for = sphere;
+  solved_for.response = Response::implicit_energy;
   return {
-      {"bending_rigidity", "bending", {{"rigidity", 1e-3}}, make_moving_cloth},
-      {"bending_cross", "bending", {{"cross_stiffness", 10.0}}, make_moving_cloth},
-      {"sphere", "sphere", {{"center", below}, {"radius", 0.4}}, make_moving_cloth},
-      {"sphere_implicit",
-       "sphere",
-       {{"center", below}, {"radius", 0.4}, {"response", std::string("implicit")}},
-       make_moving_cloth},
-      {"wind", "wind", {{"acceleration", Eigen::Vector3d(1, 0, 0)}}, make_moving_cloth},
-      {"air", "air", {}, make_moving_cloth},
-      {"ground", "ground", {{"height", -1.0}}, make_moving_cloth},
-      {"strain_limit", "strain_limit", {{"max_stretch", 1.1}}, make_moving_cloth},
-      {"self_collision", "self_collision", {{"thickness", 0.012}}, make_moving_cloth},
-      {"self_collision_folded", "self_collision", {{"thickness", 0.012}}, make_folded_cloth},
+      {"bending_rigidity", Bending{.rigidity = 1e-3}, make_moving_cloth},
+      {"bending_cross", Bending{.cross_stiffness = 10}, make_moving_cloth},
+      {"sphere", sphere, make_moving_cloth},
+      {"sphere_implicit", solved_for, make_moving_cloth},
+      {"wind", Wind{.acceleration = {1, 0, 0}}, make_moving_cloth},
+      {"air", Air{}, make_moving_cloth},
+      {"ground", Ground{.height = -1}, make_moving_cloth},
+      {"strain_limit", StrainLimit{.max_stretch = 1.1}, make_moving_cloth},
+      {"self_collision", SelfCollision{.thickness = 0.012}, make_moving_cloth},
+      {"self_collision_folded", SelfCollision{.thickness = 0.012}, make_folded_cloth},
   };
 }
 
@@ -65,8 +68,8 @@ Subject make(const Case& c, int cells, bool with) {
   SimulationSettings settings;
   settings.cloth = c.cloth(cells);
   settings.step = step;
-  settings.effects.push_back(effect("gravity"));
-  if (with) settings.effects.push_back(effect(c.effect, c.keys));
+  settings.effects = {Gravity{}};
+  if (with) settings.effects.add(c.effect);
   const auto simulation = std::make_shared<Simulation>(std::move(settings));
   return {.restore = [simulation, start = simulation->state()] { simulation->restore(start); },
           .run =

@@ -8,7 +8,8 @@
 #include "bench/moving_cloth.hpp"
 #include "bench/subject.hpp"
 #include "bench/textbook.hpp"
-#include "sim/effects/effect.hpp"
+#include "sim/effects/gravity.hpp"
+#include "sim/effects/sphere.hpp"
 #include "sim/simulation.hpp"
 
 namespace drape {
@@ -73,21 +74,9 @@ Subject make_textbook(const Comparison& c) {
               }};
 }
 
-/// An effect with its defaults, but for the keys of the textbook's sphere.
-ActiveEffect make_effect(std::string_view name) {
-  const auto types = effect_types();
-  const auto type = std::find_if(types.begin(), types.end(), [&](const EffectType& t) { return t.name == name; });
-  std::unique_ptr<Effect> effect = type->make();
-  Keys keys;
-  effect->describe(keys);
+Sphere textbook_sphere() {
   const textbook::Sphere sphere;
-  for (const Key& key : keys.all()) {
-    if (key.name == "center") *std::get<std::optional<Eigen::Vector3d>*>(key.target) = sphere.center;
-    if (key.name == "radius") *std::get<std::optional<double>*>(key.target) = sphere.radius;
-    if (key.name == "scale") *std::get<double*>(key.target) = sphere.scale;
-    if (key.name == "stiffness") *std::get<double*>(key.target) = sphere.stiffness;
-  }
-  return {.name = std::string(name), .effect = std::move(effect)};
+  return {.center = sphere.center, .radius = sphere.radius, .scale = sphere.scale, .stiffness = sphere.stiffness};
 }
 
 /// One simulation for every step: each has its own residual to reach.
@@ -101,8 +90,8 @@ Subject make_drape(const Comparison& c) {
     settings.integrator.method = Method::quasi_newton;
     settings.integrator.stop = StoppingRule::gradient;
     settings.integrator.tolerance = residual;
-    settings.effects.push_back(make_effect("gravity"));
-    if (c.sphere) settings.effects.push_back(make_effect("sphere"));
+    settings.effects = {Gravity{}};
+    if (c.sphere) settings.effects.add(textbook_sphere());
     simulations->push_back(std::make_unique<Simulation>(std::move(settings)));
   }
   return {.restore =

@@ -15,7 +15,7 @@
 #include "bench/ratio_table.hpp"
 #include "bench/subject.hpp"
 #include "bench/textbook.hpp"
-#include "sim/effects/effect.hpp"
+#include "sim/effects/gravity.hpp"
 #include "sim/simulation.hpp"
 
 namespace drape {
@@ -79,12 +79,6 @@ Subject make_textbook(const Case& c) {
           })};
 }
 
-ActiveEffect make_gravity_effect() {
-  const auto types = effect_types();
-  const auto type = std::find_if(types.begin(), types.end(), [](const EffectType& t) { return t.name == "gravity"; });
-  return {.name = std::string(type->name), .effect = type->make()};
-}
-
 Subject make_drape(const Case& c) {
   SimulationSettings settings;
   settings.cloth = make_moving_cloth(c.cells);
@@ -92,7 +86,7 @@ Subject make_drape(const Case& c) {
   settings.integrator.method = c.method;
   settings.integrator.tolerance = never;
   settings.integrator.max_iterations = c.batch;
-  settings.effects.push_back(make_gravity_effect());
+  settings.effects = {Gravity{}};
   const auto simulation = std::make_shared<Simulation>(std::move(settings));
   return {.restore = [simulation, start = simulation->state()] { simulation->restore(start); },
           .run = make_run(c, [simulation] { return simulation->step().iterations; })};

@@ -33,7 +33,7 @@ std::string describe(const Scene& scene, const RunOptions& options) {
   std::string text = fmt::format("{}: {}, {} vertices, {} springs, {} steps of {:g} s ({:g} s)", scene.file.string(),
                                  method_name(s.integrator.method), s.cloth.vertex_count(), s.cloth.springs.size(),
                                  steps, s.step, static_cast<double>(steps) * s.step);
-  for (const ActiveEffect& active : s.effects) text += ", " + active.name;
+  for (const Effect& effect : s.effects) text += ", " + std::string(effect.name());
   return text;
 }
 

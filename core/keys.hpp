@@ -1,12 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <any>
 #include <cstddef>
 #include <deque>
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,13 +28,11 @@ struct Choice {
   std::size_t initial = 0;  ///< the place of the one that holds without the key
 };
 
-/// A value as it stands in the file, see scene/document.hpp.
-struct TomlValue;
-
-/// A key whose value has several forms, such as a mesh or a list of pins: whoever describes the table reads it.
+/// A key whose value is of a kind of its own, such as a mesh or a file with a motion. Nothing here knows what it is:
+/// whoever describes the table and whoever reads it do.
 struct OwnForm {
-  std::string form;                   ///< for a reference page: "number or [x, y, z]"
-  const TomlValue** value = nullptr;  ///< set to where it stands if it is given, as long as the document lasts
+  std::string form;  ///< for a reference page: "number or [x, y, z]"
+  std::any target;   ///< a pointer to what is set if the key is given
 };
 
 /// A value at a moment.
@@ -47,7 +45,7 @@ struct Keyframe {
 struct KeyframeList {
   std::vector<std::string> names;  ///< that the value can have, one and the same in the whole list
   std::vector<Keyframe>* keyframes = nullptr;
-  std::size_t* name = nullptr;  ///< set to the place in `names` of the one that was used
+  std::function<void(std::size_t)> set_name = {};  ///< called with the place in `names` of the one that was used
 };
 
 /// Vertices of the cloth, in the forms that [cloth] pins takes; ascending, each once.
@@ -55,16 +53,13 @@ struct VertexSelection {
   std::vector<int>* vertices = nullptr;
 };
 
-/// A sphere's place as a function of time, see sim/sphere_track.hpp. As a key it is the name of a file.
-class SphereTrack;
-
 /// One key of a settings table: its name, the variable its value is written to, which values make sense, and one
 /// sentence that says what it means. Readers, error messages and the reference pages are all made from this.
 struct Key {
   using Target = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice, OwnForm,
-                              KeyframeList, VertexSelection, std::shared_ptr<const SphereTrack>*, Eigen::Vector2i*,
-                              Eigen::Vector3d*, std::vector<int>*, std::optional<int>*, std::optional<double>*,
-                              std::optional<Rgb>*, std::optional<Eigen::Vector2i>*, std::optional<Eigen::Vector3d>*>;
+                              KeyframeList, VertexSelection, Eigen::Vector2i*, Eigen::Vector3d*, std::vector<int>*,
+                              std::optional<int>*, std::optional<double>*, std::optional<Rgb>*,
+                              std::optional<Eigen::Vector2i>*, std::optional<Eigen::Vector3d>*>;
 
   std::string name;
   Target target;

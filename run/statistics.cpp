@@ -11,7 +11,7 @@ void Statistics::begin(const Simulation& simulation) {
   vertices_ = simulation.cloth().vertex_count();
   springs_ = static_cast<std::int64_t>(simulation.springs().size());
   h_ = simulation.settings().step;
-  for (const ActiveEffect& active : simulation.settings().effects) effects_.push_back(active.name);
+  for (const Effect& effect : simulation.settings().effects) effects_.emplace_back(effect.name());
 }
 
 void Statistics::after_step(const Simulation& simulation, const StepReport& report, double seconds) {

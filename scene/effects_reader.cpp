@@ -43,20 +43,22 @@ std::vector<ReadEffect> read_effects(const TomlValue& document, TableReader& rea
     if (written == nullptr) continue;
     for (const TomlValue* item : tables_of(*written, type.repeatable)) {
       const std::size_t before = problems.count();
-      std::shared_ptr<Effect> effect = type.make();
-      reader.read(*item, effect_table(type, *effect));
-      effects.push_back({{std::string(type.name), std::move(effect)}, item, problems.count() == before});
+      Effect effect = type.make();
+      reader.read(*item, effect_table(type, effect));
+      effects.push_back({std::move(effect), item, problems.count() == before});
     }
   }
   return effects;
 }
 
 void check_effects(const std::vector<ReadEffect>& effects, const SimulationSettings& settings, Problems& problems) {
-  for (const ReadEffect& read : effects) {
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const ReadEffect& read = effects[i];
     if (!read.good) continue;
-    read.active.effect->check(settings, [&](std::string_view key, const std::string& sentence) {
-      problems.add(place_of(*read.table, key), key.empty() ? fmt::format("[effects.{}]: {}", read.active.name, sentence)
-                                                           : fmt::format("{}: {}", key, sentence));
+    settings.effects[i].check(settings, [&](std::string_view key, const std::string& sentence) {
+      problems.add(place_of(*read.table, key), key.empty()
+                                                   ? fmt::format("[effects.{}]: {}", read.effect.name(), sentence)
+                                                   : fmt::format("{}: {}", key, sentence));
     });
   }
 }

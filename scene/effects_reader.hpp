@@ -8,7 +8,7 @@ namespace drape {
 
 /// An effect with the table that it was read from.
 struct ReadEffect {
-  ActiveEffect active;
+  Effect effect;
   const TomlValue* table;
   bool good;  ///< read without a problem
 };
@@ -17,6 +17,7 @@ struct ReadEffect {
 std::vector<ReadEffect> read_effects(const TomlValue& document, TableReader& reader, Problems& problems);
 
 /// Lets the effects check their values against everything else.
+/// @param settings that have these effects
 void check_effects(const std::vector<ReadEffect>& effects, const SimulationSettings& settings, Problems& problems);
 
 }  // namespace drape

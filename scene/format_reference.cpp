@@ -40,7 +40,6 @@ struct Describe {
     return {form, ""};
   }
   ValueText operator()(const VertexSelection&) const { return {"pins", ""}; }
-  ValueText operator()(const std::shared_ptr<const SphereTrack>*) const { return {"file", ""}; }
   ValueText operator()(const Eigen::Vector2i* value) const {
     return {"[whole number, whole number]", fmt::format("[{}, {}]", (*value)[0], (*value)[1])};
   }
@@ -84,8 +83,8 @@ std::string format_reference() {
   std::string text;
   for (const TableType& table : scene_tables(cloth, scene)) text += section(table);
   for (const EffectType& type : effect_types()) {
-    const std::unique_ptr<Effect> effect = type.make();
-    text += section(effect_table(type, *effect));
+    Effect effect = type.make();
+    text += section(effect_table(type, effect));
   }
   return text;
 }

@@ -129,8 +129,8 @@ void with_key(const std::string& table, const std::string& name, Use use) {
   Scene scene;
   for (const TableType& type : scene_tables(cloth, scene)) look_in(type);
   for (const EffectType& type : effect_types()) {
-    const std::unique_ptr<Effect> effect = type.make();
-    look_in(effect_table(type, *effect));
+    Effect effect = type.make();
+    look_in(effect_table(type, effect));
   }
 }
 

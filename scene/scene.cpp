@@ -149,7 +149,7 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
     scene.texture_place = problems.text(place_of(*look, "texture"));
   }
 
-  for (const ReadEffect& effect : effects) scene.simulation.effects.push_back(effect.active);
+  for (const ReadEffect& read : effects) scene.simulation.effects.add(read.effect);
 
   // A rule between keys means nothing where one of them could not be read: the default stands in its place.
   const Checks checks(scene, document, problems);

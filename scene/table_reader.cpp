@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <any>
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
@@ -55,21 +56,16 @@ class KeyReader {
   void operator()(std::optional<Eigen::Vector3d>* target) const {
     assign(target, read_vector(value_, key_.name, range_, problems_));
   }
-  void operator()(const OwnForm& form) const { *form.value = &value_; }
+  void operator()(const OwnForm& form) const {
+    if (auto* const* track = std::any_cast<std::shared_ptr<const SphereTrack>*>(&form.target)) {
+      read_track(**track);
+    } else {
+      *std::any_cast<const TomlValue**>(form.target) = &value_;  // whoever describes the table reads it
+    }
+  }
   void operator()(const KeyframeList& list) const { read_keyframes(value_, key_.name, list, problems_); }
   void operator()(const VertexSelection& selection) const {
     *selection.vertices = read_pins(value_, vertices_, problems_);
-  }
-
-  void operator()(std::shared_ptr<const SphereTrack>* target) const {
-    const std::optional<std::string> file = read_string(value_, key_.name, problems_);
-    if (!file) return;
-    files_.push_back(folder_ / *file);
-    try {
-      *target = read_sphere_track(folder_ / *file);
-    } catch (const UsageError& error) {
-      problems_.add(value_.place, fmt::format("{}: '{}' cannot be read:\n{}", key_.name, *file, error.what()));
-    }
   }
 
   void operator()(const Choice& choice) const {
@@ -88,6 +84,17 @@ class KeyReader {
   template <class Target, class Result>
   static void assign(Target* target, const std::optional<Result>& result) {
     if (result) *target = *result;
+  }
+
+  void read_track(std::shared_ptr<const SphereTrack>& track) const {
+    const std::optional<std::string> file = read_string(value_, key_.name, problems_);
+    if (!file) return;
+    files_.push_back(folder_ / *file);
+    try {
+      track = read_sphere_track(folder_ / *file);
+    } catch (const UsageError& error) {
+      problems_.add(value_.place, fmt::format("{}: '{}' cannot be read:\n{}", key_.name, *file, error.what()));
+    }
   }
 
   [[nodiscard]] std::optional<Rgb> read_color() const {

@@ -9,6 +9,9 @@
 
 namespace drape {
 
+/// A value as it stands in the file, see scene/document.hpp.
+struct TomlValue;
+
 /// What [cloth] and [cloth.transform] say, before it is made into a Cloth.
 struct ClothTable {
   const TomlValue* mesh = nullptr;
@@ -36,7 +39,7 @@ struct TableType {
 /// description of the format: reading, error messages and the reference page are made from it.
 std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene);
 
-/// The table of an effect, whose keys write to it.
+/// The table of an effect of this type, whose keys write to it.
 TableType effect_table(const EffectType& type, Effect& effect);
 
 /// The format's reference: a heading and a table of keys for each table, in Markdown.

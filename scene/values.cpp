@@ -198,7 +198,7 @@ void read_keyframes(const TomlValue& value, const std::string& name, const Keyfr
   for (std::size_t i = 0; i < array->size(); ++i) {
     if (!read_keyframe((*array)[i], item_name(name, i), list, used, problems)) return;
   }
-  if (list.name != nullptr) *list.name = *used;
+  if (list.set_name) list.set_name(*used);
 }
 
 std::optional<std::filesystem::path> read_file_name(const TomlValue& value, const std::string& name,

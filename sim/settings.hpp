@@ -2,17 +2,14 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "sim/cloth.hpp"
+#include "sim/effects/effect.hpp"
 
 namespace drape {
-
-class Effect;
 
 /// How a step is computed. The order is that of the names in a scene.
 enum class Method {
@@ -52,18 +49,12 @@ struct IntegratorSettings {
   bool allow_unstable = false;                           ///< run what stability_problem() refuses
 };
 
-/// An effect that a scene calls for: its name in the registry, and what its table says.
-struct ActiveEffect {
-  std::string name;
-  std::shared_ptr<const Effect> effect;
-};
-
 /// Everything a simulation is made from.
 struct SimulationSettings {
   Cloth cloth;
   double step = 0.01;  ///< h [s]
   IntegratorSettings integrator;
-  std::vector<ActiveEffect> effects;  ///< in the order of the registry
+  Effects effects;
 };
 
 }  // namespace drape

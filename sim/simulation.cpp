@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/effects/effect.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/timed_effects.hpp"
 
@@ -41,7 +40,7 @@ System make_system(const SimulationSettings& settings, std::vector<double>* effe
   System system(settings.cloth, settings.step);
   for (std::size_t i = 0; i < settings.effects.size(); ++i) {
     const SystemSizes before(system);
-    settings.effects[i].effect->install(system);
+    settings.effects[i].install(system);
     if (effect_seconds != nullptr) time_additions(system, before, (*effect_seconds)[i]);
   }
   return system;

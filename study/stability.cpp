@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "core/parallel.hpp"
-#include "sim/effects/contact.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/simulation.hpp"
@@ -23,36 +22,9 @@ constexpr double spring_stiffness = 180;  // where the push is varied [N/m]
 constexpr double depth = 0.01;            // to which it lies in the ground [m]
 constexpr double disturbance = 1e-4;      // how far it swings there [m]
 
-/// Sets a value of an effect's table.
-template <class T>
-void set(Effect& effect, std::string_view name, const T& value) {
-  Keys keys;
-  effect.describe(keys);
-  for (const Key& key : keys.all()) {
-    if (key.name != name) continue;
-    if constexpr (std::is_same_v<T, Response>) {
-      std::get<Choice>(key.target).set(static_cast<std::size_t>(value));
-    } else {
-      *std::get<T*>(key.target) = value;
-    }
-  }
-}
-
-ActiveEffect gravity(double acceleration) {
-  std::shared_ptr<Effect> effect = make_gravity();
-  set(*effect, "acceleration", Eigen::Vector3d(0, 0, -acceleration));
-  return {"gravity", effect};
-}
-
 /// A level ground at height 0, without friction and a push like a spring, of this stiffness [1/s²].
-ActiveEffect ground(double stiffness, Response response) {
-  std::shared_ptr<Effect> effect = make_ground();
-  set(*effect, "thickness", 0.0);
-  set(*effect, "friction", 0.0);
-  set(*effect, "restitution", std::optional<double>());
-  set(*effect, "stiffness", stiffness);
-  set(*effect, "response", response);
-  return {"ground", effect};
+Ground ground(double stiffness, Response response) {
+  return {.thickness = 0, .stiffness = stiffness, .response = response, .friction = 0, .restitution = std::nullopt};
 }
 
 /// What the ground's push holds, Σ m·stiffness/2·depth² [J].
@@ -129,9 +101,9 @@ SimulationSettings stability_cloth(Method method, StabilityAxis axis, double ste
   settings.integrator.method = method;
   settings.integrator.allow_unstable = true;
   settings.integrator.tolerance = 1e-6;
-  settings.effects.push_back(gravity(pushed ? stiffness * depth : 9.8));
+  settings.effects = {Gravity{.acceleration = {0, 0, pushed ? -stiffness * depth : -9.8}}};
   if (pushed) {
-    settings.effects.push_back(
+    settings.effects.add(
         ground(stiffness, axis == StabilityAxis::explicit_push ? Response::explicit_force : Response::implicit_energy));
     lay(settings.cloth, stiffness);
   }

@@ -19,7 +19,7 @@ constexpr int most_zone_rounds = 50;
 
 }  // namespace
 
-SelfContact::SelfContact(const SelfContactValues& values, const Cloth& cloth)
+SelfContact::SelfContact(const SelfCollision& values, const Cloth& cloth)
     : values_(values), cloth_(cloth), candidates_(cloth) {
   const auto count = static_cast<Index>(cloth.vertex_count());
   moving_.velocities.resize(count);
@@ -112,8 +112,8 @@ void SelfContact::repel() {
     const double end = distance + h_ * relative.dot(difference) / distance;
     if (end >= values_.thickness) continue;
     // Neighbours are nearer than the thickness where the mesh is finer than that.
-    const double depth = std::min(values_.thickness, rest_distance(pair)) - distance;
-    const double speed = depth > 0 ? std::min(values_.repulsion, 1 / h_) * depth : depth / h_;
+    const double gap = distance - std::min(values_.thickness, rest_distance(pair));
+    const double speed = gap < 0 ? -gap * std::min(values_.repulsion, 1 / h_) : -gap / h_;
     contacts_.emplace_back(pair, near.weights, difference, speed, moving_);
   }
   for (int pass = 0; pass < values_.iterations; ++pass) {

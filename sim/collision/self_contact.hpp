@@ -2,16 +2,10 @@
 
 #include "sim/collision/contacts.hpp"
 #include "sim/collision/rigid_zones.hpp"
+#include "sim/effects/self_collision.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
-
-struct SelfContactValues {
-  double thickness = 0.01;  ///< [m]
-  double repulsion = 20;    ///< [1/s]
-  double friction = 0.3;
-  int iterations = 10;
-};
 
 /// Keeps a cloth from going through itself (after Bridson, Fedkiw and Anderson 2002, sections 6 and 7), in three steps:
 /// 1. Features nearer than the thickness are kept from coming nearer and pushed apart, those that would come nearer
@@ -22,7 +16,7 @@ struct SelfContactValues {
 /// Every change is by opposite impulses or keeps momentum otherwise, so linear momentum is kept to rounding.
 class SelfContact final : public MotionFilter {
  public:
-  SelfContact(const SelfContactValues& values, const Cloth& cloth);
+  SelfContact(const SelfCollision& values, const Cloth& cloth);
 
   void apply(const Vertices& x, double time, double h, Vertices& v) override;
   [[nodiscard]] bool converged() const override { return converged_; }
@@ -49,7 +43,7 @@ class SelfContact final : public MotionFilter {
     double time;  // as a part of the step
   };
 
-  SelfContactValues values_;
+  SelfCollision values_;
   const Cloth& cloth_;
   CollisionCandidates candidates_;
   MovingVertices moving_;

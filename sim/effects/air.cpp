@@ -3,18 +3,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "sim/effects/gusts.hpp"
+#include "core/keys.hpp"
+#include "sim/system.hpp"
 
 namespace drape {
 namespace {
-
-struct AirValues {
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  double density = 1.2;
-  double drag = 1.2;
-  double lift = 0.6;
-  GustValues gusts;
-};
 
 /// Drag and lift on every triangle (Keckeisen, Kimmerle, Thomaszewski and Wacker, "Modelling Effects of Wind Fields in
 /// Cloth Animations", 2004, section 4; after Ling, Damodaran and Gay 1996). A triangle of area A and unit normal n,
@@ -26,9 +19,9 @@ struct AirValues {
 /// go beyond the point where it has stopped a mass µ that moves by u, with 1/µ = Σ dᵢ/9mᵢ over the triangle's free
 /// vertices, dᵢ the number of triangles at vertex i. Summed over all triangles, with Cauchy's inequality for the dᵢ
 /// impulses at a vertex, the kinetic energy relative to a steady wind then changes by at most −Σ J·u/2 ≤ 0.
-class Air final : public Force {
+class AirForce final : public Force {
  public:
-  Air(const AirValues& values, const Cloth& cloth, double h)
+  AirForce(const Air& values, const Cloth& cloth, double h)
       : values_(values), gusts_(values.gusts, values.velocity), triangles_(cloth.triangles), step_(h) {
     Eigen::VectorXd share = cloth.masses.cwiseInverse() / 9;
     for (const int pin : cloth.pins) share[pin] = 0;
@@ -78,7 +71,7 @@ class Air final : public Force {
     return stopped > power ? force * (power / stopped) : force;
   }
 
-  AirValues values_;
+  Air values_;
   Gusts gusts_;
   std::vector<Triangle> triangles_;
   std::vector<double> inverse_masses_;  // 1/µ of each triangle
@@ -86,33 +79,22 @@ class Air final : public Force {
   mutable Vertices slip_;  // how fast the air passes each vertex; memory only
 };
 
-class AirEffect final : public Effect {
- public:
-  void describe(Keys& keys) override {
-    keys.add("velocity", &values_.velocity, "m/s", "Of the wind; air that is still slows the cloth down.");
-    keys.add("density", &values_.density, "kg/m³", "Of the air.").at_least(0);
-    keys.add("drag", &values_.drag, "", "Coefficient C_D of the force along the wind that passes a triangle.")
-        .at_least(0);
-    keys.add("lift", &values_.lift, "", "Coefficient C_L of the force across it.").at_least(0);
-    values_.gusts.describe(keys);
-  }
-
-  void check(const SimulationSettings&, const ProblemSink& problem) const override {
-    if (values_.lift > 0 && values_.drag == 0) {
-      problem("lift", "there is no lift without drag: expected 0, or a drag above 0");
-    }
-  }
-
-  void install(System& system) const override {
-    system.forces.push_back(std::make_unique<Air>(values_, system.cloth, system.step));
-  }
-
- private:
-  AirValues values_;
-};
-
 }  // namespace
 
-std::unique_ptr<Effect> make_air() { return std::make_unique<AirEffect>(); }
+void Air::describe(Keys& keys) {
+  keys.add("velocity", &velocity, "m/s", "Of the wind; air that is still slows the cloth down.");
+  keys.add("density", &density, "kg/m³", "Of the air.").at_least(0);
+  keys.add("drag", &drag, "", "Coefficient C_D of the force along the wind that passes a triangle.").at_least(0);
+  keys.add("lift", &lift, "", "Coefficient C_L of the force across it.").at_least(0);
+  gusts.describe(keys);
+}
+
+void Air::check(const SimulationSettings&, const ProblemSink& problem) const {
+  if (lift > 0 && drag == 0) problem("lift", "there is no lift without drag: expected 0, or a drag above 0");
+}
+
+void Air::install(System& system) const {
+  system.forces.push_back(std::make_unique<AirForce>(*this, system.cloth, system.step));
+}
 
 }  // namespace drape

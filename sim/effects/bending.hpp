@@ -1,12 +1,23 @@
 #pragma once
 
-#include <memory>
+#include <optional>
 
 #include "sim/effects/effect.hpp"
 
 namespace drape {
 
-/// Resistance to bending: an energy of the curvature, "cross" springs, or both.
-std::unique_ptr<Effect> make_bending();
+/// Resistance to bending: an energy of the curvature, "cross" springs, or both. One of them must be given.
+struct Bending {
+  static constexpr std::string_view name = "bending";
+
+  /// D [N·m], above 0: rolled to the radius R, an area A holds ½·D·A/R².
+  std::optional<double> rigidity = {};
+  /// Of springs between the vertices opposite to each inner edge [N/m], above 0.
+  std::optional<double> cross_stiffness = {};
+
+  void describe(Keys& keys);
+  void check(const SimulationSettings& settings, const ProblemSink& problem) const;
+  void install(System& system) const;
+};
 
 }  // namespace drape

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "core/keys.hpp"
+#include "sim/settings.hpp"
+
 namespace drape {
 
-void ContactValues::describe(Keys& keys, const std::string& without_restitution) {
+void describe_contact(Keys& keys, double& stiffness, Response& response, double& friction,
+                      std::optional<double>& restitution, const std::string& without_restitution) {
   keys.add("stiffness", &stiffness, "1/s²", "Acceleration per metre that a vertex is within that reach.").at_least(0);
   keys.choice("response", response, {"explicit", "implicit"},
               "Whether the push is evaluated at the start of a step, or solved for together with the springs.");
@@ -18,7 +22,7 @@ void ContactValues::describe(Keys& keys, const std::string& without_restitution)
       .at_most(1);
 }
 
-void ContactValues::check(const SimulationSettings& settings, const Effect::ProblemSink& problem) const {
+void ContactLaw::check(const SimulationSettings& settings, const ProblemSink& problem) const {
   if (response == Response::implicit_energy) {
     if (settings.integrator.method == Method::semi_implicit) {
       problem(

@@ -10,31 +10,28 @@
 
 #include "sim/effects/effect.hpp"
 #include "sim/effects/rebound.hpp"
-#include "sim/effects/touch.hpp"
+#include "sim/effects/response.hpp"
+#include "sim/effects/surface_contact.hpp"
 
 namespace drape {
 
-/// How a penalty enters a step.
-enum class Response {
-  explicit_force,  ///< evaluated at the start of the step, as in the homework
-  implicit_energy  ///< part of what an implicit step minimises
-};
-
-/// How a surface answers a vertex within its reach: it pushes outwards with an acceleration of stiffness·depth.
-struct ContactValues {
-  double stiffness = 8000;  ///< [1/s²]
-  Response response = Response::explicit_force;
-  double friction = 0;                ///< Coulomb's coefficient
+/// How a surface answers a vertex inside it: it pushes outwards with an acceleration of stiffness·(−gap).
+struct ContactLaw {
+  double stiffness;  ///< [1/s²]
+  Response response;
+  double friction;                    ///< Coulomb's coefficient
   std::optional<double> restitution;  ///< of impacts, see ReboundFilter; without, the push is a spring and nothing else
 
-  /// Adds the keys for all of it.
-  /// @param without_restitution ends the sentence about restitution: what happens without
-  void describe(Keys& keys, const std::string& without_restitution);
-  /// Says what is wrong with them in these settings.
-  void check(const SimulationSettings& settings, const Effect::ProblemSink& problem) const;
+  /// Says what is wrong with it in these settings.
+  void check(const SimulationSettings& settings, const ProblemSink& problem) const;
 };
 
-/// The push as a force, a = stiffness·depth outwards; where no direction leads outwards there is none.
+/// Adds the keys of an effect that has these members.
+/// @param without_restitution ends the sentence about restitution: what happens without
+void describe_contact(Keys& keys, double& stiffness, Response& response, double& friction,
+                      std::optional<double>& restitution, const std::string& without_restitution);
+
+/// The push as a force, a = stiffness·(−gap) outwards; where no direction leads outwards there is none.
 template <class Surface>
 struct PenaltyForce final : Force {
   Surface surface;
@@ -47,16 +44,16 @@ struct PenaltyForce final : Force {
 
   void add(const State& state, double time, Vertices& force) const override {
     const auto now = surface.at(time);
-    Touch touch;
+    SurfaceContact contact;
     for (Eigen::Index i = 0; i < state.x.rows(); ++i) {
-      if (!now.find(state.x.row(i).transpose(), touch)) continue;
-      const double pressure = masses[i] * stiffness * touch.depth / touch.distance;
-      force.row(i) += pressure * touch.away.transpose();
+      if (!now.find(state.x.row(i).transpose(), contact)) continue;
+      const double pressure = -masses[i] * stiffness * contact.gap / contact.length;
+      force.row(i) += pressure * contact.outward.transpose();
     }
   }
 };
 
-/// The push as an energy, E = Σ m·stiffness/2·depth². Its Hessian is m·stiffness·(nnᵀ − depth·∇n), of which the first
+/// The push as an energy, E = Σ m·stiffness/2·gap². Its Hessian is m·stiffness·(nnᵀ + gap·∇n), of which the first
 /// term is positive and the second, where the surface is convex, negative. Where impacts have a restitution, what
 /// arrives in a step is not pushed in it: it is the impact that stops it.
 template <class Surface>
@@ -72,22 +69,22 @@ struct PenaltyEnergy final : Energy {
   double add_gradient(const Vertices& x, double time, Vertices& gradient) const override {
     const auto now = surface.at(time);
     double total = 0;
-    Touch touch;
+    SurfaceContact contact;
     for (Eigen::Index i = 0; i < x.rows(); ++i) {
-      if (!now.find(x.row(i).transpose(), touch) || arrives(i)) continue;
-      const double pressure = masses[i] * stiffness * touch.depth;
-      gradient.row(i) -= pressure * touch.normal().transpose();
-      total += 0.5 * pressure * touch.depth;
+      if (!now.find(x.row(i).transpose(), contact) || arrives(i)) continue;
+      const double pressure = -masses[i] * stiffness * contact.gap;
+      gradient.row(i) -= pressure * contact.normal().transpose();
+      total -= 0.5 * pressure * contact.gap;
     }
     return total;
   }
 
   void add_hessian(const Vertices& x, double time, DiagonalBlocks& blocks) const override {
     const auto now = surface.at(time);
-    Touch touch;
+    SurfaceContact contact;
     for (Eigen::Index i = 0; i < x.rows(); ++i) {
-      if (!now.find(x.row(i).transpose(), touch) || arrives(i)) continue;
-      const Eigen::Vector3d n = touch.normal();
+      if (!now.find(x.row(i).transpose(), contact) || arrives(i)) continue;
+      const Eigen::Vector3d n = contact.normal();
       Eigen::Matrix<double, 1, 6> products;
       products << n[0] * n[0], n[0] * n[1], n[0] * n[2], n[1] * n[1], n[1] * n[2], n[2] * n[2];
       blocks.row(i) += masses[i] * stiffness * products;
@@ -102,46 +99,46 @@ struct PenaltyEnergy final : Energy {
 
 /// Friction of what lies on a surface, and what the push may give back to it, as a change of a step's velocities
 /// relative to the surface (Bridson, Fedkiw and Anderson 2002, section 5, with the penalty's own impulse as the normal
-/// one). In a step the push adds h·stiffness·depth to a vertex's outward speed; friction takes at most `friction` times
-/// that from the speed along the surface, and stops it if that is enough. So what rests on a slope of tan θ ≤ µ stays,
-/// to the bit.
+/// one). In a step the push adds h·stiffness·(−gap) to a vertex's outward speed; friction takes at most `friction`
+/// times that from the speed along the surface, and stops it if that is enough. So what rests on a slope of tan θ ≤ µ
+/// stays, to the bit.
 ///
 /// Where impacts have a restitution, the push throws nothing off: it leaves the outward speed that carries a vertex out
-/// of the surface as a critically damped spring would, √stiffness·depth and no further than the reach.
+/// of the surface as a critically damped spring would, √stiffness·(−gap) and no further than the surface.
 /// Beside a law for impacts it damps what lies there critically as well, so that it comes to rest, and never pulls.
-/// Where a step is so long that this carries it to the reach at once (step·√stiffness > 1), it comes to rest there.
+/// Where a step is so long that this carries it to the surface at once (step·√stiffness > 1), it comes to rest there.
 template <class Surface>
 struct ContactFilter final : MotionFilter {
   Surface surface;
-  ContactValues values;
+  ContactLaw law;
   std::vector<int> free;                   // the vertices that are not pinned
   std::shared_ptr<const StepStart> start;  // null where nothing bounces
 
-  ContactFilter(Surface s, const ContactValues& v, std::vector<int> vertices, std::shared_ptr<const StepStart> begin)
-      : surface(std::move(s)), values(v), free(std::move(vertices)), start(std::move(begin)), halts_(free.size()) {}
+  ContactFilter(Surface s, const ContactLaw& l, std::vector<int> vertices, std::shared_ptr<const StepStart> begin)
+      : surface(std::move(s)), law(l), free(std::move(vertices)), start(std::move(begin)), halts_(free.size()) {}
 
   void apply(const Vertices& x, double time, double h, Vertices& v) override {
     // The push was evaluated where the vertices are, or solved for where they go.
-    const bool at_end = values.response == Response::implicit_energy;
+    const bool at_end = law.response == Response::implicit_energy;
     const auto now = surface.at(at_end ? time + h : time);
     const Eigen::Vector3d drift = surface.displacement(time, time + h) / h;
-    const double damping = 1 - 1 / (1 + 2 * h * std::sqrt(values.stiffness));
-    const double softest = std::min(std::sqrt(values.stiffness), 1 / h);
-    const double absorbed = values.restitution ? 1 : 0;
-    const bool halted = !at_end && h * std::sqrt(values.stiffness) > 1;
+    const double damping = 1 - 1 / (1 + 2 * h * std::sqrt(law.stiffness));
+    const double softest = std::min(std::sqrt(law.stiffness), 1 / h);
+    const double absorbed = law.restitution ? 1 : 0;
+    const bool halted = !at_end && h * std::sqrt(law.stiffness) > 1;
     halts_.clear();
-    Touch touch;
+    SurfaceContact contact;
     for (const int i : free) {
       Eigen::Vector3d point = x.row(i).transpose();
       if (at_end) point += h * v.row(i).transpose();
-      if (!now.find(point, touch)) continue;
+      if (!now.find(point, contact)) continue;
       if (start && start->was_outside(i)) continue;  // it was not pushed
-      const Eigen::Vector3d n = touch.normal();
+      const Eigen::Vector3d n = contact.normal();
       const Eigen::Vector3d relative = v.row(i).transpose() - drift;
       double outward = relative.dot(n);
       const Eigen::Vector3d along = relative - outward * n;
-      double push = h * values.stiffness * touch.depth;
-      const double taken = absorbed * std::max(0.0, outward - softest * touch.depth);
+      double push = -h * law.stiffness * contact.gap;
+      const double taken = absorbed * std::max(0.0, outward + softest * contact.gap);
       outward -= taken;
       push = std::max(0.0, push - taken);
       if (halted && taken > 0) {
@@ -152,7 +149,7 @@ struct ContactFilter final : MotionFilter {
         outward -= damped;
         push -= damped;
       }
-      const double speed = along.norm(), lost = values.friction * push;
+      const double speed = along.norm(), lost = law.friction * push;
       const double kept = speed > lost ? 1 - lost / speed : 0;
       v.row(i) = (drift + outward * n + kept * along).transpose();
     }
@@ -167,25 +164,25 @@ struct ContactFilter final : MotionFilter {
 /// The vertices that are not pinned.
 std::vector<int> free_vertices(const Cloth& cloth);
 
-/// Adds what the values ask for to the system, whose gravity must be in it already.
+/// Adds what the law asks for to the system, whose gravity must be in it already.
 template <class Surface>
-void install_contact(const Surface& surface, const ContactValues& values, System& system) {
+void install_contact(const Surface& surface, const ContactLaw& law, System& system) {
   const Eigen::VectorXd& masses = system.cloth.masses;
   std::shared_ptr<const StepStart> start;
-  if (values.restitution > 0) {
-    auto rebound = std::make_unique<ReboundFilter<Surface>>(surface, *values.restitution, values.friction, system,
+  if (law.restitution > 0) {
+    auto rebound = std::make_unique<ReboundFilter<Surface>>(surface, *law.restitution, law.friction, system,
                                                             free_vertices(system.cloth));
     start = rebound->start;
     system.filters.push_back(std::move(rebound));
   }
-  if (values.response == Response::implicit_energy) {
-    system.energies.push_back(std::make_unique<PenaltyEnergy<Surface>>(surface, values.stiffness, masses, start));
+  if (law.response == Response::implicit_energy) {
+    system.energies.push_back(std::make_unique<PenaltyEnergy<Surface>>(surface, law.stiffness, masses, start));
   } else {
-    system.forces.push_back(std::make_unique<PenaltyForce<Surface>>(surface, values.stiffness, masses));
+    system.forces.push_back(std::make_unique<PenaltyForce<Surface>>(surface, law.stiffness, masses));
   }
-  if (values.friction > 0 || values.restitution) {
+  if (law.friction > 0 || law.restitution) {
     system.filters.push_back(
-        std::make_unique<ContactFilter<Surface>>(surface, values, free_vertices(system.cloth), start));
+        std::make_unique<ContactFilter<Surface>>(surface, law, free_vertices(system.cloth), start));
   }
 }
 

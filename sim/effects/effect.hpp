@@ -1,43 +1,121 @@
 #pragma once
 
+#include <concepts>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
-
-#include "core/keys.hpp"
-#include "sim/settings.hpp"
-#include "sim/system.hpp"
+#include <utility>
+#include <vector>
 
 namespace drape {
 
-/// Something that acts on the cloth because a scene's table [effects.NAME] asks for it. The object holds what the table
-/// says; `install` turns that into what the schemes evaluate. An effect that no scene table names is never made.
+class Keys;
+struct SimulationSettings;
+struct System;
+
+/// Takes what is wrong with an effect: the key to blame (empty: the whole table) and a sentence, once for each problem.
+using ProblemSink = std::function<void(std::string_view key, const std::string& sentence)>;
+
+/// A type of effect: a struct whose public members say what it is like, with their defaults and units. They are what
+/// a scene's table [effects.NAME] can say, and code writes it as a value, Damping{.factor = 0.2}. It has
+///   static constexpr std::string_view name            the NAME of its table
+///   static constexpr bool repeatable = true           where [[effects.NAME]] may be there several times
+///   void describe(Keys&)                              lists the table's keys; their values are written to the members
+///   void check(const SimulationSettings&, const ProblemSink&) const
+///                                                     says what is wrong with the values taken together and with
+///                                                     everything else, where something can be
+///   void install(System&) const                       adds its forces, springs, energies, filters, corrections and
+///                                                     colliders to the system
+template <class T>
+concept EffectValue = requires(T value, const T& constant, Keys& keys, System& system) {
+  { T::name } -> std::convertible_to<std::string_view>;
+  value.describe(keys);
+  constant.install(system);
+};
+
+/// An effect of any type: something that acts on the cloth. A value like what it holds.
 class Effect {
  public:
-  virtual ~Effect() = default;
+  // Implicit: whatever is an effect can stand where one is taken.
+  template <EffectValue T>
+  Effect(T value) : held_(std::make_unique<Held<T>>(std::move(value))) {}
+  Effect(const Effect& other) : held_(other.held_->copy()) {}
+  Effect(Effect&&) noexcept = default;
+  Effect& operator=(Effect other) noexcept { return std::swap(held_, other.held_), *this; }
+  ~Effect() = default;
 
-  /// Lists the table's keys; their values are written into this object.
-  virtual void describe(Keys& keys) = 0;
+  [[nodiscard]] std::string_view name() const { return held_->name(); }
+  /// The keys' targets are in this object.
+  void describe(Keys& keys) { held_->describe(keys); }
+  void check(const SimulationSettings& settings, const ProblemSink& problem) const { held_->check(settings, problem); }
+  void install(System& system) const { held_->install(system); }
 
-  /// Says what is wrong with the values taken together, once they are all read: calls `problem` with the key to blame
-  /// (empty: the table) and a sentence, once for each problem.
-  using ProblemSink = std::function<void(std::string_view key, const std::string& sentence)>;
-  virtual void check(const SimulationSettings& /*settings*/, const ProblemSink& /*problem*/) const {}
+  /// The effect as what it is, null if it is of another type.
+  template <EffectValue T>
+  [[nodiscard]] const T* as() const {
+    const auto* held = dynamic_cast<const Held<T>*>(held_.get());
+    return held == nullptr ? nullptr : &held->value;
+  }
 
-  /// Adds the effect's forces, energies, corrections and colliders to the system.
-  virtual void install(System& system) const = 0;
+ private:
+  struct Any {
+    virtual ~Any() = default;
+    [[nodiscard]] virtual std::unique_ptr<Any> copy() const = 0;
+    [[nodiscard]] virtual std::string_view name() const = 0;
+    virtual void describe(Keys& keys) = 0;
+    virtual void check(const SimulationSettings& settings, const ProblemSink& problem) const = 0;
+    virtual void install(System& system) const = 0;
+  };
+
+  template <class T>
+  struct Held final : Any {
+    T value;
+
+    explicit Held(T v) : value(std::move(v)) {}
+    [[nodiscard]] std::unique_ptr<Any> copy() const override { return std::make_unique<Held>(value); }
+    [[nodiscard]] std::string_view name() const override { return T::name; }
+    void describe(Keys& keys) override { value.describe(keys); }
+    void check(const SimulationSettings& settings, const ProblemSink& problem) const override {
+      if constexpr (requires { value.check(settings, problem); }) value.check(settings, problem);
+    }
+    void install(System& system) const override { value.install(system); }
+  };
+
+  std::unique_ptr<Any> held_;
 };
 
 /// A row of the registry.
 struct EffectType {
   std::string_view name;
-  bool repeatable;  ///< may be written as [[effects.NAME]] several times
-  std::unique_ptr<Effect> (*make)();
+  bool repeatable;   ///< may be written as [[effects.NAME]] several times
+  Effect (*make)();  ///< with its defaults
 };
 
 /// Every effect there is, in the order in which they are evaluated. The only list of them.
 std::span<const EffectType> effect_types();
+
+/// The effects of a simulation, in the order in which they are evaluated: that of the registry, whatever the order in
+/// which they are added. One of a type that is not in the registry comes where it is added: none moves past it.
+class Effects {
+ public:
+  Effects() = default;
+  Effects(std::initializer_list<Effect> effects) {
+    for (const Effect& effect : effects) add(effect);
+  }
+
+  void add(Effect effect);
+
+  [[nodiscard]] bool empty() const { return effects_.empty(); }
+  [[nodiscard]] std::size_t size() const { return effects_.size(); }
+  const Effect& operator[](std::size_t i) const { return effects_[i]; }
+  [[nodiscard]] auto begin() const { return effects_.begin(); }
+  [[nodiscard]] auto end() const { return effects_.end(); }
+
+ private:
+  std::vector<Effect> effects_;
+};
 
 }  // namespace drape

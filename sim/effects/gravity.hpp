@@ -1,11 +1,19 @@
 #pragma once
 
-#include <memory>
+#include <Eigen/Core>
 
 #include "sim/effects/effect.hpp"
 
 namespace drape {
 
-std::unique_ptr<Effect> make_gravity();
+/// The same acceleration on every vertex, whose potential energy is counted as gravity's.
+struct Gravity {
+  static constexpr std::string_view name = "gravity";
+
+  Eigen::Vector3d acceleration{0, 0, -9.8};  ///< [m/s²]
+
+  void describe(Keys& keys);
+  void install(System& system) const;
+};
 
 }  // namespace drape

@@ -1,11 +1,35 @@
 #pragma once
 
-#include <memory>
+#include <Eigen/Core>
+#include <optional>
 
 #include "sim/effects/effect.hpp"
+#include "sim/effects/response.hpp"
 
 namespace drape {
 
-std::unique_ptr<Effect> make_ground();
+struct ContactLaw;
+
+/// A plane that pushes the cloth out of the half-space below it, as a sphere does.
+struct Ground {
+  static constexpr std::string_view name = "ground";
+  static constexpr bool repeatable = true;
+
+  double height = 0;                                  ///< its distance from the origin along the normal [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< out of it, of any length but 0
+  double thickness = 0.02;                            ///< of the layer above it in which it pushes [m]
+
+  double stiffness = 8000;  ///< of the push [1/s²]
+  Response response = Response::explicit_force;
+  double friction = 0.5;                  ///< Coulomb's coefficient
+  std::optional<double> restitution = 0;  ///< of impacts, 0 to 1; without one the push gives back what it takes
+
+  void describe(Keys& keys);
+  void check(const SimulationSettings& settings, const ProblemSink& problem) const;
+  void install(System& system) const;
+
+ private:
+  [[nodiscard]] ContactLaw law() const;
+};
 
 }  // namespace drape

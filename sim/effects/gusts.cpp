@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/keys.hpp"
+
 namespace drape {
 namespace {
 

@@ -2,16 +2,16 @@
 
 #include <Eigen/Core>
 
-#include "core/keys.hpp"
-
 namespace drape {
+
+class Keys;
 
 /// What the gusts of a wind are like.
 struct GustValues {
-  double speed = 0;     ///< the most that each component of the wind changes by [m/s]
+  double speed = 0;     ///< the most that each component of the wind changes by; 0: there are none [m/s]
   double size = 1;      ///< from one gust to the next, in every direction [m]
   double duration = 1;  ///< of a gust that one moves along with [s]
-  int seed = 1;
+  int seed = 1;         ///< another number gives other gusts
 
   void describe(Keys& keys);
 };

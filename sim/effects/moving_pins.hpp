@@ -1,11 +1,43 @@
 #pragma once
 
-#include <memory>
+#include <optional>
+#include <vector>
 
 #include "sim/effects/effect.hpp"
+#include "sim/keyframes.hpp"
 
 namespace drape {
 
-std::unique_ptr<Effect> make_moving_pins();
+struct Cloth;
+struct PinMotion;
+
+/// Moves pins together on keyframes, lets them go, or both. They start from where the cloth has them at 0 s, do not
+/// turn, and stay at the last keyframe.
+struct MovingPins {
+  static constexpr std::string_view name = "moving_pins";
+  static constexpr bool repeatable = true;
+
+  /// What the value of a keyframe is [m].
+  enum class Path : std::size_t {
+    offset,   ///< how far they are from where they start
+    position  ///< where the middle of all of them is
+  };
+
+  std::vector<int> pins = {};            ///< ascending, each once, and among the cloth's
+  std::vector<Keyframe> keyframes = {};  ///< at increasing times from 0 s on; one at 0 s is where they start
+  Path path = Path::offset;
+  Interpolation interpolation = Interpolation::linear;
+  std::optional<double> release = {};  ///< when they are let go, with the speed that they have [s]; without it never
+
+  void describe(Keys& keys);
+  void check(const SimulationSettings& settings, const ProblemSink& problem) const;
+  void install(System& system) const;
+
+ private:
+  /// The value that a keyframe at 0 s has.
+  [[nodiscard]] Eigen::Vector3d start(const Cloth& cloth) const;
+  [[nodiscard]] PinMotion motion(const Cloth& cloth) const;
+  void check_overlap(const MovingPins& other, const ProblemSink& problem) const;
+};
 
 }  // namespace drape

@@ -6,14 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "sim/effects/touch.hpp"
+#include "sim/effects/surface_contact.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
 
 /// What was at the start of a step.
 struct StepStart {
-  std::vector<bool> outside;  ///< which vertices were beyond a surface's reach
+  std::vector<bool> outside;  ///< which vertices were outside of a surface
   Vertices v;                 ///< [m/s]
 
   explicit StepStart(const Cloth& cloth)
@@ -40,7 +40,7 @@ class VelocityChanges {
   std::vector<Change> changes_;
 };
 
-/// Newton's law of impact: a vertex that would come within a surface's reach in this step leaves it with the share e of
+/// Newton's law of impact: a vertex that would come into a surface in this step leaves it with the share e of
 /// the speed at which it arrives, and friction takes at most µ(1 + e) times that speed from the one along the surface.
 ///
 /// A velocity of the schemes is the mean over the step that leads there, so under gravity alone, g, the vertices
@@ -72,8 +72,10 @@ struct ReboundFilter final : MotionFilter {
 
   void begin(const State& state, double time) override {
     const auto now = surface.at(time);
-    Touch touch;
-    for (const int i : free) start->outside[static_cast<std::size_t>(i)] = !now.find(state.x.row(i).transpose(), touch);
+    SurfaceContact contact;
+    for (const int i : free) {
+      start->outside[static_cast<std::size_t>(i)] = !now.find(state.x.row(i).transpose(), contact);
+    }
     start->v = state.v;
   }
 
@@ -81,14 +83,14 @@ struct ReboundFilter final : MotionFilter {
     turns_.clear();
     const auto before = surface.at(time), after = surface.at(time + h);
     const Eigen::Vector3d drift = surface.displacement(time, time + h) / h;
-    Touch touch;
+    SurfaceContact contact;
     for (const int i : free) {
       if (!start->was_outside(i)) continue;
       const Eigen::Vector3d from = x.row(i).transpose(), mean = v.row(i).transpose();
-      if (!after.find(from + h * mean, touch)) continue;
-      // The clearance on the way there is c + b·t + fall/2·t².
-      const double fall = gravity.dot(touch.normal()), c = std::max(0.0, before.clearance(from));
-      const double b = (-touch.depth - c) / h - 0.5 * fall * h;
+      if (!after.find(from + h * mean, contact)) continue;
+      // The gap on the way there is c + b·t + fall/2·t².
+      const double fall = gravity.dot(contact.normal()), c = std::max(0.0, before.gap(from));
+      const double b = (contact.gap - c) / h - 0.5 * fall * h;
       const double steepness = std::sqrt(std::max(0.0, b * b - 2 * fall * c)) - b;
       const double hit = steepness > 0 ? std::min(h, 2 * c / steepness) : h;
       const Eigen::Vector3d place = from + hit * (mean + 0.5 * (hit - h) * gravity);
@@ -114,11 +116,11 @@ struct ReboundFilter final : MotionFilter {
   void finish(Vertices& v) override { turns_.apply(v); }
 
  private:
-  /// What leaves is out of reach at the end of the step, whatever rounding and curvature say: within reach it would
-  /// count as what lies there.
+  /// What leaves is outside at the end of the step, whatever rounding and curvature say: inside it would count as what
+  /// lies there.
   template <class Shape>
   static void clear(const Shape& shape, double margin, Eigen::Vector3d& point) {
-    const double missing = margin - shape.clearance(point);
+    const double missing = margin - shape.gap(point);
     if (missing > 0) point += missing * shape.normal(point);
   }
 

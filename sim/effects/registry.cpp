@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "sim/effects/effect.hpp"
 #include "sim/effects/gravity.hpp"
 
@@ -14,23 +16,47 @@
 #endif
 
 namespace drape {
+namespace {
+
+template <class T>
+constexpr EffectType row() {
+  constexpr bool repeatable = requires { requires T::repeatable; };
+  return {T::name, repeatable, [] { return Effect(T{}); }};
+}
+
+/// Its place in the registry; the number of all for one that is not there.
+std::size_t rank(const Effect& effect) {
+  const auto types = effect_types();
+  return static_cast<std::size_t>(std::ranges::find(types, effect.name(), &EffectType::name) - types.begin());
+}
+
+}  // namespace
 
 std::span<const EffectType> effect_types() {
   static constexpr EffectType types[] = {
-      {"gravity", false, make_gravity},
+      // clang-format off
+      row<Gravity>(),
 #ifndef DRAPE_ONLY_GRAVITY
-      {"wind", false, make_wind},
-      {"air", false, make_air},
-      {"bending", false, make_bending},
-      {"moving_pins", true, make_moving_pins},
-      {"sphere", true, make_sphere},
-      {"ground", true, make_ground},
-      {"strain_limit", false, make_strain_limit},
-      {"self_collision", false, make_self_collision},
-      {"damping", false, make_damping},
+      row<Wind>(),
+      row<Air>(),
+      row<Bending>(),
+      row<MovingPins>(),
+      row<Sphere>(),
+      row<Ground>(),
+      row<StrainLimit>(),
+      row<SelfCollision>(),
+      row<Damping>(),
 #endif
+      // clang-format on
   };
   return types;
+}
+
+void Effects::add(Effect effect) {
+  const std::size_t unlisted = effect_types().size(), wanted = rank(effect);
+  auto place = effects_.end();
+  while (place != effects_.begin() && rank(place[-1]) != unlisted && rank(place[-1]) > wanted) --place;
+  effects_.insert(place, std::move(effect));
 }
 
 }  // namespace drape

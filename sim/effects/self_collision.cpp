@@ -2,53 +2,43 @@
 
 #include <fmt/format.h>
 
+#include "core/keys.hpp"
 #include "sim/collision/intersection.hpp"
 #include "sim/collision/self_contact.hpp"
+#include "sim/settings.hpp"
 
 namespace drape {
-namespace {
 
-class SelfCollision final : public Effect {
- public:
-  void describe(Keys& keys) override {
-    keys.add("thickness", &values_.thickness, "m", "Distance that layers of the cloth keep.").above(0);
-    keys.add("repulsion", &values_.repulsion, "1/s",
-             "Which part of what is missing to that distance they part by in a second, at first.")
-        .at_least(0);
-    keys.add("friction", &values_.friction, "", "Coefficient of Coulomb friction between layers.").at_least(0);
-    keys.add(
-            "iterations", &values_.iterations, "",
-            "Passes over the contacts in a step, and over the collisions before what is left becomes rigid for a step.")
-        .at_least(1);
+void SelfCollision::describe(Keys& keys) {
+  keys.add("thickness", &thickness, "m", "Distance that layers of the cloth keep.").above(0);
+  keys.add("repulsion", &repulsion, "1/s",
+           "Which part of what is missing to that distance they part by in a second, at first.")
+      .at_least(0);
+  keys.add("friction", &friction, "", "Coefficient of Coulomb friction between layers.").at_least(0);
+  keys.add("iterations", &iterations, "",
+           "Passes over the contacts in a step, and over the collisions before what is left becomes rigid for a step.")
+      .at_least(1);
+}
+
+void SelfCollision::check(const SimulationSettings& settings, const ProblemSink& problem) const {
+  const Vertices& x = settings.cloth.positions;
+  const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
+  // Everything would touch everything, in a time that grows with the square of the mesh's size.
+  if (thickness > size) {
+    problem("thickness", fmt::format("expected less than the size of the whole cloth at its start, {:g} m, found {:g}",
+                                     size, thickness));
+    return;
   }
-  void check(const SimulationSettings& settings, const ProblemSink& problem) const override {
-    const Vertices& x = settings.cloth.positions;
-    const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
-    // Everything would touch everything, in a time that grows with the square of the mesh's size.
-    if (values_.thickness > size) {
-      problem("thickness",
-              fmt::format("expected less than the size of the whole cloth at its start, {:g} m, found {:g}", size,
-                          values_.thickness));
-      return;
-    }
-    const auto found = find_intersection(settings.cloth.triangles, x);
-    if (!found) return;
-    const auto& [edge, triangle] = *found;
-    problem("",
-            fmt::format("the cloth starts through itself, where neither side is the right one: the edge between the "
-                        "vertices {} and {} passes through the triangle {}, {}, {}",
-                        edge[0], edge[1], triangle[0], triangle[1], triangle[2]));
-  }
-  void install(System& system) const override {
-    system.filters.push_back(std::make_unique<SelfContact>(values_, system.cloth));
-  }
+  const auto found = find_intersection(settings.cloth.triangles, x);
+  if (!found) return;
+  const auto& [edge, triangle] = *found;
+  problem("", fmt::format("the cloth starts through itself, where neither side is the right one: the edge between the "
+                          "vertices {} and {} passes through the triangle {}, {}, {}",
+                          edge[0], edge[1], triangle[0], triangle[1], triangle[2]));
+}
 
- private:
-  SelfContactValues values_;
-};
-
-}  // namespace
-
-std::unique_ptr<Effect> make_self_collision() { return std::make_unique<SelfCollision>(); }
+void SelfCollision::install(System& system) const {
+  system.filters.push_back(std::make_unique<SelfContact>(*this, system.cloth));
+}
 
 }  // namespace drape

@@ -1,11 +1,50 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "sim/effects/effect.hpp"
+#include "sim/effects/response.hpp"
+#include "sim/keyframes.hpp"
+#include "sim/sphere_track.hpp"
 
 namespace drape {
 
-std::unique_ptr<Effect> make_sphere();
+struct ContactLaw;
+
+/// A sphere that pushes the cloth out of it with the acceleration stiffness·(scale·radius − ‖x − center‖), the
+/// homework's penalty. It rests at `center`, or moves in one of four ways: straight on, on an orbit, on keyframes, or
+/// on a track.
+struct Sphere {
+  static constexpr std::string_view name = "sphere";
+  static constexpr bool repeatable = true;
+
+  std::optional<Eigen::Vector3d> center = {};  ///< at 0 s [m]; without one, keyframes or a track say where it is
+  std::optional<double> radius = {};           ///< as it is drawn, above 0 [m]; may be left to a track
+  double scale = 1.1;                          ///< it pushes within scale·radius of the centre; at least 1
+
+  double stiffness = 8000;  ///< of the push [1/s²]
+  Response response = Response::explicit_force;
+  double friction = 0;                     ///< Coulomb's coefficient
+  std::optional<double> restitution = {};  ///< of impacts, 0 to 1; without one the push gives back what it takes
+
+  std::optional<Eigen::Vector3d> velocity = {};   ///< straight on [m/s]
+  std::optional<double> orbit_period = {};        ///< of a turn, not 0; negative: the other way round [s]
+  Eigen::Vector3d orbit_center = Orbit{}.center;  ///< a point of the axis [m]
+  Eigen::Vector3d orbit_axis = Orbit{}.axis;      ///< of any length but 0; counterclockwise seen from its tip
+  std::vector<Keyframe> keyframes = {};           ///< of the centre, at increasing times from 0 s on [s, m]
+  Interpolation interpolation = Interpolation::linear;
+  std::shared_ptr<const SphereTrack> track = {};  ///< place and, unless `radius` is given, size
+
+  void describe(Keys& keys);
+  void check(const SimulationSettings& settings, const ProblemSink& problem) const;
+  void install(System& system) const;
+
+ private:
+  [[nodiscard]] ContactLaw law() const;
+  [[nodiscard]] std::shared_ptr<const SphereTrack> motion() const;
+};
 
 }  // namespace drape

@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include <fmt/format.h>
 
+#include "core/keys.hpp"
+#include "sim/settings.hpp"
+#include "sim/system.hpp"
+
 namespace drape {
 namespace {
-
-struct Limits {
-  double max_stretch = 1.1;
-  std::optional<double> min_stretch;
-  int iterations = 1000;
-  double tolerance = 1e-3;
-};
 
 // How far a sweep goes beyond what each spring alone would need, which carries a load across the cloth in few sweeps.
 constexpr double over_relaxation = 1.8;
@@ -33,9 +29,9 @@ constexpr double least_cosine = 0.9;
 /// momentum Σ m x × v. So at first they are kept along the springs as they are when the step starts, which keeps both
 /// momenta to rounding; a spring for which that does not do, since it turns by more than 25° in the step or the others
 /// have not settled after the early sweeps, gives up this restriction, and nothing else, for the rest of the step.
-class StrainLimit final : public MotionFilter {
+class StrainFilter final : public MotionFilter {
  public:
-  StrainLimit(const Limits& limits, const Cloth& cloth) : limits_(limits), weight_(cloth.masses.cwiseInverse()) {
+  StrainFilter(const StrainLimit& limits, const Cloth& cloth) : limits_(limits), weight_(cloth.masses.cwiseInverse()) {
     for (const int pin : cloth.pins) weight_[pin] = 0;
     for (const Spring& s : cloth.springs) {
       if (weight_[s.i] + weight_[s.j] == 0 || s.rest_length == 0) continue;
@@ -130,63 +126,54 @@ class StrainLimit final : public MotionFilter {
     });
   }
 
-  Limits limits_;
+  StrainLimit limits_;
   Eigen::VectorXd weight_;  // 1/m, 0 for a pin [1/kg]
   std::vector<Limited> limited_;
   Vertices target_;  // where the step would end
   bool converged_ = true;
 };
 
-class StrainLimitEffect final : public Effect {
- public:
-  void describe(Keys& keys) override {
-    keys.add("max_stretch", &limits_.max_stretch, "",
-             "Longest that an edge may become, in multiples of its rest length.")
-        .at_least(1);
-    keys.add("min_stretch", &limits_.min_stretch, "",
-             "Shortest that it may become, likewise. Without it there is no such limit.")
-        .at_least(0)
-        .at_most(1);
-    keys.add("iterations", &limits_.iterations, "",
-             "Sweeps over the edges in a step, at most; a step that needs more counts as not converged.")
-        .at_least(1);
-    keys.add("tolerance", &limits_.tolerance, "", "By which fraction a limit may be exceeded.").above(0);
-  }
-
-  void check(const SimulationSettings& settings, const ProblemSink& problem) const override {
-    const Cloth& cloth = settings.cloth;
-    std::vector<bool> pinned(static_cast<std::size_t>(cloth.vertex_count()), false);
-    for (const int pin : cloth.pins) pinned[static_cast<std::size_t>(pin)] = true;
-    for (const Spring& s : cloth.springs) {
-      if (pinned[static_cast<std::size_t>(s.i)] && pinned[static_cast<std::size_t>(s.j)]) continue;
-      const double stretch = (cloth.positions.row(s.i) - cloth.positions.row(s.j)).norm() / s.rest_length;
-      const double slack = limits_.tolerance;
-      if (stretch > limits_.max_stretch * (1 + slack)) {
-        return problem("max_stretch", message("above", limits_.max_stretch, s, stretch));
-      }
-      if (stretch < limits_.min_stretch.value_or(0) * (1 - slack)) {
-        return problem("min_stretch", message("below", *limits_.min_stretch, s, stretch));
-      }
-    }
-  }
-
-  void install(System& system) const override {
-    system.filters.push_back(std::make_unique<StrainLimit>(limits_, system.cloth));
-  }
-
- private:
-  static std::string message(const char* side, double limit, const Spring& s, double stretch) {
-    return fmt::format(
-        "the cloth starts beyond the limit, from where one step would throw it back: the edge between the vertices {} "
-        "and {} is {:.4g} times as long as at rest, {} {:g}",
-        s.i, s.j, stretch, side, limit);
-  }
-
-  Limits limits_;
-};
+/// That an edge starts beyond a limit.
+std::string beyond(const char* side, double limit, const Spring& s, double stretch) {
+  return fmt::format(
+      "the cloth starts beyond the limit, from where one step would throw it back: the edge between the vertices {} "
+      "and {} is {:.4g} times as long as at rest, {} {:g}",
+      s.i, s.j, stretch, side, limit);
+}
 
 }  // namespace
 
-std::unique_ptr<Effect> make_strain_limit() { return std::make_unique<StrainLimitEffect>(); }
+void StrainLimit::describe(Keys& keys) {
+  keys.add("max_stretch", &max_stretch, "", "Longest that an edge may become, in multiples of its rest length.")
+      .at_least(1);
+  keys.add("min_stretch", &min_stretch, "", "Shortest that it may become, likewise. Without it there is no such limit.")
+      .at_least(0)
+      .at_most(1);
+  keys.add("iterations", &iterations, "",
+           "Sweeps over the edges in a step, at most; a step that needs more counts as not converged.")
+      .at_least(1);
+  keys.add("tolerance", &tolerance, "", "By which fraction a limit may be exceeded.").above(0);
+}
+
+void StrainLimit::check(const SimulationSettings& settings, const ProblemSink& problem) const {
+  const Cloth& cloth = settings.cloth;
+  std::vector<bool> pinned(static_cast<std::size_t>(cloth.vertex_count()), false);
+  for (const int pin : cloth.pins) pinned[static_cast<std::size_t>(pin)] = true;
+  for (const Spring& s : cloth.springs) {
+    if (pinned[static_cast<std::size_t>(s.i)] && pinned[static_cast<std::size_t>(s.j)]) continue;
+    const double stretch = (cloth.positions.row(s.i) - cloth.positions.row(s.j)).norm() / s.rest_length;
+    const double slack = tolerance;
+    if (stretch > max_stretch * (1 + slack)) {
+      return problem("max_stretch", beyond("above", max_stretch, s, stretch));
+    }
+    if (stretch < min_stretch.value_or(0) * (1 - slack)) {
+      return problem("min_stretch", beyond("below", *min_stretch, s, stretch));
+    }
+  }
+}
+
+void StrainLimit::install(System& system) const {
+  system.filters.push_back(std::make_unique<StrainFilter>(*this, system.cloth));
+}
 
 }  // namespace drape

@@ -1,12 +1,24 @@
 #pragma once
 
-#include <memory>
+#include <optional>
+#include <string>
 
 #include "sim/effects/effect.hpp"
 
 namespace drape {
 
-/// Keeps every edge of the cloth from being stretched, or compressed, beyond a limit.
-std::unique_ptr<Effect> make_strain_limit();
+/// Keeps the cloth's edges from becoming longer, or shorter, than a multiple of their rest length.
+struct StrainLimit {
+  static constexpr std::string_view name = "strain_limit";
+
+  double max_stretch = 1.1;                ///< longest, in rest lengths; at least 1
+  std::optional<double> min_stretch = {};  ///< shortest, likewise, from 0 to 1; without it there is no such limit
+  int iterations = 1000;                   ///< sweeps over the edges in a step, at most
+  double tolerance = 1e-3;                 ///< by which fraction a limit may be exceeded
+
+  void describe(Keys& keys);
+  void check(const SimulationSettings& settings, const ProblemSink& problem) const;
+  void install(System& system) const;
+};
 
 }  // namespace drape

@@ -1,11 +1,19 @@
 #pragma once
 
-#include <memory>
+#include <Eigen/Core>
 
 #include "sim/effects/effect.hpp"
 
 namespace drape {
 
-std::unique_ptr<Effect> make_wind();
+/// The same acceleration on every vertex, as the homework has it: a second gravity. What moving air does is Air.
+struct Wind {
+  static constexpr std::string_view name = "wind";
+
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< [m/s²]
+
+  void describe(Keys& keys);
+  void install(System& system) const;
+};
 
 }  // namespace drape

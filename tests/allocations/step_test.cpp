@@ -7,6 +7,13 @@
 #include <atomic>
 #include <cstdlib>
 
+#include "sim/effects/air.hpp"
+#include "sim/effects/bending.hpp"
+#include "sim/effects/ground.hpp"
+#include "sim/effects/moving_pins.hpp"
+#include "sim/effects/self_collision.hpp"
+#include "sim/effects/strain_limit.hpp"
+#include "sim/effects/wind.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
@@ -72,25 +79,27 @@ INSTANTIATE_TEST_SUITE_P(Of, Allocations, testing::ValuesIn(all_methods), method
 
 SimulationSettings falling(Solver solver) {
   SimulationSettings settings = setup(cloth_of(make_grid(10, 10), 1, 100, {0, 10}), solver, 0.005);
-  settings.effects = {effect("gravity")};
+  settings.effects = {Gravity{}};
   return settings;
 }
 
 /// Every effect there is, spheres and pins that move included.
 SimulationSettings eventful(Solver solver) {
   SimulationSettings settings = falling(solver);
-  const KeyframesValue path{"offset", {{1, {0, 0, 0.2}}, {2, {0.1, 0, 0}}}};
   const bool implicit = solver.method != Method::semi_implicit;
-  const std::string response = implicit ? "implicit" : "explicit";
-  settings.effects.insert(
-      settings.effects.end(),
-      {effect("wind", {{"acceleration", Vector3d(1, 0, 0)}}),
-       effect("air", {{"velocity", Vector3d(1, 2, 0)}, {"gust", 1.0}}),
-       effect("moving_pins", {{"pins", std::vector{0, 10}}, {"keyframes", path}, {"interpolation", "smooth"}}),
-       effect("sphere", {{"center", Vector3d(0, 0, -0.3)}, {"radius", 0.3}, {"response", response}, {"friction", 0.3}}),
-       effect("ground", {{"height", -0.05}, {"response", response}, {"restitution", 0.5}}),
-       effect("damping", {{"factor", 0.5}}), effect("bending", {{"rigidity", 1e-4}, {"cross_stiffness", 1.0}}),
-       effect("strain_limit", {{"max_stretch", 1.1}}), effect("self_collision", {{"thickness", 0.02}})});
+  const Response response = implicit ? Response::implicit_energy : Response::explicit_force;
+  settings.effects = {
+      Gravity{},
+      Wind{.acceleration = {1, 0, 0}},
+      Air{.velocity = {1, 2, 0}, .gusts = {.speed = 1}},
+      Bending{.rigidity = 1e-4, .cross_stiffness = 1},
+      MovingPins{
+          .pins = {0, 10}, .keyframes = {{1, {0, 0, 0.2}}, {2, {0.1, 0, 0}}}, .interpolation = Interpolation::smooth},
+      Sphere{.center = Vector3d(0, 0, -0.3), .radius = 0.3, .response = response, .friction = 0.3},
+      Ground{.height = -0.05, .response = response, .restitution = 0.5},
+      StrainLimit{.max_stretch = 1.1},
+      SelfCollision{.thickness = 0.02},
+      Damping{.factor = 0.5}};
   return settings;
 }
 

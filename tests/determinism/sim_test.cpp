@@ -16,7 +16,7 @@ constexpr int steps = 30;
 SimulationSettings scene(Solver solver) {
   SimulationSettings settings = setup(cloth_of(make_grid(12, 12), 1, 60, {0, 12}), solver, 0.002);
   settings.cloth.velocities.rowwise() = Eigen::RowVector3d(0.5, 0, -6);  // reaches the sphere within the run
-  settings.effects = {effect("gravity"), homework_sphere(), homework_damping()};
+  settings.effects = {Gravity{}, homework_sphere(), homework_damping()};
   return settings;
 }
 

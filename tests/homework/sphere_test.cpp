@@ -37,7 +37,7 @@ testing::AssertionResult lies_on_sphere(const Vertices& x) {
 
 SimulationSettings table2(Method method, double step) {
   SimulationSettings settings = homework(method, step, 180);
-  settings.effects.push_back(homework_sphere());
+  settings.effects.add(homework_sphere());
   return settings;
 }
 
@@ -58,7 +58,7 @@ void expect_covered_to_the_end(SimulationSettings settings, int steps) {
 
 TEST(Table2, SemiImplicitKeepsTheClothOnTheSphere) {
   SimulationSettings settings = table2(Method::semi_implicit, 0.001);
-  settings.effects.push_back(homework_damping());
+  settings.effects.add(homework_damping());
   expect_covered_to_the_end(settings, homework_small_steps);
 }
 

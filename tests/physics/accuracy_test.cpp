@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/effects/wind.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/plain_springs.hpp"
 #include "tests/support/setups.hpp"
@@ -33,8 +34,7 @@ TEST_P(Accuracy, ErrorHalvesWithTheStep) {
     settings.integrator.stop = StoppingRule::gradient;
     settings.integrator.tolerance = 1e-8;
     settings.integrator.max_iterations = 1000;
-    settings.effects = {effect("gravity"), effect("wind", {{"acceleration", wind}}),
-                        effect("damping", {{"factor", damping}})};
+    settings.effects = {Gravity{}, Wind{.acceleration = wind}, Damping{.factor = damping}};
     Simulation simulation(settings);
     for (int step = 0; step < steps; ++step) simulation.step();
     return (simulation.state().x - exact.x).norm();

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "sim/effects/air.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
@@ -17,8 +18,8 @@ INSTANTIATE_TEST_SUITE_P(With, Air, testing::ValuesIn(all_methods), method_name)
 
 constexpr double density = 1.2, drag = 1.1, lift = 0.5;
 
-ActiveEffect air(const Vector3d& velocity = Vector3d::Zero(), double gust = 0) {
-  return effect("air", {{"velocity", velocity}, {"density", density}, {"drag", drag}, {"lift", lift}, {"gust", gust}});
+drape::Air air(const Vector3d& velocity = Vector3d::Zero(), double gust = 0) {
+  return {.velocity = velocity, .density = density, .drag = drag, .lift = lift, .gusts = {.speed = gust}};
 }
 
 /// A flat sheet of 2 m × 2 m whose vertices have the masses of their share of its area, so that the air and gravity
@@ -36,7 +37,7 @@ RowVector3d mean_velocity(const State& state) { return state.v.colwise().mean();
 
 TEST_P(Air, AFlatSheetFallsAtItsTerminalVelocity) {
   SimulationSettings settings = setup(even_sheet(0.4), GetParam(), 0.01);
-  settings.effects = {effect("gravity"), air()};
+  settings.effects = {Gravity{}, air()};
   Simulation simulation(settings);
   const double area = 4, terminal = std::sqrt(2 * 0.4 * 9.8 / (density * area * drag));
   for (int step = 0; step < 400; ++step) simulation.step();
@@ -46,7 +47,7 @@ TEST_P(Air, AFlatSheetFallsAtItsTerminalVelocity) {
 // m v̇ = m g − ρ A C v²/2, v(t) = v_∞ tanh(g t/v_∞)
 TEST_P(Air, OnItsWayThereItFollowsTheHyperbolicTangent) {
   SimulationSettings settings = setup(even_sheet(0.4), GetParam(), 0.0005);
-  settings.effects = {effect("gravity"), air()};
+  settings.effects = {Gravity{}, air()};
   Simulation simulation(settings);
   const double terminal = std::sqrt(2 * 0.4 * 9.8 / (density * 4 * drag));
   for (int step = 0; step < 200; ++step) simulation.step();
@@ -128,7 +129,7 @@ TEST(AirBound, OneTriangleIsStoppedAndNotBlownBack) {
 
 TEST_P(Air, GustsBlowTheSameWayEveryTime) {
   SimulationSettings settings = setup(cloth_of(make_grid(6, 6), 0.3, 40, {0, 6}), GetParam(), 0.005);
-  settings.effects = {effect("gravity"), air({4, 0, 0}, 2)};
+  settings.effects = {Gravity{}, air({4, 0, 0}, 2)};
   Simulation a(settings), b(settings);
   for (int step = 0; step < 40; ++step) {
     a.step();
@@ -136,7 +137,7 @@ TEST_P(Air, GustsBlowTheSameWayEveryTime) {
     if (step > 20) b.step();
   }
   EXPECT_TRUE(same_bits(a.state().x, b.state().x));
-  settings.effects.back() = air({4, 0, 0}, 0);
+  settings.effects = {Gravity{}, air({4, 0, 0}, 0)};
   Simulation steady(settings);
   for (int step = 0; step < 40; ++step) steady.step();
   EXPECT_GT((steady.state().x - a.state().x).norm(), 1e-3);
@@ -144,8 +145,8 @@ TEST_P(Air, GustsBlowTheSameWayEveryTime) {
 
 TEST(AirChecks, LiftNeedsDrag) {
   const SimulationSettings settings = setup(even_sheet(1), Method::liu13, 0.01);
-  EXPECT_EQ(problems(effect("air", {{"drag", 0.0}}), settings).size(), 1U);
-  EXPECT_TRUE(problems(effect("air", {{"drag", 0.0}, {"lift", 0.0}}), settings).empty());
+  EXPECT_EQ(problems(drape::Air{.drag = 0}, settings).size(), 1U);
+  EXPECT_TRUE(problems(drape::Air{.drag = 0, .lift = 0}, settings).empty());
 }
 
 }  // namespace

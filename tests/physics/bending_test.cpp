@@ -8,6 +8,7 @@
 
 #include "sim/bending/bending_energy.hpp"
 #include "sim/bending/hinges.hpp"
+#include "sim/effects/bending.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "tests/support/meshes.hpp"
@@ -151,7 +152,7 @@ TEST(Hinges, OfThreeSheetsAtAnEdgeAreTheirThreePairs) {
 // Semi-implicit Euler evaluates the energy as a force: its safe step has to know.
 TEST(SafeStep, IncludesBending) {
   SimulationSettings settings = setup(cloth_of(make_grid(20, 20), 1, 1e-3, {0, 20}), Method::semi_implicit, 1);
-  settings.effects = {effect("bending", {{"rigidity", 1.0}})};
+  settings.effects = {Bending{.rigidity = 1}};
   const double safe = safe_step(make_system(settings));
   const auto grows = [&](double step) {
     settings.step = step;
@@ -195,8 +196,7 @@ TEST_P(BentStrip, SinksAsABeamDoes) {
   const double bending = load * std::pow(length, 4) / (8 * sag);
   const double tip_load = g * mass / (columns + 1) / 2 / width;  // the tip's mass is half a cell's too much
   const double expected = sag + tip_load * std::pow(length, 3) / (3 * bending);
-  settings.effects = {effect("gravity"), effect("bending", {{"rigidity", bending}}),
-                      effect("damping", {{"factor", 1e-9}})};
+  settings.effects = {Gravity{}, Bending{.rigidity = bending}, Damping{.factor = 1e-9}};
   if (GetParam().method == Method::semi_implicit) settings.step = 0.95 * safe_step(make_system(settings));
   Simulation simulation(settings);
   while (simulation.time() < 2) simulation.step();
@@ -212,7 +212,7 @@ TEST(BentStrip, WouldHangWithoutResistance) {
   std::vector<int> clamp;
   for (int j = 0; j <= 3; ++j) clamp.insert(clamp.end(), {j * 25, j * 25 + 1});
   SimulationSettings settings = setup(cloth_of(mesh, 0.05, 200, clamp), Method::implicit, 0.01);
-  settings.effects = {effect("gravity"), effect("damping", {{"factor", 0.01}})};
+  settings.effects = {Gravity{}, Damping{.factor = 0.01}};
   Simulation simulation(settings);
   while (simulation.time() < 4) simulation.step();
   EXPECT_LT(simulation.state().x(24, 2), -1.8);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/effects/response.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {
@@ -13,22 +14,27 @@ namespace drape::test {
 /// A method, and how a surface's push enters its steps.
 struct ContactCase {
   NamedMethod method;
-  std::string response;
+  Response response;
 };
-inline void PrintTo(const ContactCase& c, std::ostream* out) { *out << c.method.name << " " << c.response; }
+inline std::string response_name(Response response) {
+  return response == Response::explicit_force ? "explicit" : "implicit";
+}
+inline void PrintTo(const ContactCase& c, std::ostream* out) {
+  *out << c.method.name << " " << response_name(c.response);
+}
 
 inline std::vector<ContactCase> contact_cases() {
   std::vector<ContactCase> all;
   for (const NamedMethod& method : all_methods) {
-    all.push_back({method, "explicit"});
-    if (method.method != Method::semi_implicit) all.push_back({method, "implicit"});
+    all.push_back({method, Response::explicit_force});
+    if (method.method != Method::semi_implicit) all.push_back({method, Response::implicit_energy});
   }
   return all;
 }
 
 /// Ends the name of a parametrised test with the method's and the response's.
 inline std::string contact_case_name(const testing::TestParamInfo<ContactCase>& info) {
-  return std::string(info.param.method.name) + "_" + info.param.response;
+  return std::string(info.param.method.name) + "_" + response_name(info.param.response);
 }
 
 /// Vertices that no spring joins, of masses from 0.5 to 2 kg.

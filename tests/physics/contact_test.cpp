@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "sim/effects/ground.hpp"
 #include "sim/simulation.hpp"
 #include "tests/physics/contact_cases.hpp"
 
@@ -25,18 +26,17 @@ class Contact : public testing::TestWithParam<ContactCase> {
     SimulationSettings result = setup(std::move(cloth), GetParam().method, step);
     result.integrator.tolerance = 1e-13;
     result.integrator.max_iterations = 2000;
-    result.effects = {effect("gravity")};
+    result.effects = {Gravity{}};
     return result;
   }
 
   /// A ground that goes down by tan θ along x, through the origin.
-  ActiveEffect slope(double tangent, double friction) const {
-    return effect("ground", {{"height", 0.0},
-                             {"normal", Vector3d(tangent, 0, 1)},
-                             {"thickness", thickness},
-                             {"stiffness", stiffness},
-                             {"response", GetParam().response},
-                             {"friction", friction}});
+  Ground slope(double tangent, double friction) const {
+    return {.normal = Vector3d(tangent, 0, 1),
+            .thickness = thickness,
+            .stiffness = stiffness,
+            .response = GetParam().response,
+            .friction = friction};
   }
 };
 INSTANTIATE_TEST_SUITE_P(With, Contact, testing::ValuesIn(contact_cases()), contact_case_name);
@@ -53,7 +53,7 @@ Cloth resting_on(double tangent) {
 
 TEST_P(Contact, WhatRestsOnASlopeWithinTheFrictionConeStays) {
   SimulationSettings s = settings(resting_on(0.5), 0.01);
-  s.effects.push_back(slope(0.5, 0.5 * (1 + 1e-9)));
+  s.effects.add(slope(0.5, 0.5 * (1 + 1e-9)));
   Simulation simulation(s);
   for (int step = 0; step < 300; ++step) simulation.step();
   EXPECT_LT((simulation.state().x - s.cloth.positions).norm(), 1e-12);
@@ -62,7 +62,7 @@ TEST_P(Contact, WhatRestsOnASlopeWithinTheFrictionConeStays) {
 TEST_P(Contact, BeyondTheFrictionConeItSlides) {
   const double tangent = 0.5, friction = 0.3;
   SimulationSettings s = settings(resting_on(tangent), 0.01);
-  s.effects.push_back(slope(tangent, friction));
+  s.effects.add(slope(tangent, friction));
   Simulation simulation(s);
   for (int step = 0; step < 100; ++step) simulation.step();
   const double sine = tangent / std::hypot(1, tangent), cosine = 1 / std::hypot(1, tangent);
@@ -74,7 +74,7 @@ TEST_P(Contact, BeyondTheFrictionConeItSlides) {
 TEST_P(Contact, ASlidingVertexIsStoppedAndNotTurnedBack) {
   SimulationSettings s = settings(resting_on(0), 0.01);
   s.cloth.velocities.row(0) << 1, -1, 0;
-  s.effects.push_back(slope(0, 0.4));
+  s.effects.add(slope(0, 0.4));
   Simulation simulation(s);
   const double stop = std::sqrt(2.0) / (0.4 * g);  // [s]
   for (int step = 0; step < 20; ++step) simulation.step();
@@ -95,7 +95,7 @@ TEST_P(Contact, AClothStaysOnASlopeAsAWhole) {
             .transpose();
   }
   SimulationSettings s = settings(cloth, 0.005);
-  s.effects.push_back(slope(tangent, 0.31));
+  s.effects.add(slope(tangent, 0.31));
   Simulation simulation(s);
   for (int step = 0; step < 100; ++step) simulation.step();
   EXPECT_LT((simulation.state().x - cloth.positions).cwiseAbs().maxCoeff(), 1e-9);
@@ -105,33 +105,33 @@ TEST_P(Contact, PinsAreNotMovedByFriction) {
   Cloth cloth = resting_on(0.5);
   cloth.pins = {0};
   SimulationSettings s = settings(cloth, 0.01);
-  s.effects.push_back(slope(0.5, 0.8));
+  s.effects.add(slope(0.5, 0.8));
   Simulation simulation(s);
   for (int step = 0; step < 10; ++step) simulation.step();
   EXPECT_TRUE(same_bits(simulation.state().x, cloth.positions));
 }
 
 /// A huge ball under a vertex that rests on it, moving along x.
-ActiveEffect moving_floor(const std::string& response, double friction) {
-  return effect("sphere", {{"center", Vector3d(0, 0, -1e4)},
-                           {"radius", 1e4},
-                           {"scale", 1.0},
-                           {"stiffness", stiffness},
-                           {"response", response},
-                           {"velocity", Vector3d(1.5, 0, 0)},
-                           {"friction", friction}});
+Sphere moving_floor(Response response, double friction) {
+  return {.center = Vector3d(0, 0, -1e4),
+          .radius = 1e4,
+          .scale = 1,
+          .stiffness = stiffness,
+          .response = response,
+          .friction = friction,
+          .velocity = Vector3d(1.5, 0, 0)};
 }
 
 TEST_P(Contact, AMovingSphereCarriesAlongWhatLiesOnIt) {
   SimulationSettings s = settings(loose(RowVector3d(0, 0, -g / stiffness)), 0.01);
-  s.effects.push_back(moving_floor(GetParam().response, 0.5));
+  s.effects.add(moving_floor(GetParam().response, 0.5));
   Simulation simulation(s);
   for (int step = 0; step < 10; ++step) simulation.step();
   EXPECT_NEAR(simulation.state().v(0, 0), 0.5 * g * 0.1, 1e-4);  // µ g t
   for (int step = 10; step < 60; ++step) simulation.step();
   EXPECT_NEAR(simulation.state().v(0, 0), 1.5, 1e-4);
 
-  s.effects.back() = moving_floor(GetParam().response, 0);
+  s.effects = {Gravity{}, moving_floor(GetParam().response, 0)};
   Simulation slippery(s);
   for (int step = 0; step < 60; ++step) slippery.step();
   EXPECT_NEAR(slippery.state().v(0, 0), 0, 1e-3);
@@ -140,15 +140,14 @@ TEST_P(Contact, AMovingSphereCarriesAlongWhatLiesOnIt) {
 // An explicit push is that of the start of a step, an implicit one that of its end.
 TEST_P(Contact, AMovingSpherePushesFromWhereItIsAtItsTime) {
   SimulationSettings s = settings(loose(RowVector3d(0, 0, 0)), 0.01);
-  const KeyframesValue jump{"center", {{0, {5, 0, 0}}, {0.01, {-0.45, 0, 0}}, {0.02, {5, 0, 0}}}};
-  s.effects = {effect("sphere", {{"keyframes", jump},
-                                 {"radius", 0.5},
-                                 {"scale", 1.0},
-                                 {"stiffness", stiffness},
-                                 {"response", GetParam().response}})};
+  s.effects = {Sphere{.radius = 0.5,
+                      .scale = 1,
+                      .stiffness = stiffness,
+                      .response = GetParam().response,
+                      .keyframes = {{0, {5, 0, 0}}, {0.01, {-0.45, 0, 0}}, {0.02, {5, 0, 0}}}}};
   Simulation simulation(s);
   simulation.step();
-  const bool at_end = GetParam().response == "implicit";
+  const bool at_end = GetParam().response == Response::implicit_energy;
   EXPECT_EQ(simulation.state().v(0, 0) > 0.1, at_end);
   simulation.step();
   EXPECT_GT(simulation.state().v(0, 0), 0.1);
@@ -157,7 +156,7 @@ TEST_P(Contact, AMovingSpherePushesFromWhereItIsAtItsTime) {
 TEST_P(Contact, AnEffectlessContactLeavesTheMotionAlone) {
   SimulationSettings s = settings(cloth_of(make_grid(4, 4), 1, 50, {0}), 0.01);
   Simulation without(s);
-  s.effects.push_back(effect("ground", {{"height", -50.0}, {"response", GetParam().response}}));
+  s.effects.add(Ground{.height = -50, .response = GetParam().response});
   Simulation with(s);
   for (int step = 0; step < 20; ++step) {
     without.step();

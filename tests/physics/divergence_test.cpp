@@ -11,7 +11,7 @@ namespace {
 
 SimulationSettings far_too_large_step(Solver solver) {
   SimulationSettings settings = setup(cloth_of(make_grid(6, 6), 1, 1800, {0, 6}), solver, 0.1);
-  settings.effects = {effect("gravity")};
+  settings.effects = {Gravity{}};
   settings.integrator.allow_unstable = true;
   return settings;
 }

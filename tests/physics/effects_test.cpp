@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "sim/effects/wind.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
@@ -32,17 +33,17 @@ Vertices first_accelerations(const SimulationSettings& settings) {
 
 TEST_P(Effects, GravityIsNineEightDownwardsUnlessGiven) {
   SimulationSettings settings = setup(loose_vertices(random_vertices(5, 1)), GetParam(), 0.01);
-  settings.effects = {effect("gravity")};
+  settings.effects = {Gravity{}};
   Vertices expected = RowVector3d(0, 0, -9.8).replicate(5, 1);
   EXPECT_LT((first_accelerations(settings) - expected).cwiseAbs().maxCoeff(), 1e-11);
-  settings.effects = {effect("gravity", {{"acceleration", Vector3d(1, -2, 3)}})};
+  settings.effects = {Gravity{.acceleration = {1, -2, 3}}};
   expected = RowVector3d(1, -2, 3).replicate(5, 1);
   EXPECT_LT((first_accelerations(settings) - expected).cwiseAbs().maxCoeff(), 1e-11);
 }
 
 TEST_P(Effects, WindAcceleratesEveryVertexAlikeAndIsNoGravity) {
   SimulationSettings settings = setup(loose_vertices(random_vertices(5, 1)), GetParam(), 0.01);
-  settings.effects = {effect("wind", {{"acceleration", Vector3d(1, -2, 3)}})};
+  settings.effects = {Wind{.acceleration = {1, -2, 3}}};
   const Vertices expected = RowVector3d(1, -2, 3).replicate(5, 1);
   EXPECT_LT((first_accelerations(settings) - expected).cwiseAbs().maxCoeff(), 1e-11);
   EXPECT_EQ(Simulation(settings).energies().gravity, 0);
@@ -68,8 +69,7 @@ TEST_P(Effects, SpherePushesOutwardsWithinItsReach) {
       1, 2, 3,         // the centre itself, from where no direction leads outwards
       1.03, 2.04, 3;   // 0.05 away, in the direction (0.6, 0.8, 0)
   SimulationSettings settings = setup(loose_vertices(x), GetParam(), 0.01);
-  settings.effects = {
-      effect("sphere", {{"center", Vector3d(1, 2, 3)}, {"radius", 0.5}, {"scale", 1.1}, {"stiffness", 1000.0}})};
+  settings.effects = {Sphere{.center = Vector3d(1, 2, 3), .radius = 0.5, .scale = 1.1, .stiffness = 1000}};
   Vertices expected = Vertices::Zero(6, 3);
   expected(0, 0) = 1000 * 0.25;
   expected(1, 2) = 1000 * 0.03;
@@ -79,9 +79,8 @@ TEST_P(Effects, SpherePushesOutwardsWithinItsReach) {
 
 TEST_P(Effects, TwoSpheresPushTogetherAndAreBothDrawn) {
   SimulationSettings settings = setup(loose_vertices(RowVector3d(0, 0, 0)), GetParam(), 0.01);
-  const KeyValues left = {{"center", Vector3d(-1, 0, 0)}, {"radius", 1.0}, {"scale", 1.2}, {"stiffness", 100.0}};
-  const KeyValues below = {{"center", Vector3d(0, 0, -0.5)}, {"radius", 0.6}, {"scale", 1.0}, {"stiffness", 50.0}};
-  settings.effects = {effect("sphere", left), effect("sphere", below)};
+  settings.effects = {Sphere{.center = Vector3d(-1, 0, 0), .radius = 1, .scale = 1.2, .stiffness = 100},
+                      Sphere{.center = Vector3d(0, 0, -0.5), .radius = 0.6, .scale = 1, .stiffness = 50}};
   const RowVector3d expected(100 * 0.2, 0, 50 * 0.1);
   EXPECT_LT((first_accelerations(settings) - expected).cwiseAbs().maxCoeff(), 1e-10);
 
@@ -95,7 +94,7 @@ TEST_P(Effects, TwoSpheresPushTogetherAndAreBothDrawn) {
 
 TEST_P(Effects, SphereReportsAnUnstablePenalty) {
   const auto with_stiffness = [](double stiffness) {
-    return effect("sphere", {{"center", Vector3d(0, 0, 0)}, {"radius", 1.0}, {"stiffness", stiffness}});
+    return Sphere{.center = Vector3d(0, 0, 0), .radius = 1, .stiffness = stiffness};
   };
   SimulationSettings settings = setup(loose_vertices(RowVector3d(0, 0, 0)), GetParam(), 0.02);
   EXPECT_TRUE(problems(with_stiffness(8000), settings).empty());
@@ -111,9 +110,44 @@ TEST_P(Effects, SphereReportsAnUnstablePenalty) {
 TEST(EffectTypes, HaveDistinctNamesAndMakeEffects) {
   const auto types = effect_types();
   for (std::size_t i = 0; i < types.size(); ++i) {
-    EXPECT_NE(types[i].make(), nullptr);
+    EXPECT_EQ(types[i].make().name(), types[i].name);
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(types[i].name, types[j].name);
   }
+}
+
+std::vector<std::string_view> names(const drape::Effects& effects) {
+  std::vector<std::string_view> all;
+  for (const Effect& effect : effects) all.push_back(effect.name());
+  return all;
+}
+
+TEST(EffectValues, AreEvaluatedInTheOrderOfTheRegistryHoweverTheyAreAdded) {
+  drape::Effects effects{Damping{.factor = 0.5}, Sphere{.radius = 1}, Gravity{}, Sphere{.radius = 2}};
+  effects.add(Wind{});
+  EXPECT_EQ(names(effects), (std::vector<std::string_view>{"gravity", "wind", "sphere", "sphere", "damping"}));
+  EXPECT_EQ(effects[2].as<Sphere>()->radius, 1) << "of one type in the order in which they are added";
+}
+
+/// Of a type that is not in the registry.
+struct Push {
+  static constexpr std::string_view name = "push";
+  void describe(Keys&) {}
+  void install(System&) const {}
+};
+
+TEST(EffectValues, OfATypeThatIsNotInTheRegistryStayWhereTheyAreAdded) {
+  const drape::Effects effects{Sphere{}, Push{}, Damping{}, Wind{}};
+  EXPECT_EQ(names(effects), (std::vector<std::string_view>{"sphere", "push", "wind", "damping"}));
+}
+
+TEST(EffectValues, AreCopiedAsWhatTheyAre) {
+  Effect gravity = Gravity{.acceleration = {0, 0, -1}};
+  const Effect copy = gravity;
+  gravity = Damping{.factor = 0.5};
+  EXPECT_EQ(gravity.name(), "damping");
+  ASSERT_NE(copy.as<Gravity>(), nullptr);
+  EXPECT_EQ(copy.as<Gravity>()->acceleration, Vector3d(0, 0, -1));
+  EXPECT_EQ(copy.as<Damping>(), nullptr);
 }
 
 }  // namespace

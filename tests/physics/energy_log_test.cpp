@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sim/effects/wind.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/plain_springs.hpp"
 #include "tests/support/setups.hpp"
@@ -44,7 +45,7 @@ TEST(EnergyLog, HasTheHomeworksNumbers) {
 TEST(EnergyLog, SumsWhatItsColumnsSay) {
   SimulationSettings settings = homework(Method::semi_implicit, 0.001, 180);
   for (int i = 0; i < 441; ++i) settings.cloth.masses[i] = 0.001 * (1 + i % 5);
-  settings.effects.push_back(effect("wind", {{"acceleration", Eigen::Vector3d(3, 1, 0)}}));
+  settings.effects.add(Wind{.acceleration = {3, 1, 0}});
   Simulation simulation(settings);
   for (int step = 0; step < 100; ++step) simulation.step();
 

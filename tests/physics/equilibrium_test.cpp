@@ -31,7 +31,7 @@ void expect_hookes_law(int springs, Solver solver) {
   settings.integrator.stop = StoppingRule::gradient;
   settings.integrator.tolerance = 1e-12;
   settings.integrator.max_iterations = 1000;
-  settings.effects = {effect("gravity"), effect("damping", {{"factor", 1e-4}})};
+  settings.effects = {Gravity{}, Damping{.factor = 1e-4}};
   Simulation simulation(settings);
   // The slowest motion of 5 springs takes 1 s to and fro, and loses a factor 1e-2 in each second.
   for (int step = 0; step < 1000; ++step) simulation.step();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/effects/wind.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"
@@ -47,7 +48,7 @@ TEST_P(FreeMotion, FallsAsTheSumOfItsStepsSays) {
   constexpr int steps = 50;
   constexpr double h = 0.01;
   SimulationSettings settings = setup(uneven_cloth(2), GetParam(), h);
-  settings.effects = {effect("gravity"), effect("wind", {{"acceleration", Eigen::Vector3d(3, -1, 0.5)}})};
+  settings.effects = {Gravity{}, Wind{.acceleration = {3, -1, 0.5}}};
   const Eigen::RowVector3d acceleration(3, -1, -9.3);
   Simulation simulation(settings);
   for (int step = 0; step < steps; ++step) simulation.step();
@@ -107,7 +108,7 @@ TEST_P(FreeMotion, IsDampedAlikeAtAnyStepLength) {
   for (const int steps : {10, 100, 1000}) {
     SimulationSettings settings = setup(cloth_of(make_grid(4, 4), 1, 0.1, {}), GetParam(), 1.0 / steps);
     settings.cloth.velocities.rowwise() = Eigen::RowVector3d(0.3, -0.2, 1);
-    settings.effects = {effect("damping", {{"factor", factor}})};
+    settings.effects = {Damping{.factor = factor}};
     Simulation simulation(settings);
     const double before = simulation.energies().kinetic;
     for (int step = 0; step < steps; ++step) simulation.step();
@@ -123,7 +124,7 @@ TEST_P(FreeMotion, IsDampedBeforeTheSemiImplicitMoveAndAfterTheImplicitOne) {
   constexpr double h = 0.1, factor = 0.2;
   SimulationSettings settings = setup(cloth_of(make_grid(2, 2), 1, 0.1, {}), GetParam(), h);
   settings.cloth.velocities.col(0).setOnes();
-  settings.effects = {effect("damping", {{"factor", factor}})};
+  settings.effects = {Damping{.factor = factor}};
   Simulation simulation(settings);
   simulation.step();
   const double left = std::pow(factor, h);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sim/effects/ground.hpp"
+#include "sim/effects/moving_pins.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/setups.hpp"
@@ -16,31 +18,32 @@ class MovingPins : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, MovingPins, testing::ValuesIn(all_methods), method_name);
 
 constexpr double h = 0.01;
-const KeyframesValue path{"offset", {{0, {0, 0, 0}}, {0.1, {0.1, 0, 0.05}}, {0.3, {0, -0.1, 0}}}};
+const std::vector<Keyframe> path{{0, {0, 0, 0}}, {0.1, {0.1, 0, 0.05}}, {0.3, {0, -0.1, 0}}};
 
 /// A small cloth on which everything acts that changes velocities, too.
 SimulationSettings stormy(Solver solver, std::vector<int> pins) {
   SimulationSettings settings = setup(cloth_of(make_grid(6, 6), 1, 40, std::move(pins)), solver, h);
-  settings.effects = {effect("gravity"), effect("ground", {{"height", -0.3}, {"stiffness", 4000.0}, {"friction", 0.4}}),
-                      effect("sphere", {{"center", Vector3d(0, 0, -0.4)}, {"radius", 0.3}, {"friction", 0.3}}),
-                      effect("damping", {{"factor", 0.5}})};
+  settings.effects = {Gravity{}, Ground{.height = -0.3, .stiffness = 4000, .friction = 0.4},
+                      Sphere{.center = Vector3d(0, 0, -0.4), .radius = 0.3, .friction = 0.3}, Damping{.factor = 0.5}};
   return settings;
 }
 
-ActiveEffect moving(std::vector<int> pins, const KeyframesValue& keyframes) {
-  return effect("moving_pins", {{"pins", std::move(pins)}, {"keyframes", keyframes}});
+using Path = drape::MovingPins::Path;
+
+drape::MovingPins moving(std::vector<int> pins, std::vector<Keyframe> keyframes, Path of = Path::offset) {
+  return {.pins = std::move(pins), .keyframes = std::move(keyframes), .path = of};
 }
 
 TEST_P(MovingPins, AreAtTheirKeyframesExactlyWhenAStepEndsThere) {
   SimulationSettings settings = stormy(GetParam(), {0, 6, 48});
-  settings.effects.push_back(moving({0, 6}, path));
+  settings.effects.add(moving({0, 6}, path));
   const Vertices start = settings.cloth.positions;
   Simulation simulation(settings);
   for (int step = 1; step <= 40; ++step) {
     simulation.step();
     const Vertices& x = simulation.state().x;
     for (const int pin : {0, 6}) {
-      const Vector3d offset = step == 10 ? path.keyframes[1].value : path.keyframes[2].value;
+      const Vector3d offset = step == 10 ? path[1].value : path[2].value;
       if (step == 10 || step >= 30) {
         ASSERT_EQ(x.row(pin), start.row(pin) + offset.transpose()) << "step " << step;
       }
@@ -54,13 +57,15 @@ TEST_P(MovingPins, AreAtTheirKeyframesExactlyWhenAStepEndsThere) {
 
 TEST_P(MovingPins, APositionIsThatOfTheMiddleOfAll) {
   SimulationSettings settings = stormy(GetParam(), {0, 6});
-  settings.effects.push_back(moving({0, 6}, {"position", {{0.1, {3, 2, 1}}}}));
+  const auto others = settings.effects;
+  settings.effects.add(moving({0, 6}, {{0.1, {3, 2, 1}}}, Path::position));
   Simulation simulation(settings);
   for (int step = 0; step < 10; ++step) simulation.step();
   EXPECT_EQ(simulation.state().x.row(0), RowVector3d(2, 2, 1));
   EXPECT_EQ(simulation.state().x.row(6), RowVector3d(4, 2, 1));
 
-  settings.effects.back() = moving({6}, {"position", {{0.1, {0.1, 0.2, 0.3}}}});
+  settings.effects = others;
+  settings.effects.add(moving({6}, {{0.1, {0.1, 0.2, 0.3}}}, Path::position));
   Simulation one(settings);
   for (int step = 0; step < 10; ++step) one.step();
   EXPECT_EQ(one.state().x.row(6), RowVector3d(0.1, 0.2, 0.3));
@@ -68,7 +73,7 @@ TEST_P(MovingPins, APositionIsThatOfTheMiddleOfAll) {
 
 TEST_P(MovingPins, HaveTheVelocityOfTheirMotion) {
   SimulationSettings settings = stormy(GetParam(), {0, 6});
-  settings.effects.push_back(moving({0, 6}, path));
+  settings.effects.add(moving({0, 6}, path));
   Simulation simulation(settings);
   for (int step = 0; step < 8; ++step) {
     simulation.step();
@@ -83,11 +88,11 @@ TEST_P(MovingPins, ASteadyMotionIsAsGoodAsRest) {
   SimulationSettings rest = setup(cloth_of(make_grid(3, 3), 1, 30, {0, 3}), GetParam(), h);
   rest.integrator.tolerance = 1e-13;
   rest.integrator.max_iterations = 2000;
-  rest.effects = {effect("gravity")};
+  rest.effects = {Gravity{}};
   SimulationSettings moved = rest;
   const Vector3d velocity(2, -1, 0.5);
   moved.cloth.velocities.rowwise() = velocity.transpose();
-  moved.effects.push_back(moving({0, 3}, {"offset", {{1, velocity}}}));
+  moved.effects.add(moving({0, 3}, {{1, velocity}}));
   Simulation a(rest), b(moved);
   // The first step gives a pin its velocity; the free vertices have theirs from the start.
   for (int step = 0; step < 50; ++step) {
@@ -105,10 +110,7 @@ TEST_P(MovingPins, FlyFreelyOnceTheyAreReleased) {
   cloth.masses = Eigen::VectorXd::Ones(4);
   cloth.pins = every(4);
   SimulationSettings settings = setup(cloth, GetParam(), h);
-  settings.effects = {effect("gravity"),
-                      effect("moving_pins", {{"pins", std::vector{0, 2}},
-                                             {"keyframes", KeyframesValue{"offset", {{1, {2, 0, 1}}}}},
-                                             {"release", 0.3}})};
+  settings.effects = {Gravity{}, drape::MovingPins{.pins = {0, 2}, .keyframes = {{1, {2, 0, 1}}}, .release = 0.3}};
   Simulation simulation(settings);
   for (int step = 0; step < 80; ++step) simulation.step();
   // 30 steps with the pin, then 50 of symplectic Euler's free fall: n(n+1)/2 h² g.
@@ -121,7 +123,7 @@ TEST_P(MovingPins, FlyFreelyOnceTheyAreReleased) {
 
 TEST_P(MovingPins, AReleaseWithoutKeyframesDropsTheCloth) {
   SimulationSettings settings = stormy(GetParam(), {0, 6});
-  settings.effects.push_back(effect("moving_pins", {{"pins", std::vector{0, 6}}, {"release", 0.0501}}));
+  settings.effects.add(drape::MovingPins{.pins = {0, 6}, .release = 0.0501});
   Simulation simulation(settings);
   for (int step = 0; step < 6; ++step) simulation.step();
   EXPECT_EQ(simulation.state().x.row(0), settings.cloth.positions.row(0)) << "the step that began at 0.05 s is pinned";
@@ -132,10 +134,9 @@ TEST_P(MovingPins, AReleaseWithoutKeyframesDropsTheCloth) {
 // Everything that a step depends on is the state and its number, also across a release.
 TEST_P(MovingPins, AStepDependsOnTheStateAlone) {
   SimulationSettings settings = stormy(GetParam(), {0, 6, 48});
-  settings.effects.push_back(
-      effect("moving_pins",
-             {{"pins", std::vector{0, 6}}, {"keyframes", path}, {"interpolation", "smooth"}, {"release", 0.12}}));
-  settings.effects.push_back(effect("moving_pins", {{"pins", std::vector{48}}, {"release", 0.2}}));
+  settings.effects.add(
+      drape::MovingPins{.pins = {0, 6}, .keyframes = path, .interpolation = Interpolation::smooth, .release = 0.12});
+  settings.effects.add(drape::MovingPins{.pins = {48}, .release = 0.2});
   Simulation through(settings);
   std::vector<State> states{through.state()};
   for (int step = 0; step < 30; ++step) {
@@ -154,24 +155,23 @@ TEST_P(MovingPins, AStepDependsOnTheStateAlone) {
 TEST(MovingPinsChecks, AStepMustBeSafeForTheClothAfterEveryReleaseToo) {
   SimulationSettings settings = setup(cloth_of(make_grid(2, 2), 1, 100, every(9)), Method::semi_implicit, 0.2);
   EXPECT_FALSE(stability_problem(settings, make_system(settings)));
-  settings.effects = {effect("moving_pins", {{"pins", every(9)}, {"release", 1.0}})};
+  settings.effects = {drape::MovingPins{.pins = every(9), .release = 1}};
   EXPECT_TRUE(stability_problem(settings, make_system(settings)));
 }
 
 TEST(MovingPinsChecks, SayWhatIsWrong) {
   SimulationSettings settings = setup(cloth_of(make_grid(2, 2), 1, 100, {0, 2}), Method::liu13, 0.01);
-  const auto said = [&](const ActiveEffect& active) {
-    const std::vector<std::string> found = problems(active, settings);
+  const auto said = [&](const Effect& effect) {
+    const std::vector<std::string> found = problems(effect, settings);
     return found.empty() ? "" : found.front();
   };
   EXPECT_EQ(said(moving({0, 1}, path)), "pins: vertex 1 is not pinned; [cloth] pins must have it too");
-  EXPECT_EQ(said(effect("moving_pins", {{"pins", std::vector{0}}})),
-            ": give 'keyframes', 'release' or both: nothing happens without");
+  EXPECT_EQ(said(drape::MovingPins{.pins = {0}}), ": give 'keyframes', 'release' or both: nothing happens without");
   EXPECT_EQ(
-      said(moving({0}, {"offset", {{0, {0, 0, 0.5}}, {1, {0, 0, 0}}}})),
+      said(moving({0}, {{0, {0, 0, 0.5}}, {1, {0, 0, 0}}})),
       "keyframes: the pins start where the cloth has them, and the keyframe at 0 s is 0.5 m away from there: give "
       "it a later time");
-  EXPECT_EQ(said(moving({0}, {"position", {{0, {-1, -1, 0}}, {1, {0, 0, 0}}}})), "");
+  EXPECT_EQ(said(moving({0}, {{0, {-1, -1, 0}}, {1, {0, 0, 0}}}, Path::position)), "");
   settings.effects = {moving({0}, path), moving({0, 2}, path)};
   EXPECT_EQ(said(settings.effects[0]), "");
   EXPECT_EQ(said(settings.effects[1]), "pins: vertex 0 is in two tables [effects.moving_pins]: only one can move it");

@@ -24,7 +24,7 @@ struct Case {
 
 SimulationSettings hanging(const Mesh& mesh, int second_pin, double stiffness) {
   SimulationSettings settings = setup(cloth_of(mesh, 1, stiffness, {0, second_pin}), Method::liu13, 0.02);
-  settings.effects.push_back(effect("gravity"));
+  settings.effects.add(Gravity{});
   return settings;
 }
 
@@ -35,7 +35,7 @@ const Case cases[] = {
     {"GridOnSphere",
      [] {
        SimulationSettings settings = homework(Method::liu13, 0.02, 180);
-       settings.effects.push_back(homework_sphere());
+       settings.effects.add(homework_sphere());
        return settings;
      },
      {50, 120, 300},

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/effects/wind.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 
@@ -20,9 +21,8 @@ SimulationSettings stormy(Solver solver, std::vector<int> pins) {
     cloth.positions.row(i) += 0.05 * Eigen::RowVector3d(std::sin(i), std::cos(3 * i), std::sin(2 * i));
     cloth.velocities.row(i) << std::cos(i), std::sin(2 * i), 1;
   }
-  settings.effects = {effect("gravity"), effect("wind", {{"acceleration", Eigen::Vector3d(20, 5, 0)}}),
-                      effect("sphere", {{"center", Eigen::Vector3d(0, 0, 0)}, {"radius", 0.8}}),
-                      effect("damping", {{"factor", 0.5}})};
+  settings.effects = {Gravity{}, Wind{.acceleration = {20, 5, 0}},
+                      Sphere{.center = Eigen::Vector3d(0, 0, 0), .radius = 0.8}, Damping{.factor = 0.5}};
   return settings;
 }
 

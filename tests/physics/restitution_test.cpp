@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/effects/ground.hpp"
 #include "sim/simulation.hpp"
 #include "tests/physics/contact_cases.hpp"
 
@@ -23,25 +24,21 @@ class Restitution : public testing::TestWithParam<ContactCase> {
  protected:
   SimulationSettings settings(Cloth cloth, double step) const {
     SimulationSettings result = setup(std::move(cloth), GetParam().method, step);
-    result.effects = {effect("gravity")};
+    result.effects = {Gravity{}};
     return result;
   }
 
-  KeyValues contact(double restitution, double stiffness, double friction) const {
-    return {{"stiffness", stiffness},
-            {"response", GetParam().response},
-            {"restitution", restitution},
-            {"friction", friction}};
-  }
-  ActiveEffect ground(double restitution, double stiffness, double friction = 0.3) const {
-    KeyValues keys = contact(restitution, stiffness, friction);
-    keys.insert(keys.end(), {{"height", 0.0}, {"thickness", thickness}});
-    return effect("ground", keys);
+  Ground ground(double restitution, double stiffness, double friction = 0.3) const {
+    return {.thickness = thickness,
+            .stiffness = stiffness,
+            .response = GetParam().response,
+            .friction = friction,
+            .restitution = restitution};
   }
 
   /// A soft stiffness and the hardest that this step takes, or one as hard as steel.
   std::vector<double> stiffnesses(double step) const {
-    return {1000, GetParam().response == "explicit" ? 3 / (step * step) : 1e9};
+    return {1000, GetParam().response == Response::explicit_force ? 3 / (step * step) : 1e9};
   }
 };
 INSTANTIATE_TEST_SUITE_P(With, Restitution, testing::ValuesIn(contact_cases()), contact_case_name);
@@ -80,7 +77,7 @@ TEST_P(Restitution, AFallingSheetRisesToItsSquareOfTheHeight) {
     for (const double stiffness : stiffnesses(step)) {
       for (const double e : {0.0, 0.25, 0.5, 0.75, 0.9, 1.0}) {
         SimulationSettings s = settings(falling_sheet(), step);
-        s.effects.push_back(ground(e, stiffness));
+        s.effects.add(ground(e, stiffness));
         // The top of a parabola lies at most gh²/8 above the nearest step. What stays lies in the ground's layer.
         const double share = rebound(s, 1).highest / fall;
         if (e > 0) EXPECT_NEAR(share, e * e, g * step * step / 4 / fall) << e << ", " << step << ", " << stiffness;
@@ -94,9 +91,12 @@ TEST_P(Restitution, AVertexRisesFromTheTopOfASphereToItsSquareOfTheHeight) {
   for (const double step : {0.01, 0.002}) {
     for (const double e : {0.25, 0.5, 0.9, 1.0}) {
       SimulationSettings s = settings(loose(RowVector3d(0, 0, thickness + fall)), step);
-      KeyValues keys = contact(e, 8000, 0.3);
-      keys.insert(keys.end(), {{"center", Vector3d(0, 0, thickness - 0.3)}, {"radius", 0.2}, {"scale", 1.5}});
-      s.effects.push_back(effect("sphere", keys));
+      s.effects.add(Sphere{.center = Vector3d(0, 0, thickness - 0.3),
+                           .radius = 0.2,
+                           .scale = 1.5,
+                           .response = GetParam().response,
+                           .friction = 0.3,
+                           .restitution = e});
       EXPECT_NEAR(rebound(s, 1).highest / fall, e * e, g * step * step / 4 / fall) << e << ", " << step;
     }
   }
@@ -107,7 +107,7 @@ TEST_P(Restitution, AVertexRisesFromTheTopOfASphereToItsSquareOfTheHeight) {
 TEST_P(Restitution, OfOneNeitherGivesNorTakesHeight) {
   constexpr double step = 0.01;
   SimulationSettings s = settings(falling_sheet(), step);
-  s.effects.push_back(ground(1, 8000, 0));
+  s.effects.add(ground(1, 8000, 0));
   Simulation simulation(s);
   double last = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -131,7 +131,7 @@ TEST_P(Restitution, NeverGivesEnergyToASheetThatLandsOnACorner) {
     for (Spring& spring : s.cloth.springs) {
       spring.rest_length = (s.cloth.positions.row(spring.i) - s.cloth.positions.row(spring.j)).norm();
     }
-    s.effects.push_back(ground(e, 8000));
+    s.effects.add(ground(e, 8000));
     s.integrator.tolerance = 1e-9;
     s.integrator.max_iterations = 1000;
     Simulation simulation(s);
@@ -156,7 +156,7 @@ TEST_P(Restitution, NeverGivesEnergyToASheetThatLandsOnACorner) {
 TEST_P(Restitution, EndsInRest) {
   constexpr double stiffness = 4000;
   SimulationSettings s = settings(falling_sheet(), 0.005);
-  s.effects.push_back(ground(0.6, stiffness));
+  s.effects.add(ground(0.6, stiffness));
   Simulation simulation(s);
   while (simulation.time() < 4) simulation.step();
   for (int i = 0; i < 100; ++i) {
@@ -177,7 +177,7 @@ TEST_P(Restitution, FrictionOfAnImpactIsCoulombs) {
     Cloth cloth = loose(RowVector3d(0, 0, thickness + fall));
     cloth.velocities.row(0) << 0.6 * speed, -0.8 * speed, 0;
     SimulationSettings s = settings(cloth, step);
-    s.effects.push_back(ground(e, 8000, friction));
+    s.effects.add(ground(e, 8000, friction));
     Simulation simulation(s);
     while (simulation.time() < 0.4) simulation.step();
     const double expected = std::max(0.0, speed - lost);
@@ -193,9 +193,10 @@ TEST_P(Restitution, TurnsTheSpeedAcrossASlope) {
   Cloth cloth = loose(RowVector3d(0.4 * n.transpose()));
   cloth.velocities.row(0) = -2 * n.transpose() + RowVector3d(0.8, 0.3, -0.6);
   SimulationSettings s = settings(cloth, step);
-  KeyValues keys = contact(e, 8000, 0);
-  keys.insert(keys.end(), {{"height", 0.0}, {"thickness", 0.0}, {"normal", n}});
-  s.effects = {effect("ground", keys)};
+  Ground slope = ground(e, 8000, 0);
+  slope.normal = n;
+  slope.thickness = 0;
+  s.effects = {slope};
   Simulation simulation(s);
   while (simulation.time() < 0.3) simulation.step();
   const RowVector3d expected = e * 2 * n.transpose() + RowVector3d(0.8, 0.3, -0.6);
@@ -205,10 +206,12 @@ TEST_P(Restitution, TurnsTheSpeedAcrossASlope) {
 TEST_P(Restitution, IsRelativeToASphereThatMoves) {
   constexpr double e = 0.7;
   SimulationSettings s = settings(loose(RowVector3d(0, 0, 0)), 0.01);
-  KeyValues keys = contact(e, 8000, 0);
-  keys.insert(keys.end(),
-              {{"center", Vector3d(0, 0, -1.013)}, {"radius", 1.0}, {"scale", 1.0}, {"velocity", Vector3d(0, 0, 1.5)}});
-  s.effects = {effect("sphere", keys)};
+  s.effects = {Sphere{.center = Vector3d(0, 0, -1.013),
+                      .radius = 1,
+                      .scale = 1,
+                      .response = GetParam().response,
+                      .restitution = e,
+                      .velocity = Vector3d(0, 0, 1.5)}};
   Simulation simulation(s);
   for (int i = 0; i < 10; ++i) simulation.step();
   EXPECT_NEAR(simulation.state().v(0, 2), 1.5 * (1 + e), 1e-9);
@@ -216,7 +219,7 @@ TEST_P(Restitution, IsRelativeToASphereThatMoves) {
 
 TEST_P(Restitution, DependsOnTheStateOnly) {
   SimulationSettings s = settings(falling_sheet(), 0.01);
-  s.effects.push_back(ground(0.8, 8000));
+  s.effects.add(ground(0.8, 8000));
   Simulation first(s), second(s);
   for (int i = 0; i < 25; ++i) first.step();
   const State middle = first.state();  // shortly before the impact

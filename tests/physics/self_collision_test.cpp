@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/collision/distance.hpp"
+#include "sim/effects/self_collision.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/intersections.hpp"
 #include "tests/support/meshes.hpp"
@@ -21,11 +22,13 @@ class SelfCollision : public testing::TestWithParam<NamedMethod> {
 INSTANTIATE_TEST_SUITE_P(With, SelfCollision, testing::ValuesIn(all_methods), method_name);
 
 /// A rough floor: what comes down to it stays where it is.
-class Floor final : public Effect {
- public:
-  explicit Floor(double height) : height_(height) {}
-  void describe(Keys&) override {}
-  void install(System& system) const override { system.filters.push_back(std::make_unique<Filter>(height_)); }
+struct Floor {
+  static constexpr std::string_view name = "floor";
+
+  double height = 0;
+
+  void describe(Keys&) {}
+  void install(System& system) const { system.filters.push_back(std::make_unique<Filter>(height)); }
 
  private:
   struct Filter final : MotionFilter {
@@ -37,12 +40,7 @@ class Floor final : public Effect {
       }
     }
   };
-  double height_;
 };
-
-ActiveEffect floor_at(double z) { return {"floor", std::make_shared<Floor>(z)}; }
-
-KeyValues collision_keys(double thickness) { return {{"thickness", thickness}}; }
 
 /// Runs a scene; no vertex and no edge may go through a triangle at any step.
 void expect_no_crossings(const SimulationSettings& settings, double seconds) {
@@ -60,7 +58,11 @@ void expect_no_crossings(const SimulationSettings& settings, double seconds) {
 
 /// Whether a scene without self-collision ever goes through itself: there must be something to prevent.
 bool ever_intersects(SimulationSettings settings, double seconds) {
-  std::erase_if(settings.effects, [](const ActiveEffect& e) { return e.name == "self_collision"; });
+  drape::Effects others;
+  for (const Effect& effect : settings.effects) {
+    if (effect.as<drape::SelfCollision>() == nullptr) others.add(effect);
+  }
+  settings.effects = others;
   Simulation simulation(settings);
   while (simulation.time() < seconds) {
     simulation.step();
@@ -72,11 +74,8 @@ bool ever_intersects(SimulationSettings settings, double seconds) {
 /// A cloth that falls beside the middle of a small sphere, slides off, and comes to lie on the floor in folds.
 SimulationSettings fold_scene(Solver solver, double step, int cells) {
   SimulationSettings settings = setup(cloth_of(make_grid(cells, cells), 0.5, 100, {}), solver, step);
-  settings.effects = {
-      effect("gravity"),
-      effect("sphere",
-             {{"center", Eigen::Vector3d(0.13, -0.07, -0.5)}, {"radius", 0.3}, {"scale", 1.2}, {"stiffness", 8000.0}}),
-      floor_at(-1), effect("self_collision", collision_keys(0.02))};
+  settings.effects = {Gravity{}, Sphere{.center = Eigen::Vector3d(0.13, -0.07, -0.5), .radius = 0.3, .scale = 1.2},
+                      Floor{-1}, drape::SelfCollision{.thickness = 0.02}};
   return settings;
 }
 
@@ -95,7 +94,7 @@ TEST_P(SelfCollision, KeepsAFallingCurtainFromGoingThroughItself) {
     mesh.positions(i, 1) = 0.03 * std::sin(5 * mesh.positions(i, 2) + mesh.positions(i, 0));
   }
   SimulationSettings settings = setup(cloth_of(mesh, 0.3, 60, {}), GetParam(), step());
-  settings.effects = {effect("gravity"), floor_at(-1.02), effect("self_collision", collision_keys(0.015))};
+  settings.effects = {Gravity{}, Floor{-1.02}, drape::SelfCollision{.thickness = 0.015}};
   EXPECT_TRUE(ever_intersects(settings, 1.2)) << "nothing to prevent";
   expect_no_crossings(settings, 1.2);
 }
@@ -126,7 +125,7 @@ TEST_P(SelfCollision, KeepsTheMomentumOfTwoSheetsThatCollide) {
   settings.integrator.stop = StoppingRule::gradient;
   settings.integrator.tolerance = 1e-9;
   settings.integrator.max_iterations = 3000;
-  settings.effects = {effect("self_collision", collision_keys(0.01))};
+  settings.effects = {drape::SelfCollision{.thickness = 0.01}};
   Simulation simulation(settings);
   const Eigen::RowVector3d before = cloth.masses.transpose() * simulation.state().v;
   bool met = false;
@@ -147,8 +146,7 @@ TEST_P(SelfCollision, LaysLayersTheThicknessApart) {
   constexpr double thickness = 0.04;
   SimulationSettings settings = setup(two_sheets(0.5), GetParam(), step());
   settings.cloth.positions.bottomRows(49).col(2).array() -= 0.25;
-  settings.effects = {effect("gravity"), floor_at(-0.01), effect("self_collision", collision_keys(thickness)),
-                      effect("damping", {{"factor", 0.1}})};
+  settings.effects = {Gravity{}, Floor{-0.01}, drape::SelfCollision{.thickness = thickness}, Damping{.factor = 0.1}};
   Simulation simulation(settings);
   while (simulation.time() < 1.5) simulation.step();
   const Vertices& x = simulation.state().x;
@@ -180,10 +178,10 @@ TEST(SelfCollisionAlone, DependsOnTheStateOnly) {
 
 TEST(SelfCollisionAlone, RefusesAClothThatStartsThroughItself) {
   SimulationSettings settings = setup(two_sheets(1), Method::liu13, 0.01);
-  EXPECT_TRUE(problems(effect("self_collision"), settings).empty());
+  EXPECT_TRUE(problems(drape::SelfCollision{}, settings).empty());
   settings.cloth.positions.bottomRows(49).col(2).array() -= 0.3;
   settings.cloth.positions.bottomRows(49).col(2) += settings.cloth.positions.bottomRows(49).col(0);
-  const auto found = problems(effect("self_collision"), settings);
+  const auto found = problems(drape::SelfCollision{}, settings);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_TRUE(found[0].starts_with(": the cloth starts through itself")) << found[0];
 }
@@ -191,7 +189,7 @@ TEST(SelfCollisionAlone, RefusesAClothThatStartsThroughItself) {
 // A mesh finer than the thickness is not pushed apart at rest.
 TEST(SelfCollisionAlone, LeavesAFlatClothAlone) {
   SimulationSettings settings = setup(cloth_of(make_grid(30, 30), 1, 100, {}), Method::liu13, 0.01);
-  settings.effects = {effect("self_collision", collision_keys(0.2))};
+  settings.effects = {drape::SelfCollision{.thickness = 0.2}};
   Simulation simulation(settings);
   for (int i = 0; i < 5; ++i) simulation.step();
   EXPECT_LT((simulation.state().x - settings.cloth.positions).cwiseAbs().maxCoeff(), 1e-9);

@@ -20,7 +20,7 @@ TEST_P(Showcase, NeverShowsAClothThatCutsThroughItself) {
   const std::filesystem::path folder = DRAPE_SOURCE_DIR "/scenes/showcase";
   const Scene scene = load_scene(folder / (std::string(GetParam()) + ".toml"));
   const auto& effects = scene.simulation.effects;
-  ASSERT_TRUE(std::ranges::any_of(effects, [](const ActiveEffect& e) { return e.name == "self_collision"; }));
+  ASSERT_TRUE(std::ranges::any_of(effects, [](const Effect& e) { return e.name() == "self_collision"; }));
   Simulation simulation(scene.simulation);
   for (std::int64_t step = 1; step <= scene.step_count(); ++step) {
     simulation.step();

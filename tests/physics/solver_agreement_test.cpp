@@ -25,8 +25,8 @@ SimulationSettings settings(const Case& c, Method method) {
   result.cloth = c.cloth;
   result.step = 0.02;
   result.integrator = {.method = method, .stop = StoppingRule::gradient, .tolerance = 1e-9, .max_iterations = 100000};
-  result.effects = {test::gravity()};
-  if (c.with_sphere) result.effects.push_back(test::sphere(true));
+  result.effects = {Gravity{}};
+  if (c.with_sphere) result.effects.add(test::sphere(true));
   return result;
 }
 
@@ -70,7 +70,7 @@ TEST_P(Agreement, NoIterationRaisesTheObjective) {
   for (const Method method : {Method::implicit, Method::quasi_newton, Method::liu13}) {
     SimulationSettings s = settings(GetParam(), method);
     System system(s.cloth, s.step);
-    for (const ActiveEffect& active : s.effects) active.effect->install(system);
+    for (const Effect& effect : s.effects) effect.install(system);
     StepObjective objective(system);
     Vertices force = Vertices::Zero(start.x.rows(), 3), gradient = force;
     for (const auto& f : system.forces) f->add(start, 0, force);

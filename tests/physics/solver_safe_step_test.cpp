@@ -42,7 +42,7 @@ SimulationSettings settings(double factor) {
   s.cloth = test::grid_cloth(20);
   s.step = factor * safe_step(System(s.cloth, 1));
   s.integrator.method = Method::semi_implicit;
-  s.effects = {test::gravity()};
+  s.effects = {Gravity{}};
   return s;
 }
 

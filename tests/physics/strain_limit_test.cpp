@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/effects/strain_limit.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"
@@ -34,7 +35,8 @@ Extremes extremes(const Cloth& cloth, const Vertices& x) {
 TEST_P(StrainLimit, HoldsAHangingClothAtEveryStep) {
   SimulationSettings settings = homework(GetParam(), step(), 5);
   settings.integrator.max_iterations = 2000;
-  settings.effects.push_back(effect("strain_limit", {{"max_stretch", 1.1}, {"tolerance", 1e-3}}));
+  const auto without = settings.effects;
+  settings.effects.add(drape::StrainLimit{.max_stretch = 1.1, .tolerance = 1e-3});
   Simulation simulation(settings);
   double most = 0;
   while (simulation.time() < 2) {
@@ -44,7 +46,7 @@ TEST_P(StrainLimit, HoldsAHangingClothAtEveryStep) {
   EXPECT_LE(most, 1.1 * 1.001 + 1e-9);
   EXPECT_GT(most, 1.09) << "the limit was never felt";
 
-  settings.effects.pop_back();
+  settings.effects = without;
   Simulation unlimited(settings);
   while (unlimited.time() < 1) unlimited.step();
   EXPECT_GT(extremes(settings.cloth, unlimited.state().x).most, 2) << "nothing to hold";
@@ -57,7 +59,7 @@ TEST_P(StrainLimit, HoldsUnderASuddenLoad) {
   std::vector<int> top{80, 81, 82, 83, 84};
   SimulationSettings settings = setup(cloth_of(mesh, 0.5, 20, top), GetParam(), step());
   for (int i = 0; i < 40; ++i) settings.cloth.velocities.row(i) << 3, -8, 2;
-  settings.effects = {effect("gravity"), effect("strain_limit", {{"max_stretch", 1.05}, {"min_stretch", 0.8}})};
+  settings.effects = {Gravity{}, drape::StrainLimit{.max_stretch = 1.05, .min_stretch = 0.8}};
   Simulation simulation(settings);
   while (simulation.time() < 1) {
     if (!simulation.step().converged) continue;  // squeezed into what no shape can satisfy: reported
@@ -70,7 +72,7 @@ TEST_P(StrainLimit, HoldsUnderASuddenLoad) {
 // Between pins that are too far apart no cloth satisfies the limit: every step says so, and the motion stays finite.
 TEST_P(StrainLimit, ReportsWhatItCannotHold) {
   SimulationSettings settings = setup(cloth_of(make_grid(4, 4), 1, 20, {0, 4, 20, 24}), GetParam(), step());
-  settings.effects = {effect("strain_limit", {{"max_stretch", 1.1}, {"iterations", 50}})};
+  settings.effects = {drape::StrainLimit{.max_stretch = 1.1, .iterations = 50}};
   Simulation simulation(settings);
   State apart = simulation.state();
   apart.x *= 1.3;
@@ -95,7 +97,7 @@ TEST(StrainLimitAlone, KeepsBothMomentaOfAFreeCloth) {
     cloth.velocities.row(i) << 2 - 3 * x[1] + 2 * x[0], 1 + 3 * x[0] + 2 * x[1], -1 + std::sin(3 * x[0]);
   }
   SimulationSettings settings = setup(std::move(cloth), Method::semi_implicit, 0.002);
-  settings.effects = {effect("strain_limit", {{"max_stretch", 1.05}})};
+  settings.effects = {drape::StrainLimit{.max_stretch = 1.05}};
   Simulation simulation(settings);
   const Eigen::RowVector3d p = momentum(settings.cloth, simulation.state());
   const Eigen::RowVector3d l = angular_momentum(settings.cloth, simulation.state());
@@ -115,13 +117,13 @@ TEST(StrainLimitAlone, KeepsBothMomentaOfAFreeCloth) {
 TEST(StrainLimitAlone, RefusesAClothThatStartsBeyondIt) {
   SimulationSettings settings = setup(cloth_of(make_grid(4, 4), 1, 20, {}), Method::liu13, 0.02);
   settings.cloth.positions.col(0) *= 1.3;
-  const auto found = problems(effect("strain_limit", {{"max_stretch", 1.1}}), settings);
+  const auto found = problems(drape::StrainLimit{.max_stretch = 1.1}, settings);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_TRUE(found[0].starts_with("max_stretch: the cloth starts beyond the limit")) << found[0];
-  EXPECT_TRUE(problems(effect("strain_limit", {{"max_stretch", 1.4}}), settings).empty());
-  EXPECT_EQ(problems(effect("strain_limit", {{"max_stretch", 2.0}, {"min_stretch", 1.0}}), settings).size(), 0U);
+  EXPECT_TRUE(problems(drape::StrainLimit{.max_stretch = 1.4}, settings).empty());
+  EXPECT_EQ(problems(drape::StrainLimit{.max_stretch = 2, .min_stretch = 1}, settings).size(), 0U);
   settings.cloth.positions.col(0) *= 0.5;
-  EXPECT_EQ(problems(effect("strain_limit", {{"max_stretch", 2.0}, {"min_stretch", 0.9}}), settings).size(), 1U);
+  EXPECT_EQ(problems(drape::StrainLimit{.max_stretch = 2, .min_stretch = 0.9}, settings).size(), 1U);
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <any>
 #include <array>
 #include <cmath>
 #include <string_view>
 #include <vector>
 
 #include "scene/tables.hpp"
+#include "sim/sphere_track.hpp"
 #include "tests/support/random.hpp"
 
 namespace drape::test {
@@ -41,8 +43,8 @@ class Writer {
       // Pins can be moved by one table only.
       const int count = type.repeatable && (wild() || type.name != "moving_pins") ? 1 + random_.below(2) : 1;
       for (int i = 0; i < count; ++i) {
-        const auto effect = type.make();
-        add(effect_table(type, *effect),
+        Effect effect = type.make();
+        add(effect_table(type, effect),
             type.repeatable ? fmt::format("[[effects.{}]", type.name) : fmt::format("[effects.{}", type.name));
       }
     }
@@ -149,7 +151,10 @@ class Writer {
     if (random_.number() < 0.3 * wild_) return "\"nothing\"";
     return '"' + choice.names[static_cast<std::size_t>(random_.below(static_cast<int>(choice.names.size())))] + '"';
   }
-  std::string value(const Key&, const OwnForm&) { return {}; }
+  std::string value(const Key&, const OwnForm& form) {
+    const bool track = std::any_cast<std::shared_ptr<const SphereTrack>*>(&form.target) != nullptr;
+    return track && random_.number() < wild_ ? "\"nowhere.usda\"" : "";
+  }
   std::string value(const Key&, const KeyframeList& list) {
     std::string text;
     double time = 0;
@@ -163,9 +168,6 @@ class Writer {
   std::string value(const Key&, const VertexSelection&) {
     if (pins_.empty() || random_.number() < wild_) return "[0]";
     return fmt::format("[{}]", pins_[static_cast<std::size_t>(random_.below(static_cast<int>(pins_.size())))]);
-  }
-  std::string value(const Key&, const std::shared_ptr<const SphereTrack>*) {
-    return random_.number() < wild_ ? "\"nowhere.usda\"" : "";
   }
   std::string value(const Key& key, const Eigen::Vector2i*) {
     return fmt::format("[{}, {}]", whole(key, 64), whole(key, 64));

@@ -41,7 +41,7 @@ Fall fall(const SimulationSettings& settings, int steps) {
 /// 1 kg that hangs from two corners.
 SimulationSettings hanging(Solver solver, int cells, double stiffness, double step) {
   SimulationSettings settings = setup(cloth_of(make_grid(cells, cells), 1, stiffness, {0, cells}), solver, step);
-  settings.effects.push_back(effect("gravity"));
+  settings.effects.add(Gravity{});
   return settings;
 }
 

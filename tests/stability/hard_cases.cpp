@@ -25,7 +25,7 @@ SimulationSettings uneven_masses() {
   SimulationSettings settings = setup(cloth_of(three_sheets(4), 1, 180, {0}), Method::liu13, 0.01);
   for (int i = 0; i < settings.cloth.vertex_count(); ++i) settings.cloth.masses[i] *= std::pow(10.0, i % 7 - 3);
   settings.integrator.tolerance = 1e-6;
-  settings.effects = {effect("gravity")};
+  settings.effects = {Gravity{}};
   return settings;
 }
 

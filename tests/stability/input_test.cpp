@@ -46,8 +46,8 @@ TEST(Input, ThatIsNotFiniteIsAnErrorAtEveryKey) {
     for (const Key& key : table.keys.all()) expect_refused(folder, table.name, key);
   }
   for (const EffectType& type : effect_types()) {
-    const auto effect = type.make();
-    const TableType table = effect_table(type, *effect);
+    Effect effect = type.make();
+    const TableType table = effect_table(type, effect);
     for (const Key& key : table.keys.all()) expect_refused(folder, table.name, key);
   }
 }

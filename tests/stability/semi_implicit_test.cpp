@@ -121,15 +121,14 @@ TEST(SafeStep, CountsWhatIsPushedBesideTheSprings) {
   SimulationSettings settings = setup(test::grid_cloth(8), semi_implicit, 0.0055);
   EXPECT_FALSE(stability_problem(settings, make_system(settings)));
   // Each of them alone would be stable, (h√k)² = 3.9 and (hω)² = 3.8, but not the two together.
-  settings.effects = {
-      effect("sphere", {{"center", Eigen::Vector3d(0, 0, -0.3)}, {"radius", 0.4}, {"stiffness", 1.3e5}})};
+  settings.effects = {Sphere{.center = Eigen::Vector3d(0, 0, -0.3), .radius = 0.4, .stiffness = 1.3e5}};
   EXPECT_TRUE(stability_problem(settings, make_system(settings)));
 }
 
 /// A cloth that hangs under gravity, with a step beyond the safe one.
 SimulationSettings unstable(double factor) {
   SimulationSettings settings = setup(test::grid_cloth(8), semi_implicit, 1);
-  settings.effects = {effect("gravity")};
+  settings.effects = {Gravity{}};
   settings.step = factor * safe_step(make_system(settings));
   settings.integrator.allow_unstable = true;
   return settings;
@@ -191,7 +190,7 @@ TEST(BlowUp, IsReportedWithAllThatExplainsIt) {
 // energy out of nothing at 0.95 of its safe step, and does not at half of it.
 TEST(BlowUp, IsFoundWhereACrumpledClothHeatsUpBelowTheSafeStep) {
   SimulationSettings settings = setup(test::grid_cloth(20, 18), semi_implicit, 1);
-  settings.effects = {effect("gravity")};
+  settings.effects = {Gravity{}};
   const double safe = safe_step(make_system(settings));
   settings.step = 0.95 * safe;
   Simulation hot(settings);

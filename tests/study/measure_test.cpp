@@ -52,7 +52,7 @@ TEST(HomeworkCases, AreThoseOfTheReport) {
     EXPECT_EQ(s.cloth.vertex_count(), 441);
     EXPECT_EQ(s.cloth.springs.front().stiffness, row.table == 1 ? 18 : 180);
     std::vector<std::string> effects;
-    for (const ActiveEffect& active : s.effects) effects.push_back(active.name);
+    for (const Effect& effect : s.effects) effects.emplace_back(effect.name());
     const auto has = [&](const char* name) { return std::count(effects.begin(), effects.end(), name) == 1; };
     EXPECT_TRUE(has("gravity"));
     EXPECT_EQ(has("sphere"), row.table == 2);

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "sim/cloth.hpp"
+#include "sim/effects/gravity.hpp"
+#include "sim/effects/sphere.hpp"
 #include "sim/settings.hpp"
-#include "tests/support/effects.hpp"
 
 namespace drape::test {
 
@@ -52,13 +53,11 @@ inline Cloth disturbed(Cloth cloth) {
   return cloth;
 }
 
-inline ActiveEffect gravity() { return test::effect("gravity"); }
-
 /// The homework's sphere under the cloth.
-inline ActiveEffect sphere(bool implicit) {
-  return test::effect("sphere", {{"center", Eigen::Vector3d(0, 0, -0.5)},
-                                 {"radius", 0.4},
-                                 {"response", std::string(implicit ? "implicit" : "explicit")}});
+inline Sphere sphere(bool implicit) {
+  return {.center = Eigen::Vector3d(0, 0, -0.5),
+          .radius = 0.4,
+          .response = implicit ? Response::implicit_energy : Response::explicit_force};
 }
 
 }  // namespace drape::test

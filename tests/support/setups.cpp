@@ -25,18 +25,23 @@ Cloth cloth_of(const Mesh& mesh, double mass, double stiffness, std::vector<int>
 
 SimulationSettings homework(Solver solver, double step, double stiffness) {
   SimulationSettings settings = setup(cloth_of(make_grid(20, 20), 1, stiffness, {0, 20}), solver, step);
-  settings.effects.push_back(effect("gravity"));
+  settings.effects.add(Gravity{});
   return settings;
 }
 
-ActiveEffect homework_sphere() {
-  return effect("sphere", {{"center", Eigen::Vector3d(homework_sphere_center.transpose())},
-                           {"radius", 0.4},
-                           {"scale", 1.1},
-                           {"stiffness", 8000.0}});
+Sphere homework_sphere() {
+  return {.center = homework_sphere_center.transpose(), .radius = 0.4, .scale = 1.1, .stiffness = 8000};
 }
 
-ActiveEffect homework_damping() { return effect("damping", {{"factor", 0.2}}); }
+Damping homework_damping() { return {.factor = 0.2}; }
+
+std::vector<std::string> problems(const Effect& effect, const SimulationSettings& settings) {
+  std::vector<std::string> found;
+  effect.check(settings, [&](std::string_view key, const std::string& sentence) {
+    found.push_back(std::string(key) + ": " + sentence);
+  });
+  return found;
+}
 
 std::vector<int> every(int count) {
   std::vector<int> all(static_cast<std::size_t>(count));

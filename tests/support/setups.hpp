@@ -1,9 +1,12 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "sim/effects/damping.hpp"
+#include "sim/effects/gravity.hpp"
+#include "sim/effects/sphere.hpp"
 #include "sim/settings.hpp"
-#include "tests/support/effects.hpp"
 #include "tests/support/methods.hpp"
 
 namespace drape::test {
@@ -18,11 +21,14 @@ Cloth cloth_of(const Mesh& mesh, double mass, double stiffness, std::vector<int>
 SimulationSettings homework(Solver solver, double step, double stiffness);
 
 /// The homework's sphere, of radius 0.4 m around (0, 0, −0.5), pushing within 0.44 m.
-ActiveEffect homework_sphere();
+Sphere homework_sphere();
 inline const Eigen::RowVector3d homework_sphere_center(0, 0, -0.5);
 
 /// The homework's damping 0.2, as it writes it.
-ActiveEffect homework_damping();
+Damping homework_damping();
+
+/// What Effect::check says about an effect in these settings: one "key: sentence" for each problem.
+std::vector<std::string> problems(const Effect& effect, const SimulationSettings& settings);
 
 /// The homework's whole timeline of 250/30 s in its two step lengths.
 inline constexpr int homework_steps = 417;         ///< h = 0.02 s

@@ -8,6 +8,7 @@
 #include <ostream>
 #include <string>
 
+#include "sim/effects/bending.hpp"
 #include "sim/linear/conjugate_gradients.hpp"
 #include "sim/linear/newton_cholesky.hpp"
 #include "sim/step_objective.hpp"
@@ -22,7 +23,7 @@ namespace {
 struct Case {
   std::string name;
   std::function<Mesh()> mesh;
-  std::function<ActiveEffect()> effect;
+  Effect effect;
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
@@ -32,17 +33,15 @@ Mesh bowl() {
   mesh.positions.col(2) += 0.4 * mesh.positions.leftCols(2).rowwise().squaredNorm();
   return mesh;
 }
-ActiveEffect bending() { return effect("bending", {{"rigidity", 0.3}}); }
-ActiveEffect implicit_sphere() {
-  return effect("sphere",
-                {{"center", Eigen::Vector3d(0.1, 0, -0.5)}, {"radius", 0.7}, {"response", std::string("implicit")}});
-}
+const Bending bending{.rigidity = 0.3};
+const Sphere implicit_sphere{
+    .center = Eigen::Vector3d(0.1, 0, -0.5), .radius = 0.7, .response = Response::implicit_energy};
 
 /// One term of the energy, whichever kind it is: of vertices by themselves, or of vertices together.
 class Term {
  public:
-  Term(const Mesh& mesh, const ActiveEffect& active) : cloth_(cloth_of(mesh, 1, 180, {0, 3})), system_(cloth_, 0.02) {
-    active.effect->install(system_);
+  Term(const Mesh& mesh, const Effect& effect) : cloth_(cloth_of(mesh, 1, 180, {0, 3})), system_(cloth_, 0.02) {
+    effect.install(system_);
     for (const auto& energy : system_.coupled_energies) hessians_.push_back(energy->make_hessian());
   }
 
@@ -102,7 +101,7 @@ double product(const Vertices& a, const Vertices& b) { return a.cwiseProduct(b).
 
 class EveryEnergy : public testing::TestWithParam<Case> {
  protected:
-  EveryEnergy() : term_(GetParam().mesh(), GetParam().effect()) {}
+  EveryEnergy() : term_(GetParam().mesh(), GetParam().effect) {}
 
   /// The cloth crumpled by up to so many metres.
   Vertices crumpled(double by, int seed) const {

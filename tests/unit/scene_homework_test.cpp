@@ -5,7 +5,7 @@
 #include <string>
 
 #include "scene/scene.hpp"
-#include "sim/effects/effect.hpp"
+#include "sim/system.hpp"
 
 namespace drape {
 namespace {
@@ -45,7 +45,7 @@ TEST_P(Homework, SceneIsWhatTheTableSays) {
   for (const Spring& spring : cloth.springs) EXPECT_EQ(spring.stiffness, expected.stiffness);
 
   std::vector<std::string> effects;
-  for (const ActiveEffect& effect : scene.simulation.effects) effects.push_back(effect.name);
+  for (const Effect& effect : scene.simulation.effects) effects.emplace_back(effect.name());
   EXPECT_EQ(effects, expected.effects);
   EXPECT_EQ(scene.video.fps, 25);
   EXPECT_EQ(scene.video.size, Eigen::Vector2i(480, 400));
@@ -67,7 +67,7 @@ struct Acting {
   System system{scene.simulation.cloth, scene.simulation.step};
 
   explicit Acting(const std::string& file) : scene(load_scene(folder / file)) {
-    for (const ActiveEffect& active : scene.simulation.effects) active.effect->install(system);
+    for (const Effect& effect : scene.simulation.effects) effect.install(system);
   }
 };
 

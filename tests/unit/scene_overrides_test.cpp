@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
-#include "sim/effects/effect.hpp"
+#include "sim/system.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape {
@@ -19,7 +19,7 @@ const std::string item = "[[effects.sphere]]\ncenter = [0, 0, 1]\nradius = 1\n";
 /// The spheres' radii, as something outside sees them.
 std::vector<double> radii(const Scene& scene) {
   System system{scene.simulation.cloth, scene.simulation.step};
-  for (const ActiveEffect& active : scene.simulation.effects) active.effect->install(system);
+  for (const Effect& effect : scene.simulation.effects) effect.install(system);
   std::vector<double> result;
   for (const auto& collider : system.colliders) result.push_back(std::get<SphereShape>(collider->at(0)).radius);
   return result;
@@ -61,7 +61,7 @@ TEST(SceneOverrides, AddTablesOnTheWay) {
   const SceneFolder folder;
   const Scene scene = folder.load(least_scene, {"effects.damping.factor=0.7", "cloth.transform.scale=2"});
   ASSERT_EQ(scene.simulation.effects.size(), 1U);
-  EXPECT_EQ(scene.simulation.effects[0].name, "damping");
+  EXPECT_EQ(scene.simulation.effects[0].name(), "damping");
   EXPECT_EQ(folder.load(least_scene, {"effects.gravity={}"}).simulation.effects.size(), 1U);
 }
 
