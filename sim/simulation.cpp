@@ -114,7 +114,9 @@ Energies Simulation::energies() const {
   const Eigen::VectorXd& m = settings_.cloth.masses;
   ignored_.setZero(state_.x.rows(), 3);
   double elastic = springs_.add_value_gradient(state_.x, ignored_);
-  for (const auto& energy : system_->coupled_energies) elastic += energy->add_gradient(state_.x, ignored_);
+  for (const auto& energy : system_->energies) {
+    if (energy->internal()) elastic += energy->add_gradient(state_.x, time(), ignored_);
+  }
   per_vertex_ = state_.v.rowwise().squaredNorm();
   const double kinetic = 0.5 * m.dot(per_vertex_);
   per_vertex_.noalias() = state_.x * system_->gravity;

@@ -83,7 +83,7 @@ double safe_step(const System& system) {
   }
   // In units of about the largest stiffness and the least mass, so that no product leaves the range of a double. They
   // are powers of four, which change no bit of the result.
-  std::vector<Spring> bound = system.stiffness_bound();
+  std::vector<Spring> bound = system.stiffness_bound().pairs;
   double stiffest = 0;
   for (const Spring& s : bound) stiffest = std::max(stiffest, std::abs(s.stiffness));
   const int unit_of_stiffness = even_exponent(stiffest);
@@ -101,9 +101,9 @@ double safe_step(const System& system) {
 
 double condition_bound(const System& system) {
   const Eigen::VectorXd& masses = system.cloth.masses;
-  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(masses.size());
-  for (const auto& energy : system.energies) energy->add_bound(stiffness);
-  for (const Spring& s : system.stiffness_bound()) {
+  StiffnessBound bound = system.stiffness_bound();
+  Eigen::VectorXd& stiffness = bound.vertices;
+  for (const Spring& s : bound.pairs) {
     stiffness[s.i] += 2 * std::abs(s.stiffness);
     stiffness[s.j] += 2 * std::abs(s.stiffness);
   }

@@ -14,11 +14,11 @@ StepObjective::StepObjective(const System& system)
       y_(system.cloth.vertex_count(), 3) {
   for (const int pin : system.cloth.pins) free_inertia_[pin] = push_[pin] = 0;
   for (const Spring& s : system.springs) elastic_scale_ += s.stiffness * s.rest_length * s.rest_length;
-  for (const auto& energy : system.coupled_energies) {
-    for (const Spring& s : energy->bound()) {
-      const auto d = system.cloth.positions.row(s.i) - system.cloth.positions.row(s.j);
-      elastic_scale_ += std::abs(s.stiffness) * d.squaredNorm();
-    }
+  const StiffnessBound bound = system.stiffness_bound();
+  for (std::size_t p = system.springs.size(); p < bound.pairs.size(); ++p) {
+    const Spring& s = bound.pairs[p];
+    const auto d = system.cloth.positions.row(s.i) - system.cloth.positions.row(s.j);
+    elastic_scale_ += std::abs(s.stiffness) * d.squaredNorm();
   }
 }
 
@@ -37,7 +37,6 @@ void StepObjective::begin(const State& state, const Vertices& force) {
 
 double StepObjective::evaluate(const Vertices& x, Vertices& gradient) const {
   double value = springs_.evaluate(inertia_, y_, x, gradient);
-  for (const auto& energy : system_.coupled_energies) value += energy->add_gradient(x, gradient);
   for (const auto& energy : system_.energies) value += energy->add_gradient(x, time_, gradient);
   for (const int pin : system_.cloth.pins) gradient.row(pin).setZero();
   return value;

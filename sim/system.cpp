@@ -1,8 +1,20 @@
 #include "sim/system.hpp"
 
+#include <algorithm>
+
 #include "sim/kernels/kernels.hpp"
 
 namespace drape {
+
+StiffnessBound System::stiffness_bound() const {
+  StiffnessBound bound{.pairs = springs, .vertices = Eigen::VectorXd::Zero(cloth.vertex_count())};
+  for (const auto& energy : energies) energy->add_bound(bound);
+  return bound;
+}
+
+bool System::all_internal() const {
+  return std::ranges::all_of(energies, [](const auto& energy) { return energy->internal(); });
+}
 
 void System::move(State& state, const Vertices* reached) const {
   if (filters.empty() && reached != nullptr) {

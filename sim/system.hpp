@@ -29,43 +29,47 @@ struct Force {
   [[nodiscard]] virtual double stiffness_bound() const { return 0; }
 };
 
-/// Symmetric 3×3 blocks on the diagonal of a Hessian, one for each vertex: xx, xy, xz, yy, yz, zz. n×6 [N/m]
-using DiagonalBlocks = Eigen::Matrix<double, Eigen::Dynamic, 6>;
-
-/// An energy that implicit methods solve for, E(x) ≥ 0, of every vertex by itself. What couples vertices is a spring or
-/// a CoupledEnergy.
-struct Energy {
-  virtual ~Energy() = default;
-  /// gradient += ∇E(x), n×3 [N]; returns E(x) [J].
-  virtual double add_gradient(const Vertices& x, double time, Vertices& gradient) const = 0;
-  /// Adds a positive semi-definite Hessian of E, the exact one or what is left of it without its negative eigenvalues.
-  virtual void add_hessian(const Vertices& x, double time, DiagonalBlocks& blocks) const = 0;
-  /// Adds an upper bound of the Hessian's eigenvalues at every vertex, whatever its place and the time. n [N/m]
-  virtual void add_bound(Eigen::VectorXd& bound) const = 0;
+/// An upper bound of Hessians that holds in every shape and at every time,
+///   B = Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ I₃ + diag(d) ⊗ I₃.
+struct StiffnessBound {
+  /// The pairs i < j of vertices that are coupled, each once for every energy: springs of the stiffness k, which may be
+  /// negative, and of no length.
+  std::vector<Spring> pairs;
+  Eigen::VectorXd vertices;  ///< d, of vertices by themselves, n [N/m]
 };
 
-/// The positive semi-definite Hessian of a CoupledEnergy at one shape of the cloth, as both of Newton's linear solvers
-/// take it: H = Σ (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ K over the pairs of CoupledEnergy::bound(), with a symmetric 3×3 block K each.
-struct CoupledHessian {
-  virtual ~CoupledHessian() = default;
-  /// Takes the shape x, n×3 [m].
-  virtual void linearise(const Vertices& x) = 0;
+/// A Hessian as its symmetric blocks K,
+///   H = Σ (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ K + Σ eᵢ eᵢᵀ ⊗ K.
+struct HessianBlocks {
+  std::vector<Eigen::Matrix3d> pairs;  ///< in the order of StiffnessBound::pairs [N/m]
+  /// Of vertices by themselves: xx, xy, xz, yy, yz, zz. n×6 [N/m]
+  Eigen::Matrix<double, Eigen::Dynamic, 6> vertices;
+};
+
+/// The positive semi-definite Hessian of an energy at one place and time: the exact one, or what is left of it without
+/// its negative eigenvalues. An object of its own, as only some methods need what it keeps.
+struct EnergyHessian {
+  virtual ~EnergyHessian() = default;
+  /// Takes the places x, n×3 [m], and the time [s].
+  virtual void linearise(const Vertices& x, double time) = 0;
   /// product += H·vector, both n×3.
   virtual void add_product(const Vertices& vector, Vertices& product) const = 0;
-  /// blocks[p] += K of pair p [N/m].
-  virtual void add_blocks(std::vector<Eigen::Matrix3d>& blocks) const = 0;
+  /// Appends the blocks of its pairs, and adds those of vertices.
+  virtual void add_blocks(HessianBlocks& blocks) const = 0;
 };
 
-/// An energy that couples vertices, E(x) ≥ 0, and is the same wherever the cloth is as a whole.
-struct CoupledEnergy {
-  virtual ~CoupledEnergy() = default;
-  /// gradient += ∇E(x), n×3 [N]; returns E(x) [J]. One pass.
-  virtual double add_gradient(const Vertices& x, Vertices& gradient) const = 0;
-  /// An upper bound of the Hessian in every shape, Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ I₃: as if by springs of no length, whose
-  /// stiffness may be negative. Each pair i < j that the energy couples is there once, whatever its stiffness.
-  [[nodiscard]] virtual const std::vector<Spring>& bound() const = 0;
-  /// An object that keeps the Hessian, for the methods that need it. Refers to this energy.
-  [[nodiscard]] virtual std::unique_ptr<CoupledHessian> make_hessian() const = 0;
+/// An energy E(x, t) ≥ 0 of the cloth, beside that of its springs.
+struct Energy {
+  virtual ~Energy() = default;
+  /// gradient += ∇E, n×3 [N]; returns E [J]. One pass.
+  virtual double add_gradient(const Vertices& x, double time, Vertices& gradient) const = 0;
+  /// Appends its pairs, and adds what bounds its Hessian at vertices.
+  virtual void add_bound(StiffnessBound& bound) const = 0;
+  /// Refers to this energy, which must outlive it.
+  [[nodiscard]] virtual std::unique_ptr<EnergyHessian> make_hessian() const = 0;
+  /// Whether it is the cloth's own: the same at every time and wherever the cloth is as a whole. Any other is held by
+  /// something that pushes, and only methods that solve for the end of a step can have it.
+  [[nodiscard]] virtual bool internal() const = 0;
 };
 
 /// A change of the velocity at the end of a step.
@@ -109,7 +113,6 @@ struct System {
   std::vector<Spring> springs;  ///< the cloth's and those that effects add
   std::vector<std::unique_ptr<Force>> forces;
   std::vector<std::unique_ptr<Energy>> energies;
-  std::vector<std::unique_ptr<CoupledEnergy>> coupled_energies;
   std::vector<std::unique_ptr<Correction>> corrections;
   std::vector<std::unique_ptr<MotionFilter>> filters;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;
@@ -118,15 +121,11 @@ struct System {
 
   System(const Cloth& c, double h) : cloth(c), step(h), springs(c.springs) {}
 
-  /// What no Hessian of the springs and the coupled energies exceeds, Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ I₃: the springs, then
-  /// the bounds of the energies one after another.
-  [[nodiscard]] std::vector<Spring> stiffness_bound() const {
-    std::vector<Spring> bound = springs;
-    for (const auto& energy : coupled_energies) {
-      bound.insert(bound.end(), energy->bound().begin(), energy->bound().end());
-    }
-    return bound;
-  }
+  /// What no Hessian of the springs and the energies exceeds: the springs, then the energies one after another.
+  [[nodiscard]] StiffnessBound stiffness_bound() const;
+
+  /// Whether every energy is the cloth's own, so that nothing which is solved for pushes it.
+  [[nodiscard]] bool all_internal() const;
 
   /// When a step begins, and so the one before it ends [s]: never a running sum.
   [[nodiscard]] double time(std::int64_t number) const { return static_cast<double>(number) * step; }

@@ -37,45 +37,33 @@ struct TimedForce final : Timed<Force> {
   [[nodiscard]] double stiffness_bound() const override { return inner->stiffness_bound(); }
 };
 
+struct TimedHessian final : Timed<EnergyHessian> {
+  using Timed::Timed;
+  void linearise(const Vertices& x, double time) override {
+    const Stopwatch watch(seconds);
+    inner->linearise(x, time);
+  }
+  void add_product(const Vertices& vector, Vertices& product) const override {
+    const Stopwatch watch(seconds);
+    inner->add_product(vector, product);
+  }
+  void add_blocks(HessianBlocks& blocks) const override {
+    const Stopwatch watch(seconds);
+    inner->add_blocks(blocks);
+  }
+};
+
 struct TimedEnergy final : Timed<Energy> {
   using Timed::Timed;
   double add_gradient(const Vertices& x, double time, Vertices& gradient) const override {
     const Stopwatch watch(seconds);
     return inner->add_gradient(x, time, gradient);
   }
-  void add_hessian(const Vertices& x, double time, DiagonalBlocks& blocks) const override {
-    const Stopwatch watch(seconds);
-    inner->add_hessian(x, time, blocks);
-  }
-  void add_bound(Eigen::VectorXd& bound) const override { inner->add_bound(bound); }
-};
-
-struct TimedHessian final : Timed<CoupledHessian> {
-  using Timed::Timed;
-  void linearise(const Vertices& x) override {
-    const Stopwatch watch(seconds);
-    inner->linearise(x);
-  }
-  void add_product(const Vertices& vector, Vertices& product) const override {
-    const Stopwatch watch(seconds);
-    inner->add_product(vector, product);
-  }
-  void add_blocks(std::vector<Eigen::Matrix3d>& blocks) const override {
-    const Stopwatch watch(seconds);
-    inner->add_blocks(blocks);
-  }
-};
-
-struct TimedCoupledEnergy final : Timed<CoupledEnergy> {
-  using Timed::Timed;
-  double add_gradient(const Vertices& x, Vertices& gradient) const override {
-    const Stopwatch watch(seconds);
-    return inner->add_gradient(x, gradient);
-  }
-  [[nodiscard]] const std::vector<Spring>& bound() const override { return inner->bound(); }
-  [[nodiscard]] std::unique_ptr<CoupledHessian> make_hessian() const override {
+  void add_bound(StiffnessBound& bound) const override { inner->add_bound(bound); }
+  [[nodiscard]] std::unique_ptr<EnergyHessian> make_hessian() const override {
     return std::make_unique<TimedHessian>(inner->make_hessian(), seconds);
   }
+  [[nodiscard]] bool internal() const override { return inner->internal(); }
 };
 
 struct TimedCorrection final : Timed<Correction> {
@@ -113,7 +101,6 @@ void wrap(std::vector<std::unique_ptr<Base>>& list, std::size_t from, double& se
 void time_additions(System& system, const SystemSizes& before, double& seconds) {
   wrap<TimedForce>(system.forces, before.forces, seconds);
   wrap<TimedEnergy>(system.energies, before.energies, seconds);
-  wrap<TimedCoupledEnergy>(system.coupled_energies, before.coupled_energies, seconds);
   wrap<TimedCorrection>(system.corrections, before.corrections, seconds);
   wrap<TimedFilter>(system.filters, before.filters, seconds);
 }

@@ -6,11 +6,10 @@ namespace drape {
 
 /// How much of each list of a system there is at one moment.
 struct SystemSizes {
-  std::size_t forces, energies, coupled_energies, corrections, filters;
+  std::size_t forces, energies, corrections, filters;
   explicit SystemSizes(const System& system)
       : forces(system.forces.size()),
         energies(system.energies.size()),
-        coupled_energies(system.coupled_energies.size()),
         corrections(system.corrections.size()),
         filters(system.filters.size()) {}
 };

@@ -20,12 +20,13 @@ Distance distance(const Vertices& a, const Vertices& b) {
 SimulationSettings to_rounding(SimulationSettings settings, Method method) {
   const System system = make_system(settings);
   const Cloth& cloth = settings.cloth;
+  const StiffnessBound bound = system.stiffness_bound();
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(cloth.vertex_count());
-  for (const Spring& spring : system.stiffness_bound()) {
+  for (const Spring& spring : bound.pairs) {
     stiffness[spring.i] += std::abs(spring.stiffness);
     stiffness[spring.j] += std::abs(spring.stiffness);
   }
-  for (const auto& energy : system.energies) energy->add_bound(stiffness);
+  stiffness += bound.vertices;
   const double h = settings.step;
   const double amplified = 1 + h * h * (stiffness.array() / cloth.masses.array()).maxCoeff();
   const double unit = std::numeric_limits<double>::epsilon() * cloth.positions.cwiseAbs().maxCoeff();

@@ -37,10 +37,10 @@ std::vector<Spring> couplings(std::span<const CurvatureElement> elements) {
 
 /// H of the quadratic part, which is constant, and −min(1, r/‖q‖)(I − q̂q̂ᵀ) wwᵀ of every curved component: the exact
 /// Hessian where ‖q‖ > r, else what is left of it without its negative eigenvalues, as with springs.
-class BendingHessian final : public CoupledHessian {
+class BendingHessian final : public EnergyHessian {
  public:
   explicit BendingHessian(const BendingEnergy& energy) : energy_(energy), curved_(energy.curved_.size()) {
-    const std::vector<Spring>& pairs = energy.bound();
+    const std::vector<Spring>& pairs = energy.pairs();
     for (const auto& component : energy.curved_) {
       for (std::size_t c = 0; c < 6; ++c) {
         for (std::size_t d = c + 1; d < 6; ++d) {
@@ -54,7 +54,7 @@ class BendingHessian final : public CoupledHessian {
     }
   }
 
-  void linearise(const Vertices& x) override {
+  void linearise(const Vertices& x, double) override {
     for (std::size_t k = 0; k < curved_.size(); ++k) {
       const Eigen::Vector3d q = energy_.curved_[k].bent(x).transpose();
       const double length = q.norm();
@@ -76,15 +76,15 @@ class BendingHessian final : public CoupledHessian {
     }
   }
 
-  void add_blocks(std::vector<Eigen::Matrix3d>& blocks) const override {
-    const std::vector<Spring>& pairs = energy_.bound();
-    for (std::size_t p = 0; p < pairs.size(); ++p) blocks[p].diagonal().array() += pairs[p].stiffness;
+  void add_blocks(HessianBlocks& blocks) const override {
+    const std::size_t first = blocks.pairs.size();
+    for (const Spring& pair : energy_.pairs()) blocks.pairs.emplace_back(pair.stiffness * Eigen::Matrix3d::Identity());
     const int* place = places_.data();
     for (std::size_t k = 0; k < curved_.size(); ++k) {
       const auto& w = energy_.curved_[k].weights;
       for (int c = 0; c < 6; ++c) {
         for (int d = c + 1; d < 6; ++d, ++place) {
-          if (*place >= 0) blocks[static_cast<std::size_t>(*place)] -= w[c] * w[d] * curved_[k];
+          if (*place >= 0) blocks.pairs[first + static_cast<std::size_t>(*place)] -= w[c] * w[d] * curved_[k];
         }
       }
     }
@@ -117,7 +117,7 @@ Eigen::RowVector3d BendingEnergy::Curved::bent(const Vertices& x) const {
   return sum;
 }
 
-double BendingEnergy::add_gradient(const Vertices& x, Vertices& gradient) const {
+double BendingEnergy::add_gradient(const Vertices& x, double, Vertices& gradient) const {
   double value = quadratic_.add_value_gradient(x, gradient);
   for (const Curved& component : curved_) {
     const Eigen::RowVector3d q = component.bent(x);
@@ -132,6 +132,10 @@ double BendingEnergy::add_gradient(const Vertices& x, Vertices& gradient) const 
   return value;
 }
 
-std::unique_ptr<CoupledHessian> BendingEnergy::make_hessian() const { return std::make_unique<BendingHessian>(*this); }
+void BendingEnergy::add_bound(StiffnessBound& bound) const {
+  bound.pairs.insert(bound.pairs.end(), pairs().begin(), pairs().end());
+}
+
+std::unique_ptr<EnergyHessian> BendingEnergy::make_hessian() const { return std::make_unique<BendingHessian>(*this); }
 
 }  // namespace drape

@@ -13,13 +13,17 @@ namespace drape {
 /// Its quadratic part ½ Σ ‖q‖² couples pairs of vertices as springs without a length do, E = Σ k/2 ‖xᵢ − xⱼ‖² with
 /// k = −Σ wᵢ wⱼ of either sign, and is evaluated as such. It is all there is where the rest shape is flat, and the
 /// bound of the Hessian elsewhere: what is left, r²/2 − r‖q‖, is concave.
-class BendingEnergy final : public CoupledEnergy {
+class BendingEnergy final : public Energy {
  public:
   BendingEnergy(std::span<const CurvatureElement> elements, int vertex_count);
 
-  double add_gradient(const Vertices& x, Vertices& gradient) const override;
-  [[nodiscard]] const std::vector<Spring>& bound() const override { return quadratic_.springs(); }
-  [[nodiscard]] std::unique_ptr<CoupledHessian> make_hessian() const override;
+  double add_gradient(const Vertices& x, double time, Vertices& gradient) const override;
+  void add_bound(StiffnessBound& bound) const override;
+  [[nodiscard]] std::unique_ptr<EnergyHessian> make_hessian() const override;
+  [[nodiscard]] bool internal() const override { return true; }
+
+  /// The pairs of vertices that it couples, sorted.
+  [[nodiscard]] const std::vector<Spring>& pairs() const { return quadratic_.springs(); }
 
  private:
   friend class BendingHessian;

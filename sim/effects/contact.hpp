@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -53,9 +54,8 @@ struct PenaltyForce final : Force {
   }
 };
 
-/// The push as an energy, E = Σ m·stiffness/2·gap². Its Hessian is m·stiffness·(nnᵀ + gap·∇n), of which the first
-/// term is positive and the second, where the surface is convex, negative. Where impacts have a restitution, what
-/// arrives in a step is not pushed in it: it is the impact that stops it.
+/// The push as an energy, E = Σ m·stiffness/2·gap². Where impacts have a restitution, what arrives in a step is not
+/// pushed in it: it is the impact that stops it.
 template <class Surface>
 struct PenaltyEnergy final : Energy {
   Surface surface;
@@ -79,23 +79,65 @@ struct PenaltyEnergy final : Energy {
     return total;
   }
 
-  void add_hessian(const Vertices& x, double time, DiagonalBlocks& blocks) const override {
-    const auto now = surface.at(time);
+  void add_bound(StiffnessBound& bound) const override { bound.vertices += stiffness * masses; }
+  [[nodiscard]] std::unique_ptr<EnergyHessian> make_hessian() const override;
+  [[nodiscard]] bool internal() const override { return false; }
+
+  [[nodiscard]] bool arrives(Eigen::Index i) const { return start && start->was_outside(static_cast<int>(i)); }
+};
+
+/// Of the energy's Hessian m·stiffness·(nnᵀ + gap·∇n) the first term, which is positive; the second is negative where
+/// the surface is convex.
+template <class Surface>
+class PenaltyHessian final : public EnergyHessian {
+ public:
+  explicit PenaltyHessian(const PenaltyEnergy<Surface>& energy) : energy_(energy) {
+    contacts_.reserve(static_cast<std::size_t>(energy.masses.size()));
+  }
+
+  void linearise(const Vertices& x, double time) override {
+    contacts_.clear();
+    const auto now = energy_.surface.at(time);
     SurfaceContact contact;
     for (Eigen::Index i = 0; i < x.rows(); ++i) {
-      if (!now.find(x.row(i).transpose(), contact) || arrives(i)) continue;
+      if (!now.find(x.row(i).transpose(), contact) || energy_.arrives(i)) continue;
       const Eigen::Vector3d n = contact.normal();
-      Eigen::Matrix<double, 1, 6> products;
-      products << n[0] * n[0], n[0] * n[1], n[0] * n[2], n[1] * n[1], n[1] * n[2], n[2] * n[2];
-      blocks.row(i) += masses[i] * stiffness * products;
+      const double k = energy_.masses[i] * energy_.stiffness;
+      contacts_.push_back({i,
+                           {k * (n[0] * n[0]), k * (n[0] * n[1]), k * (n[0] * n[2]), k * (n[1] * n[1]),
+                            k * (n[1] * n[2]), k * (n[2] * n[2])}});
     }
   }
 
-  void add_bound(Eigen::VectorXd& bound) const override { bound += stiffness * masses; }
+  void add_product(const Vertices& vector, Vertices& product) const override {
+    for (const auto& [i, b] : contacts_) {
+      const double x = vector(i, 0), y = vector(i, 1), z = vector(i, 2);
+      product(i, 0) += b[0] * x + b[1] * y + b[2] * z;
+      product(i, 1) += b[1] * x + b[3] * y + b[4] * z;
+      product(i, 2) += b[2] * x + b[4] * y + b[5] * z;
+    }
+  }
+
+  void add_blocks(HessianBlocks& blocks) const override {
+    for (const auto& [i, b] : contacts_) {
+      for (Eigen::Index k = 0; k < 6; ++k) blocks.vertices(i, k) += b[static_cast<std::size_t>(k)];
+    }
+  }
 
  private:
-  [[nodiscard]] bool arrives(Eigen::Index i) const { return start && start->was_outside(static_cast<int>(i)); }
+  struct PushedVertex {
+    Eigen::Index vertex;
+    std::array<double, 6> block;  // as in HessianBlocks
+  };
+
+  const PenaltyEnergy<Surface>& energy_;
+  std::vector<PushedVertex> contacts_;
 };
+
+template <class Surface>
+std::unique_ptr<EnergyHessian> PenaltyEnergy<Surface>::make_hessian() const {
+  return std::make_unique<PenaltyHessian<Surface>>(*this);
+}
 
 /// Friction of what lies on a surface, and what the push may give back to it, as a change of a step's velocities
 /// relative to the surface (Bridson, Fedkiw and Anderson 2002, section 5, with the penalty's own impulse as the normal

@@ -21,8 +21,7 @@ ConjugateGradients::ConjugateGradients(const System& system, const StepObjective
       preconditioned_(residual_),
       search_(residual_),
       product_(residual_) {
-  if (!system.energies.empty()) diagonal_.resize(residual_.rows(), 6);
-  for (const auto& energy : system.coupled_energies) coupled_.push_back(energy->make_hessian());
+  for (const auto& energy : system.energies) hessians_.push_back(energy->make_hessian());
 }
 
 void ConjugateGradients::solve(const Vertices& x, const Vertices& gradient, Vertices& direction) {
@@ -52,22 +51,13 @@ void ConjugateGradients::solve(const Vertices& x, const Vertices& gradient, Vert
 
 void ConjugateGradients::linearise(const Vertices& x) {
   objective_.springs().compute_blocks(x, blocks_);
-  for (const auto& hessian : coupled_) hessian->linearise(x);
-  diagonal_.setZero();
-  for (const auto& energy : system_.energies) energy->add_hessian(x, objective_.time(), diagonal_);
+  for (const auto& hessian : hessians_) hessian->linearise(x, objective_.time());
 }
 
 void ConjugateGradients::apply(const Vertices& vector, Vertices& product) const {
   product = vector.array().colwise() * objective_.inertia().array();
   objective_.springs().add_product(blocks_, vector, product);
-  for (const auto& hessian : coupled_) hessian->add_product(vector, product);
-  if (diagonal_.rows() > 0) {
-    const auto v = vector.array();
-    const auto b = diagonal_.array();
-    product.col(0).array() += b.col(0) * v.col(0) + b.col(1) * v.col(1) + b.col(2) * v.col(2);
-    product.col(1).array() += b.col(1) * v.col(0) + b.col(3) * v.col(1) + b.col(4) * v.col(2);
-    product.col(2).array() += b.col(2) * v.col(0) + b.col(4) * v.col(1) + b.col(5) * v.col(2);
-  }
+  for (const auto& hessian : hessians_) hessian->add_product(vector, product);
   for (const int pin : system_.cloth.pins) product.row(pin).setZero();
 }
 

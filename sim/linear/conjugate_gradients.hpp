@@ -22,8 +22,7 @@ class ConjugateGradients final : public NewtonSolver {
   const StepObjective& objective_;
   ConstantFactor preconditioner_;
   SpringNetwork::Blocks blocks_;
-  std::vector<std::unique_ptr<CoupledHessian>> coupled_;
-  DiagonalBlocks diagonal_;  // of the system's energies; empty without any
+  std::vector<std::unique_ptr<EnergyHessian>> hessians_;  // of the system's energies
   Vertices residual_, preconditioned_, search_, product_;
 };
 

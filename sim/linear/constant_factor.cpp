@@ -20,7 +20,7 @@ struct Matrix {
 };
 
 Matrix assemble(const System& system, const FreeVertices& free) {
-  const std::vector<Spring> springs = system.stiffness_bound();
+  const auto [springs, vertices] = system.stiffness_bound();
   Matrix matrix{.pattern = spring_pattern(springs, free), .values = {}};
   matrix.values.assign(static_cast<std::size_t>(matrix.pattern.entries()), 0.0);
   const std::vector<int>&starts = matrix.pattern.starts, &rows = matrix.pattern.rows;
@@ -29,8 +29,7 @@ Matrix assemble(const System& system, const FreeVertices& free) {
     const auto end = rows.begin() + starts[static_cast<std::size_t>(column) + 1];
     return matrix.values[static_cast<std::size_t>(std::lower_bound(begin, end, row) - rows.begin())];
   };
-  Eigen::VectorXd diagonal = system.inertia();
-  for (const auto& energy : system.energies) energy->add_bound(diagonal);
+  const Eigen::VectorXd diagonal = system.inertia() + vertices;
   for (int f = 0; f < free.count(); ++f) at(f, f) = diagonal[free.vertex(f)];
   for (const Spring& spring : springs) {
     const int i = free.number(spring.i), j = free.number(spring.j);

@@ -67,7 +67,7 @@ NewtonCholesky::NewtonCholesky(const System& system, const StepObjective& object
   if (n == 0) return;
 
   // A fill-reducing order of the vertices is one of their 3×3 blocks too, found nine times faster.
-  const std::vector<Spring> springs = system.stiffness_bound();
+  const std::vector<Spring> springs = system.stiffness_bound().pairs;
   const LowerPattern graph = spring_pattern(springs, free);
   const SparseCholesky analysis(graph, FactorKind::simplicial, false);
   auto rank = std::vector<int>(static_cast<Index>(n));
@@ -88,7 +88,7 @@ NewtonCholesky::NewtonCholesky(const System& system, const StepObjective& object
     const auto end = blocks.rows.begin() + blocks.starts[Index(low) + 1];
     places_.back().rank = static_cast<int>(std::lower_bound(begin, end, high) - begin) - 1;
   }
-  for (const auto& energy : system.coupled_energies) coupled_.push_back(energy->make_hessian());
+  for (const auto& energy : system.energies) hessians_.push_back(energy->make_hessian());
 
   const LowerPattern pattern = expanded(blocks);
   column_starts_.assign(pattern.starts.begin(), pattern.starts.end() - 1);
@@ -126,7 +126,6 @@ bool NewtonCholesky::factorize(const Vertices& x) {
   for (Index s = 0; s < system_.springs.size(); ++s) {
     if (places_[s].high >= 0) add(places_[s], spring_hessian(system_.springs[s], x));
   }
-  add_coupled_energies(x);
   add_energies(x);
   // Positive definite in exact arithmetic; what rounding has spoilt, a multiple of the identity mends (Nocedal and
   // Wright 2006, algorithm 3.3).
@@ -139,22 +138,18 @@ bool NewtonCholesky::factorize(const Vertices& x) {
   return true;
 }
 
-void NewtonCholesky::add_coupled_energies(const Vertices& x) {
-  const Place* place = places_.data() + system_.springs.size();
-  for (Index e = 0; e < coupled_.size(); ++e) {
-    coupled_[e]->linearise(x);
-    blocks_.assign(system_.coupled_energies[e]->bound().size(), Eigen::Matrix3d::Zero());
-    coupled_[e]->add_blocks(blocks_);
-    for (const Eigen::Matrix3d& block : blocks_) add(*place++, block);
-  }
-}
-
 void NewtonCholesky::add_energies(const Vertices& x) {
-  if (system_.energies.empty()) return;
-  diagonal_.setZero(x.rows(), 6);
-  for (const auto& energy : system_.energies) energy->add_hessian(x, objective_.time(), diagonal_);
+  if (hessians_.empty()) return;
+  blocks_.pairs.clear();
+  blocks_.vertices.setZero(x.rows(), 6);
+  for (const auto& hessian : hessians_) {
+    hessian->linearise(x, objective_.time());
+    hessian->add_blocks(blocks_);
+  }
+  const Place* place = places_.data() + system_.springs.size();
+  for (const Eigen::Matrix3d& block : blocks_.pairs) add(*place++, block);
   for (Index row = 0; row < vertices_.size(); ++row) {
-    const auto b = diagonal_.row(vertices_[row]);
+    const auto b = blocks_.vertices.row(vertices_[row]);
     Eigen::Matrix3d block;
     block << b[0], b[1], b[2], b[1], b[3], b[4], b[2], b[4], b[5];
     add_diagonal(static_cast<int>(row), block);

@@ -10,7 +10,7 @@
 namespace drape {
 
 /// Newton's equations by a Cholesky factor of H = M/h² + Σ Kₛ, with one symmetric 3×3 block per spring and per pair of
-/// vertices that an energy couples, and the blocks of the system's other energies on its diagonal. The sparsity is
+/// vertices that an energy couples, and those of energies of single vertices on its diagonal. The sparsity is
 /// analysed once, on the n×n graph of vertices; every assembly writes the values in place.
 class NewtonCholesky final : public NewtonSolver {
  public:
@@ -20,7 +20,6 @@ class NewtonCholesky final : public NewtonSolver {
  private:
   /// Returns false where the matrix is not finite.
   [[nodiscard]] bool factorize(const Vertices& x);
-  void add_coupled_energies(const Vertices& x);
   void add_energies(const Vertices& x);
 
   /// Where the block of a spring or a pair goes: the rows of its ends in H/3 (−1 for a pin), and the place of the
@@ -37,15 +36,14 @@ class NewtonCholesky final : public NewtonSolver {
   const System& system_;
   const StepObjective& objective_;
   std::vector<int> vertices_;       // of each block row
-  std::vector<Place> places_;       // of each spring, then of each pair of each coupled energy
+  std::vector<Place> places_;       // of each spring, then of each pair of each energy
   std::vector<int> column_starts_;  // 3 per block row: where each scalar column begins in values_
   std::vector<double> values_;      // lower triangle of H
   std::vector<double> inertia_;     // m/h² of each block row
   std::vector<double> right_hand_side_;
-  DiagonalBlocks diagonal_;  // of the system's energies
-  std::vector<std::unique_ptr<CoupledHessian>> coupled_;
-  std::vector<Eigen::Matrix3d> blocks_;  // of a coupled energy's pairs
-  std::vector<SparseCholesky> factor_;   // one, absent where everything is pinned
+  std::vector<std::unique_ptr<EnergyHessian>> hessians_;  // of the system's energies
+  HessianBlocks blocks_;                                  // theirs
+  std::vector<SparseCholesky> factor_;                    // one, absent where everything is pinned
 };
 
 }  // namespace drape

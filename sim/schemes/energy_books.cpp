@@ -26,7 +26,7 @@ Eigen::RowVector3d mean(const Cloth& cloth, const Vertices& v) {
   return (cloth.masses.transpose() * v) / cloth.masses.sum();
 }
 
-bool is_free(const System& system) { return system.cloth.pins.empty() && system.energies.empty(); }
+bool is_free(const System& system) { return system.cloth.pins.empty() && system.all_internal(); }
 
 EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
     : system_(system),
@@ -34,7 +34,7 @@ EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, c
       stop_(settings.stop),
       tolerance_(settings.tolerance),
       start_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
-      steady_(system.filters.empty() && system.pin_motions.empty() && system.energies.empty()),
+      steady_(system.filters.empty() && system.pin_motions.empty() && system.all_internal()),
       trial_(start_) {}
 
 void EnergyBooks::begin(const State& state, const Vertices& last_end) {
@@ -50,7 +50,7 @@ void EnergyBooks::begin(const State& state, const Vertices& last_end) {
 
 bool EnergyBooks::gains(const Point& point, bool tolerant) {
   // What pushes may be moved, and give energy as it curves away from the cloth: only stopping early is looked at there.
-  if (!system_.energies.empty() && !(given(point) > lost(point))) return false;
+  if (!system_.all_internal() && !(given(point) > lost(point))) return false;
   const auto too_much = [&] {
     const double surplus = gain(point) - rounding(point);
     return surplus > 0 && !(tolerant && surplus <= tolerated(point));

@@ -8,7 +8,7 @@ SemiImplicitEuler::SemiImplicitEuler(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count()),
       pull_(-system.step * system.cloth.masses.cwiseInverse()) {
-  if (!system.energies.empty()) {
+  if (!system.all_internal()) {
     throw UsageError(
         "semi-implicit Euler solves for nothing: it cannot have an energy that is, such as a contact with response = "
         "\"implicit\"");
@@ -29,9 +29,9 @@ StepReport SemiImplicitEuler::advance(State& state, const Vertices& force) {
 }
 
 const Vertices& SemiImplicitEuler::with_energies(const State& state, const Vertices& force) {
-  if (system_.coupled_energies.empty()) return force;
+  if (system_.energies.empty()) return force;
   force_.setZero(force.rows(), 3);
-  for (const auto& energy : system_.coupled_energies) energy->add_gradient(state.x, force_);
+  for (const auto& energy : system_.energies) energy->add_gradient(state.x, system_.time(state.step), force_);
   force_ = force - force_;
   return force_;
 }

@@ -13,13 +13,13 @@ class SemiImplicitEuler final : public Scheme {
   StepReport advance(State& state, const Vertices& force) override;
 
  private:
-  /// `force` with that of the energies that couple vertices [N].
+  /// `force` with that of the energies [N].
   const Vertices& with_energies(const State& state, const Vertices& force);
 
   const System& system_;
   SpringNetwork springs_;
   Eigen::VectorXd pull_;  // −h/m of each vertex, 0 on pins [s/kg]
-  Vertices force_;        // with coupled energies; empty without [N]
+  Vertices force_;        // with that of energies; empty without [N]
 };
 
 }  // namespace drape

@@ -52,7 +52,6 @@ StepLedger::Value StepLedger::value_of(const Vertices& x, double time) const {
   value.gradient_rounding = 4 * std::sqrt(squares);
   value.energy = value.elastic;
   Vertices others = Vertices::Zero(x.rows(), 3);
-  for (const auto& energy : system_.coupled_energies) value.energy += energy->add_gradient(x, others);
   for (const auto& energy : system_.energies) value.energy += energy->add_gradient(x, time, others);
   value.gradient += others.cast<Real>();
   value.gradient_rounding += 4 * unit * others.norm();
@@ -116,7 +115,7 @@ StepBalance StepLedger::balance(const State& before, const State& after) const {
   // The momentum of a cloth that nothing holds is kept by sums over all vertices, which round more.
   b.kinetic_rounding = 128 * unit * std::sqrt(squared(reach, masses_) * squared(change, masses_)) / (h * h);
   b.tolerated = tolerated(b, f, change);
-  if (!system_.energies.empty()) b.pushed = std::max(Real(0), -b.convexity_loss);
+  if (!system_.all_internal()) b.pushed = std::max(Real(0), -b.convexity_loss);
   return b;
 }
 

@@ -37,12 +37,12 @@ const Bending bending{.rigidity = 0.3};
 const Sphere implicit_sphere{
     .center = Eigen::Vector3d(0.1, 0, -0.5), .radius = 0.7, .response = Response::implicit_energy};
 
-/// One term of the energy, whichever kind it is: of vertices by themselves, or of vertices together.
+/// The one energy of an effect.
 class Term {
  public:
   Term(const Mesh& mesh, const Effect& effect) : cloth_(cloth_of(mesh, 1, 180, {0, 3})), system_(cloth_, 0.02) {
     effect.install(system_);
-    for (const auto& energy : system_.coupled_energies) hessians_.push_back(energy->make_hessian());
+    for (const auto& energy : system_.energies) hessians_.push_back(energy->make_hessian());
   }
 
   [[nodiscard]] const Cloth& cloth() const { return cloth_; }
@@ -61,40 +61,30 @@ class Term {
   Vertices product(const Vertices& x, const Vertices& v) {
     Vertices result = Vertices::Zero(x.rows(), 3);
     for (const auto& hessian : hessians_) {
-      hessian->linearise(x);
+      hessian->linearise(x, 0);
       hessian->add_product(v, result);
-    }
-    DiagonalBlocks b = DiagonalBlocks::Zero(x.rows(), 6);
-    for (const auto& energy : system_.energies) energy->add_hessian(x, 0, b);
-    for (Eigen::Index i = 0; i < x.rows(); ++i) {
-      Eigen::Matrix3d block;
-      block << b(i, 0), b(i, 1), b(i, 2), b(i, 1), b(i, 3), b(i, 4), b(i, 2), b(i, 4), b(i, 5);
-      result.row(i) += v.row(i) * block;
     }
     return result;
   }
   /// vᵀ B v of the constant bound B.
   double bounded(const Vertices& v) const {
-    double sum = 0;
-    for (const auto& energy : system_.coupled_energies) {
-      for (const Spring& s : energy->bound()) sum += s.stiffness * (v.row(s.i) - v.row(s.j)).squaredNorm();
-    }
-    Eigen::VectorXd bound = Eigen::VectorXd::Zero(v.rows());
+    StiffnessBound bound{.pairs = {}, .vertices = Eigen::VectorXd::Zero(v.rows())};
     for (const auto& energy : system_.energies) energy->add_bound(bound);
-    return sum + bound.dot(v.rowwise().squaredNorm());
+    double sum = bound.vertices.dot(v.rowwise().squaredNorm());
+    for (const Spring& s : bound.pairs) sum += s.stiffness * (v.row(s.i) - v.row(s.j)).squaredNorm();
+    return sum;
   }
 
  private:
   double add_gradient(const Vertices& x, Vertices& gradient) const {
     double value = 0;
-    for (const auto& energy : system_.coupled_energies) value += energy->add_gradient(x, gradient);
     for (const auto& energy : system_.energies) value += energy->add_gradient(x, 0, gradient);
     return value;
   }
 
   Cloth cloth_;
   System system_;
-  std::vector<std::unique_ptr<CoupledHessian>> hessians_;
+  std::vector<std::unique_ptr<EnergyHessian>> hessians_;
 };
 
 double product(const Vertices& a, const Vertices& b) { return a.cwiseProduct(b).sum(); }
@@ -158,7 +148,7 @@ TEST_P(EveryEnergy, StaysBelowTheParabolaOfItsBound) {
 }
 
 TEST_P(EveryEnergy, PullsNowhereAsAWhole) {
-  if (term_.system().coupled_energies.empty()) GTEST_SKIP() << "of vertices by themselves";
+  if (!term_.system().all_internal()) GTEST_SKIP() << "something else pushes";
   const Vertices x = crumpled(0.1, 1), g = term_.gradient(x);
   EXPECT_LT(g.colwise().sum().norm(), 1e-12 * g.norm() * std::sqrt(static_cast<double>(g.rows())));
 }
