@@ -79,7 +79,7 @@ class Effect {
     [[nodiscard]] std::string_view name() const override { return T::name; }
     void describe(Keys& keys) override { value.describe(keys); }
     void check(const SimulationSettings& settings, const ProblemSink& problem) const override {
-      if constexpr (requires { value.check(settings, problem); }) value.check(settings, problem);
+      if constexpr (requires { &T::check; }) value.check(settings, problem);
     }
     void install(System& system) const override { value.install(system); }
   };
