@@ -8,9 +8,10 @@
 #include "cli/interruption.hpp"
 #include "cli/number_option.hpp"
 #include "cli/output_clashes.hpp"
-#include "cli/progress_display.hpp"
 #include "cli/scene_files.hpp"
+#include "cli/step_by_step.hpp"
 #include "cli/summary.hpp"
+#include "cli/watched.hpp"
 #include "core/console.hpp"
 #include "render/encode/path_template.hpp"
 #include "render/gl/inspect.hpp"
@@ -64,7 +65,6 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
   options.steps = arguments.steps;
   if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
   options.backend = arguments.backend;
-  options.step_by_step = arguments.step_by_step;
   options.time_effects = verbose || !arguments.records.stats.empty();
   return options;
 }
@@ -112,17 +112,19 @@ ExitCode conclude(const Scene& scene, const RunResult& result) {
   return outputs;
 }
 
-ExitCode run(const Scene& scene, const RunOptions& options, const CommonOptions& common) {
+ExitCode run(const Scene& scene, RunOptions options, bool step_by_step, const CommonOptions& common) {
   spdlog::info(describe(scene, options));
   if (scene.simulation.integrator.allow_unstable) {
     if (const auto problem = stability_problem(scene.simulation, make_system(scene.simulation))) {
       spdlog::warn("{}: {}", scene.file.string(), *problem);
     }
   }
-  Progress progress;
-  ProgressDisplay display(progress, ProgressDisplay::fitting_style(common.quiet || options.step_by_step));
-  const RunResult result = run_scene(scene, options, interruption(), progress, [&] { display.update(); });
-  display.clear();
+  StepByStep pause(interruption());
+  if (step_by_step) options.observer = &pause;
+  RunResult result;
+  run_watched(common.quiet || step_by_step, [&](const std::stop_token& stop, Progress& progress) {
+    result = run_scene(scene, options, stop, progress);
+  });
   if (!result.renderer.empty()) spdlog::debug("drawn by {}", result.renderer);
   if (common.verbose) spdlog::debug(effect_shares(result.statistics));
   if (!common.quiet && result.statistics.steps() > 0) print_text(stderr, summarize(result) + "\n");
@@ -132,18 +134,18 @@ ExitCode run(const Scene& scene, const RunOptions& options, const CommonOptions&
 /// Runs one scene after the other. One that fails does not keep the next from being run.
 /// @returns the worst of their codes, which is the largest
 ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
-  const std::atomic<bool>& interrupted = interruption();
+  interruption();  // from here on, a signal ends what there is in good order
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, arguments.overrides);
   std::vector<RunOptions> options;
   for (const Scene& scene : scenes) options.push_back(run_options(arguments, scene, common.verbose));
   look_ahead(scenes, options);
   ExitCode worst = ExitCode::ok;
   for (std::size_t i = 0; i < scenes.size() && worst != ExitCode::interrupted; ++i) {
-    if (interrupted && i > 0) {
+    if (interrupted() && i > 0) {
       spdlog::error("interrupted before {}", scenes[i].file.string());
       return ExitCode::interrupted;
     }
-    worst = std::max(worst, reported([&] { return run(scenes[i], options[i], common); }));
+    worst = std::max(worst, reported([&] { return run(scenes[i], options[i], arguments.step_by_step, common); }));
   }
   return worst;
 }

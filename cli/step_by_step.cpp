@@ -1,4 +1,4 @@
-#include "run/step_by_step.hpp"
+#include "cli/step_by_step.hpp"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -7,7 +7,6 @@
 #include <string>
 
 #include "core/console.hpp"
-
 #include "sim/schemes/registry.hpp"
 
 namespace drape {

@@ -32,6 +32,12 @@ FilmExtent::FilmExtent(const Video& video, double h, std::int64_t step_count,
   }
 }
 
+Vertices positions_at(double time, const Simulation& simulation, const Vertices& before) {
+  const Vertices& now = simulation.state().x;
+  const double back = std::clamp((simulation.time() - time) / simulation.settings().step, 0.0, 1.0);
+  return back < rounding ? now : Vertices((1 - back) * now + back * before);
+}
+
 FrameSampler::FrameSampler(const FilmExtent& extent, Sink sink)
     : extent_(extent), sink_(std::move(sink)), next_(extent.frames.first) {}
 
@@ -49,11 +55,8 @@ void FrameSampler::emit_until(const Simulation& simulation) {
   const double h = extent_.step;
   while (next_ <= extent_.frames.last && extent_.time(next_) <= simulation.time() + rounding * h) {
     const double time = extent_.time(next_);
-    const double back = std::clamp((simulation.time() - time) / h, 0.0, 1.0);
     Frame frame{.index = next_, .time = time, .positions = {}, .colliders = simulation.colliders(time)};
-    // On a step exactly, the step's own bits.
-    frame.positions =
-        back < rounding ? simulation.state().x : Vertices((1 - back) * simulation.state().x + back * previous_);
+    frame.positions = positions_at(time, simulation, previous_);
     ++next_;
     sink_(std::move(frame));
   }

@@ -31,6 +31,11 @@ struct FilmExtent {
   [[nodiscard]] double time(int frame) const { return frame * seconds_per_frame; }
 };
 
+/// The cloth at a time within the simulation's last step: linear between where it was before and where it is now, and
+/// at the step's end exactly that, with the step's own bits.
+/// @param before n×3 [m]
+Vertices positions_at(double time, const Simulation& simulation, const Vertices& before);
+
 /// Watches a simulation and hands out the frames of a range as soon as the motion reaches them. A frame between two
 /// steps is interpolated linearly between them.
 class FrameSampler final : public StepObserver {

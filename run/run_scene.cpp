@@ -5,7 +5,6 @@
 
 #include <array>
 #include <chrono>
-#include <condition_variable>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -19,7 +18,6 @@
 #include "run/bounded_queue.hpp"
 #include "run/films.hpp"
 #include "run/run_steps.hpp"
-#include "run/step_by_step.hpp"
 
 namespace drape {
 namespace {
@@ -28,21 +26,8 @@ using Clock = std::chrono::steady_clock;
 
 // Frames in flight between two stages: enough to ride out an uneven step or frame, little enough to hold in memory.
 constexpr std::size_t queue_capacity = 8;
-constexpr std::chrono::milliseconds watch_interval{100};
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-/// Shows how many steps are done where no frames are counted.
-class StepCounter final : public StepObserver {
- public:
-  explicit StepCounter(Progress& progress) : progress_(progress) {}
-  void after_step(const Simulation& simulation, const StepReport&, double) override {
-    progress_.done = simulation.state().step;
-  }
-
- private:
-  Progress& progress_;
-};
 
 std::vector<OutputSpec> with_progress(std::vector<OutputSpec> specs, Progress& progress) {
   for (OutputSpec& spec : specs) {
@@ -69,8 +54,9 @@ class Pipeline {
     if (!films_.none()) result_.frames_wanted = extent_.frames.count();
   }
 
-  RunResult run(const std::atomic<bool>& stop, const std::function<void()>& watch) {
+  RunResult run(const std::stop_token& stop) {
     const auto begin = Clock::now();
+    const std::stop_callback pass_on(stop, [this] { stop_.request_stop(); });
     std::vector<std::jthread> threads;
     try {
       // The consumers first: where a thread cannot be had, those that run already end when their queues close.
@@ -82,8 +68,7 @@ class Pipeline {
     } catch (...) {
       fail();
     }
-    wait(threads.size(), stop, watch);
-    threads.clear();
+    threads.clear();  // waits for them
     if (error_) std::rethrow_exception(error_);
 
     if (nothing_left_) throw OutputError(fmt::format("{}", fmt::join(films_.problems(), "\n")));
@@ -101,9 +86,6 @@ class Pipeline {
     } catch (...) {
       fail();
     }
-    const std::scoped_lock lock(mutex_);
-    ++finished_;
-    changed_.notify_all();
   }
 
   /// Ends the run with the exception that is being handled, unless there is one already.
@@ -124,22 +106,10 @@ class Pipeline {
                                       whole_ ? Ending::complete : Ending::early, result_.problems);
   }
 
-  void wait(std::size_t threads, const std::atomic<bool>& stop, const std::function<void()>& watch) {
-    std::unique_lock lock(mutex_);
-    while (finished_ < threads) {
-      changed_.wait_for(lock, watch_interval);
-      lock.unlock();
-      if (stop) stop_.request_stop();
-      watch();
-      lock.lock();
-    }
-  }
-
   void simulate() {
     std::vector<StepObserver*> observers{&result_.statistics};
     for (StepObserver* record : records_.observers()) observers.push_back(record);
-    StepByStep step_by_step(stop_);
-    if (options_.step_by_step) observers.push_back(&step_by_step);
+    if (options_.observer != nullptr) observers.push_back(options_.observer);
 
     FrameSampler sampler(extent_, [this](Frame frame) { frames_.push(std::move(frame)); });
     StepCounter counter(progress_);
@@ -245,8 +215,6 @@ class Pipeline {
   std::stop_source stop_;
 
   std::mutex mutex_;
-  std::condition_variable changed_;
-  std::size_t finished_ = 0;
   std::exception_ptr error_;
   bool whole_ = false;         // every step was taken
   bool nothing_left_ = false;  // every film was given up, and there are no records
@@ -267,9 +235,8 @@ const char* outcome_name(Outcome outcome) {
   return "";
 }
 
-RunResult run_scene(const Scene& scene, const RunOptions& options, const std::atomic<bool>& stop, Progress& progress,
-                    const std::function<void()>& watch) {
-  return Pipeline(scene, options, progress).run(stop, watch);
+RunResult run_scene(const Scene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress) {
+  return Pipeline(scene, options, progress).run(stop);
 }
 
 }  // namespace drape

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -23,8 +22,8 @@ struct RunOptions {
   std::optional<std::int64_t> steps;  ///< instead of the scene's duration
   std::optional<FrameRange> frames;   ///< draw only these, and simulate no further than they need
   GlBackend backend = GlBackend::automatic;
-  bool step_by_step = false;  ///< print every step and wait for a line of input
-  bool time_effects = false;  ///< measure which part of the steps' time each effect takes
+  bool time_effects = false;         ///< measure which part of the steps' time each effect takes
+  StepObserver* observer = nullptr;  ///< told of every step too, on the thread that simulates, after it is recorded
 };
 
 enum class Outcome { completed, interrupted, diverged };
@@ -48,12 +47,10 @@ struct RunResult {
 };
 
 /// Runs a scene: one thread simulates, one owns the GL context and draws, one encodes, with bounded queues between
-/// them; the calling thread only waits. When the motion diverges or `stop` becomes true, what was done so far is
+/// them; the calling thread only waits. When the motion diverges or a stop is requested, what was done so far is
 /// completed, under names that say that it is not all (see Ending): nothing if there was no step yet. An output or a
 /// record that cannot be written does not keep the others from being completed.
-/// @param watch  called about ten times a second on the calling thread, to show the progress
 /// @throws Error whatever stopped one of the threads, or that there is nothing left to run for; no file is left then
-RunResult run_scene(const Scene& scene, const RunOptions& options, const std::atomic<bool>& stop, Progress& progress,
-                    const std::function<void()>& watch);
+RunResult run_scene(const Scene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress);
 
 }  // namespace drape
