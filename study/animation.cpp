@@ -11,7 +11,7 @@
 
 #include "core/read_file.hpp"
 #include "core/text.hpp"
-#include "render/encode/gif_encoder.hpp"
+#include "output/gif_encoder.hpp"
 #include "render/montage.hpp"
 #include "render/renderer.hpp"
 #include "run/frame_sampler.hpp"

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "core/atomic_file.hpp"
-#include "render/encode/encoder.hpp"
-#include "render/encode/frame_spool.hpp"
-#include "render/encode/gif_palette.hpp"
+#include "output/format.hpp"
+#include "output/frame_spool.hpp"
+#include "output/gif_palette.hpp"
 
 namespace drape {
 
@@ -33,5 +33,7 @@ class GifEncoder : public Encoder {
   FrameSpool spool_;
   std::optional<GifPaletteBuilder> palette_;
 };
+
+OutputFormat gif_format();
 
 }  // namespace drape

@@ -1,16 +1,17 @@
-#include "render/encode/video_encoder.hpp"
+#include "output/video_encoder.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "render/encode/libav.hpp"
-#include "render/encode/quiet.hpp"
-#include "render/encode/video_check.hpp"
+#include "output/libav.hpp"
+#include "output/quiet.hpp"
+#include "output/video_check.hpp"
 
 namespace drape {
 namespace {
@@ -22,15 +23,20 @@ double checked_rate(const std::filesystem::path& file, double fps) {
       fmt::format("cannot write {} at {} frames per second: a video has 0.01 to 1000", file.string(), fps));
 }
 
-}  // namespace
-
-std::vector<VideoCodec> video_codecs(const std::string& extension) {
-  // At the quality OpenCV asks for, VP9 takes four times as long as VP8 for files only a tenth smaller.
-  if (extension == ".mp4") return {{"avc1", "H.264"}, {"mp4v", "MPEG-4"}};
-  if (extension == ".webm") return {{"VP80", "VP8"}, {"VP90", "VP9"}};
-  if (extension == ".avi") return {{"MJPG", "Motion JPEG"}, {"XVID", "MPEG-4"}};
-  return {};
+/// @param codecs in the order to try
+OutputFormat video_format(const std::string& extension, const std::vector<VideoCodec>& codecs) {
+  std::string help = "a video, ";
+  for (const VideoCodec& codec : codecs) help += (&codec == &codecs.front() ? "" : " or else ") + codec.name;
+  return {.extension = extension,
+          .help = help,
+          .made_by = "OpenCV " + cv::getVersionString(),
+          .packages = "libopencv-dev",
+          .make = FilmMaker<Image>([codecs](const std::filesystem::path& file, const FilmInfo& film) {
+            return std::make_unique<VideoEncoder>(file, film.fps, codecs, film.width, film.height);
+          })};
 }
+
+}  // namespace
 
 VideoEncoder::VideoEncoder(const std::filesystem::path& file, double fps, const std::vector<VideoCodec>& codecs,
                            int width, int height)
@@ -102,5 +108,10 @@ std::vector<OutputFile> VideoEncoder::finish(Ending ending) {
   const std::uintmax_t size = file_.commit(ending);
   return {{file_.name(ending), size}};
 }
+
+OutputFormat mp4_format() { return video_format(".mp4", {{"avc1", "H.264"}, {"mp4v", "MPEG-4"}}); }
+// At the quality OpenCV asks for, VP9 takes four times as long as VP8 for files only a tenth smaller.
+OutputFormat webm_format() { return video_format(".webm", {{"VP80", "VP8"}, {"VP90", "VP9"}}); }
+OutputFormat avi_format() { return video_format(".avi", {{"MJPG", "Motion JPEG"}, {"XVID", "MPEG-4"}}); }
 
 }  // namespace drape

@@ -1,4 +1,4 @@
-#include "render/encode/gif_palette.hpp"
+#include "output/gif_palette.hpp"
 
 #include <fmt/format.h>
 

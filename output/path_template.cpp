@@ -1,4 +1,4 @@
-#include "render/encode/path_template.hpp"
+#include "output/path_template.hpp"
 
 #include <fmt/format.h>
 

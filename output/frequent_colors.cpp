@@ -1,4 +1,4 @@
-#include "render/encode/frequent_colors.hpp"
+#include "output/frequent_colors.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "render/encode/frame_spool.hpp"
+#include "output/frame_spool.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "render/encode/gif_encoder.hpp"
+#include "output/gif_encoder.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "render/encode/gif_writer.hpp"
-#include "render/encode/video_check.hpp"
+#include "output/gif_writer.hpp"
+#include "output/video_check.hpp"
 
 namespace drape {
 namespace {
@@ -65,6 +65,16 @@ void GifEncoder::encode() {
     if (progress_) progress_(k + 1, count);
   }
   writer->finish();
+}
+
+OutputFormat gif_format() {
+  return {.extension = ".gif",
+          .help = "an animation that repeats for ever, of at most 50 frames per second",
+          .made_by = std::string("FFmpeg ") + av_version_info(),
+          .packages = "libavcodec-dev libavfilter-dev libavformat-dev",
+          .make = FilmMaker<Image>([](const std::filesystem::path& file, const FilmInfo& film) {
+            return std::make_unique<GifEncoder>(file, film.fps, film.progress);
+          })};
 }
 
 }  // namespace drape

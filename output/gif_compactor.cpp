@@ -1,4 +1,4 @@
-#include "render/encode/gif_compactor.hpp"
+#include "output/gif_compactor.hpp"
 
 #include <algorithm>
 #include <utility>

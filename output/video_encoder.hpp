@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/atomic_file.hpp"
-#include "render/encode/encoder.hpp"
+#include "output/format.hpp"
 
 namespace drape {
 
@@ -14,9 +14,6 @@ struct VideoCodec {
   std::string fourcc;  ///< the four letters OpenCV knows it by
   std::string name;
 };
-
-/// The codecs for a video container, best first; none if the extension is not one of ".mp4", ".webm" and ".avi".
-std::vector<VideoCodec> video_codecs(const std::string& extension);
 
 /// A video, by OpenCV and its FFmpeg backend, with colours at half resolution (4:2:0), which is what browsers play. A
 /// picture of an odd width or height gets one more column or row, a copy of the last one, as 4:2:0 needs even ones.
@@ -34,6 +31,7 @@ class VideoEncoder : public Encoder {
 
   void add(const Image& image) override;
   std::vector<OutputFile> finish(Ending ending) override;
+  [[nodiscard]] std::string codec() const override { return codec_.name; }
 
  private:
   bool open(cv::Size size);
@@ -46,5 +44,9 @@ class VideoEncoder : public Encoder {
   cv::Size size_;  // of the images
   int count_ = 0;
 };
+
+OutputFormat mp4_format();
+OutputFormat webm_format();
+OutputFormat avi_format();
 
 }  // namespace drape

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/encode/frequent_colors.hpp"
-#include "render/encode/libav.hpp"
+#include "output/frequent_colors.hpp"
+#include "output/libav.hpp"
 #include "render/image.hpp"
 
 namespace drape {

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <exception>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "render/encode/encoder.hpp"
+#include "output/make_sink.hpp"
 #include "render/texture_image.hpp"
 #include "run/run_scene.hpp"
 
@@ -15,9 +15,12 @@ namespace drape {
 /// @throws UsageError if the motion has no such frames
 FilmExtent film_extent(const Scene& scene, const RunOptions& options);
 
-/// What the outputs of a run are written to, and what will be written to them.
+/// What is known of a run's film before its first frame. Refers to the scene's cloth.
 /// @throws UsageError as film_extent()
-std::vector<OutputSpec> output_specs(const Scene& scene, const RunOptions& options);
+FilmInfo film_info(const Scene& scene, const RunOptions& options);
+
+/// Whether any of a run's outputs must be drawn.
+bool needs_drawing(const RunOptions& options);
 
 /// Opens everything that a run would write, and leaves nothing of it.
 /// @throws Error what the run would end with otherwise, perhaps after hours
@@ -28,17 +31,26 @@ void require_outputs(const Scene& scene, const RunOptions& options);
 /// @throws UsageError that names the place in the scene
 void require_texture(const Scene& scene, int largest = largest_texture);
 
-/// The outputs of a run that is drawn. One that cannot be written is given up, and does not keep the others from being
-/// completed.
-class Films {
+/// A frame on its way to the outputs.
+struct FilmFrame {
+  Frame frame;
+  std::optional<Image> image;  ///< absent: it was not drawn
+};
+
+/// The outputs of a run. One that cannot be written is given up, and does not keep the others from being completed.
+class Outputs {
  public:
-  /// @throws UsageError, OutputError as make_encoder()
-  explicit Films(const std::vector<OutputSpec>& specs);
+  /// @throws UsageError, OutputError as make_sink()
+  Outputs(const std::vector<std::string>& paths, const FilmInfo& film);
 
   /// Whether no output takes frames (any more).
   [[nodiscard]] bool none() const;
 
-  void add(const Image& image);
+  /// Whether any (still) takes images.
+  [[nodiscard]] bool drawn() const;
+
+  /// @param frame with its image, if any output takes images
+  void add(const FilmFrame& frame);
 
   /// Completes what can be completed.
   /// @returns the files of each output that was, in their order
@@ -48,13 +60,14 @@ class Films {
   [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
 
  private:
-  struct Film {
+  struct Output {
     std::string path;
-    std::unique_ptr<Encoder> encoder;  ///< null once it was given up
+    std::optional<AnySink> sink;  ///< absent once it was given up
   };
-  void give_up(Film& film, const std::exception& error);
+  template <class Work>
+  void attempt(Output& output, Work work);
 
-  std::vector<Film> films_;
+  std::vector<Output> outputs_;
   std::vector<std::string> problems_;
 };
 

@@ -1,4 +1,4 @@
-#include "render/encode/libav.hpp"
+#include "output/libav.hpp"
 
 extern "C" {
 #include <libavfilter/buffersink.h>

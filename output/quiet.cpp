@@ -1,4 +1,4 @@
-#include "render/encode/quiet.hpp"
+#include "output/quiet.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

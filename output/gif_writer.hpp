@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <string>
 
-#include "render/encode/gif_compactor.hpp"
-#include "render/encode/gif_palette.hpp"
-#include "render/encode/libav.hpp"
+#include "output/gif_compactor.hpp"
+#include "output/gif_palette.hpp"
+#include "output/libav.hpp"
 
 namespace drape {
 

@@ -1,4 +1,4 @@
-#include "render/encode/gif_writer.hpp"
+#include "output/gif_writer.hpp"
 
 extern "C" {
 #include <libavutil/opt.h>

@@ -1,12 +1,12 @@
-#include "render/encode/video_check.hpp"
+#include "output/video_check.hpp"
 
 #include <fmt/format.h>
 
 #include <opencv2/videoio.hpp>
 
 #include "core/error.hpp"
-#include "render/encode/libav.hpp"
-#include "render/encode/quiet.hpp"
+#include "output/libav.hpp"
+#include "output/quiet.hpp"
 
 namespace drape {
 namespace {

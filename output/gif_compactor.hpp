@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "render/encode/gif_palette.hpp"
-#include "render/encode/libav.hpp"
+#include "output/gif_palette.hpp"
+#include "output/libav.hpp"
 #include "render/image.hpp"
 
 namespace drape {
