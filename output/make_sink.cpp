@@ -33,14 +33,25 @@ struct AtFile {
   }
 };
 
+[[noreturn]] void fail_for_frame(const std::string& path, const OutputFormat& format) {
+  std::vector<std::string> others;
+  for (const OutputFormat& other : output_formats()) {
+    if (other.file_per_frame()) others.push_back(other.extension);
+  }
+  throw UsageError(fmt::format("the output {} has a {{frame}}, but a {} holds all frames; one file per frame make {}",
+                               path, format.extension, quoted_list(others)));
+}
+
 /// Makes the sinks of a film at a file for each frame.
 struct AtFiles {
+  const std::string& text;  // of the path
   const PathTemplate& path;
+  const OutputFormat& format;
   const FilmInfo& film;
 
   template <class Item>
   AnySink operator()(const FilmMaker<Item>&) const {
-    return {};  // refused before
+    fail_for_frame(text, format);
   }
   template <class Item>
   AnySink operator()(const FrameMaker<Item>& make) const {
@@ -50,15 +61,6 @@ struct AtFiles {
     return std::make_unique<FrameFiles<Item>>(name, film.first_frame, make(film));
   }
 };
-
-[[noreturn]] void fail_for_frame(const std::string& path, const OutputFormat& format) {
-  std::vector<std::string> others;
-  for (const OutputFormat& other : output_formats()) {
-    if (other.file_per_frame()) others.push_back(other.extension);
-  }
-  throw UsageError(fmt::format("the output {} has a {{frame}}, but a {} holds all frames; one file per frame make {}",
-                               path, format.extension, quoted_list(others)));
-}
 
 }  // namespace
 
@@ -75,8 +77,7 @@ AnySink make_sink(const std::string& path, const FilmInfo& film) {
   const PathTemplate path_template(path);
   const OutputFormat& format = format_of(path);
   if (!path_template.has_frame()) return make_sink(format, path_template.path(film.scene, 0, 1), film);
-  if (!format.file_per_frame()) fail_for_frame(path, format);
-  return std::visit(AtFiles{path_template, film}, format.make);
+  return std::visit(AtFiles{path, path_template, format, film}, format.make);
 }
 
 AnySink make_sink(const OutputFormat& format, const std::filesystem::path& file, const FilmInfo& film) {

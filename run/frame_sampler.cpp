@@ -38,8 +38,8 @@ Vertices positions_at(double time, const Simulation& simulation, const Vertices&
   return back < rounding ? now : Vertices((1 - back) * now + back * before);
 }
 
-FrameSampler::FrameSampler(const FilmExtent& extent, Sink sink)
-    : extent_(extent), sink_(std::move(sink)), next_(extent.frames.first) {}
+FrameSampler::FrameSampler(const FilmExtent& extent, Receiver receiver)
+    : extent_(extent), receiver_(std::move(receiver)), next_(extent.frames.first) {}
 
 void FrameSampler::begin(const Simulation& simulation) {
   previous_ = simulation.state().x;
@@ -58,7 +58,7 @@ void FrameSampler::emit_until(const Simulation& simulation) {
     Frame frame{.index = next_, .time = time, .positions = {}, .colliders = simulation.colliders(time)};
     frame.positions = positions_at(time, simulation, previous_);
     ++next_;
-    sink_(std::move(frame));
+    receiver_(std::move(frame));
   }
 }
 

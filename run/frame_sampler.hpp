@@ -40,9 +40,9 @@ Vertices positions_at(double time, const Simulation& simulation, const Vertices&
 /// steps is interpolated linearly between them.
 class FrameSampler final : public StepObserver {
  public:
-  using Sink = std::function<void(Frame)>;
+  using Receiver = std::function<void(Frame)>;
 
-  FrameSampler(const FilmExtent& extent, Sink sink);
+  FrameSampler(const FilmExtent& extent, Receiver receiver);
 
   void begin(const Simulation& simulation) override;
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
@@ -51,7 +51,7 @@ class FrameSampler final : public StepObserver {
   void emit_until(const Simulation& simulation);
 
   FilmExtent extent_;
-  Sink sink_;
+  Receiver receiver_;
   int next_;
   Vertices previous_;
 };

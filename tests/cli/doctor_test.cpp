@@ -38,7 +38,8 @@ TEST(Doctor, TriesEveryFormatWhateverTheFolderForTemporaryFilesIsCalled) {
   std::filesystem::create_directory(folder.path("{odd}"));
   const Finished finished = drape(folder, "doctor --json", "TMPDIR='" + folder.path("{odd}") + "'");
   std::vector<std::string> formats;
-  for (const auto& output : nlohmann::json::parse(finished.text).at("outputs")) {
+  const auto json = nlohmann::json::parse(finished.text);
+  for (const auto& output : json.at("outputs")) {
     EXPECT_TRUE(output.at("works")) << output;
     formats.push_back(output.at("name"));
   }
