@@ -146,7 +146,7 @@ TEST(Outputs, OfAllScenesAreLookedAtBeforeTheFirstRuns) {
   folder.write("a.toml", scene);
   folder.write("b.toml", scene + "[look]\ntexture = \"cut.png\"\n");
   for (const auto& [arguments, code, named] : std::vector<std::tuple<std::string, int, std::string>>{
-           {"render a.toml b.toml", 2, "b.toml:14:11: the texture cut.png is damaged"},
+           {"render a.toml b.toml", 2, "b.toml:15:11: the texture cut.png is damaged"},
            {"render a.toml ./b.toml --set look.texture=cut.png", 2, "--set look.texture=cut.png: the texture"},
            {"render a.toml -o a.gif -o a.mov", 2, "unknown extension '.mov'"},
            {"render a.toml -o ''", 2, "has no extension"},
