@@ -13,7 +13,7 @@
 #include "check/draw_windows.hpp"
 #include "check/picture.hpp"
 #include "core/read_file.hpp"
-#include "render/encode/gif_encoder.hpp"
+#include "output/gif_encoder.hpp"
 #include "render/montage.hpp"
 
 namespace drape {

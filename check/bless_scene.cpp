@@ -3,7 +3,7 @@
 #include "check/golden_folder.hpp"
 #include "check/machine.hpp"
 #include "check/record_motion.hpp"
-#include "run/films.hpp"
+#include "run/outputs.hpp"
 
 namespace drape {
 

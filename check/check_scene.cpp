@@ -16,7 +16,7 @@
 #include "check/machine.hpp"
 #include "check/record_motion.hpp"
 #include "core/error.hpp"
-#include "run/films.hpp"
+#include "run/outputs.hpp"
 
 namespace drape {
 namespace {

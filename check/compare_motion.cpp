@@ -7,19 +7,14 @@
 #include <memory>
 
 #include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "run/run_steps.hpp"
 
 namespace drape {
 namespace {
 
 // Of energies that belong to the same bits: what is left is the order of a sum, if anybody changes that.
 constexpr double energy_rounding = 1e-12;
-
-std::string length(double metres) {
-  if (metres < 1e-6) return fmt::format("{:.3g} nm", 1e9 * metres);
-  if (metres < 1e-3) return fmt::format("{:.3g} µm", 1e6 * metres);
-  if (metres < 1) return fmt::format("{:.3g} mm", 1e3 * metres);
-  return fmt::format("{:.3g} m", metres);
-}
 
 /// Collects how far the steps of a window are from their golden places.
 class Collector {
@@ -34,7 +29,7 @@ class Collector {
       const double rounded_by = std::max(tolerance_, 10 * least_quantum) + 1e-15 * actual.cwiseAbs().maxCoeff();
       if (!(distance <= rounded_by)) {
         fail(fmt::format("the golden is damaged: at step {} its bits are those of the motion, its positions are {} off",
-                         step, length(distance)));
+                         step, readable_length(distance)));
       }
       return;
     }
@@ -79,11 +74,15 @@ class Collector {
   double tolerance_;
 };
 
+std::int64_t last_step(const GoldenWindow& window) {
+  return window.start.step + static_cast<std::int64_t>(window.steps.size());
+}
+
 WindowResult empty_result(const GoldenWindow& window) {
   WindowResult result;
   result.frame = window.frame;
   result.first_step = window.start.step;
-  result.last_step = window.start.step + static_cast<std::int64_t>(window.steps.size());
+  result.last_step = last_step(window);
   return result;
 }
 
@@ -100,13 +99,14 @@ WindowResult compare_window(Simulation& simulation, const State& initial, const 
   collector.add_start(start, window.start, seconds(window, simulation.settings().step));
   simulation.restore(start);
   try {
-    for (const GoldenStep& golden : window.steps) {
-      simulation.step();
+    auto golden = window.steps.begin();
+    run_steps(simulation, result.last_step, {}, [&](const StepReport&) {
       const State& state = simulation.state();
-      const bool same = state_bits(state) == golden.bits;
-      collector.add(state.step, same, state.x, golden.x);
-      collector.add_energies(state.step, same, simulation.energies(), golden.energies);
-    }
+      const bool same = state_bits(state) == golden->bits;
+      collector.add(state.step, same, state.x, golden->x);
+      collector.add_energies(state.step, same, simulation.energies(), golden->energies);
+      ++golden;
+    });
   } catch (const DivergedError& diverged) {
     collector.fail(diverged.what());
   }
@@ -148,10 +148,7 @@ std::vector<Vertices> rerun_window(const SimulationSettings& settings, const Gol
   simulation.restore(window.start);
   std::vector<Vertices> positions{window.start.x};
   try {
-    for (std::size_t i = 0; i < window.steps.size(); ++i) {
-      simulation.step();
-      positions.push_back(simulation.state().x);
-    }
+    run_steps(simulation, last_step(window), {}, [&](const StepReport&) { positions.push_back(simulation.state().x); });
   } catch (const DivergedError&) {
     // What there is up to here is shown.
   }
@@ -171,10 +168,10 @@ std::string describe_motion(const std::vector<WindowResult>& windows) {
   if (first == nullptr) return {};
   if (!first->first || largest == nullptr) return first->problem;
   std::string text = fmt::format("the motion changed at step {} by {} at vertex {}", first->first->step,
-                                 length(first->first->distance), first->first->vertex);
+                                 readable_length(first->first->distance), first->first->vertex);
   if (largest->step != first->first->step) {
-    text += fmt::format(", and by up to {} at vertex {} at step {}", length(largest->distance), largest->vertex,
-                        largest->step);
+    text += fmt::format(", and by up to {} at vertex {} at step {}", readable_length(largest->distance),
+                        largest->vertex, largest->step);
   }
   if (!first->problem.empty()) text += "; " + first->problem;
   return text;

@@ -5,7 +5,7 @@
 
 #include "check/golden_file.hpp"
 #include "check/picture.hpp"
-#include "render/encode/png_encoder.hpp"
+#include "output/png_encoder.hpp"
 
 namespace drape {
 namespace {

@@ -8,6 +8,7 @@
 #include "check/html_scene.hpp"
 #include "core/atomic_file.hpp"
 #include "core/build_info.hpp"
+#include "core/text.hpp"
 #include "html/components.hpp"
 #include "html/page.hpp"
 
@@ -87,7 +88,7 @@ Markup overview(const std::vector<const SceneResult*>& scenes) {
     const bool moved = !c.windows.empty(), drawn = !c.frames.empty();
     table.rows.push_back({html::link(fmt::format("#{}", anchor(i)), scene.name), verdict_badge(scene.verdict),
                           moved ? verdict_badge(c.motion) : Markup("–"),
-                          moved ? readable_distance(largest_deviation(c)) : "–",
+                          moved ? readable_length(largest_deviation(c)) : "–",
                           drawn ? verdict_badge(c.picture) : Markup("–"),
                           drawn ? fmt::format("{:.3f}", largest_flip(c)) : "–", fmt::format("{:.1f}", scene.seconds)});
   }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/text.hpp"
 #include "html/chart.hpp"
 #include "html/comparison.hpp"
 
@@ -56,7 +57,7 @@ Markup motion_chart(const SceneResult& scene, const Comparison& comparison) {
       const std::int64_t step = window.first_step + static_cast<std::int64_t>(i);
       series.points.push_back({static_cast<double>(step),
                                window.deviations[i],
-                               fmt::format("step {}: {}", step, readable_distance(window.deviations[i])),
+                               fmt::format("step {}: {}", step, readable_length(window.deviations[i])),
                                {}});
     }
     series.points.push_back({NAN, NAN, {}, {}});  // every window starts anew from a golden state
@@ -96,7 +97,7 @@ Markup windows_table(const Comparison& comparison) {
       {}};
   for (const WindowResult& w : comparison.windows) {
     table.rows.push_back({fmt::format("{}–{}", w.first_step, w.last_step), verdict_badge(w.verdict),
-                          readable_distance(w.largest ? w.largest->distance : 0),
+                          readable_length(w.largest ? w.largest->distance : 0),
                           w.largest ? fmt::format("{}", w.largest->vertex) : "–",
                           w.largest ? fmt::format("{}", w.largest->step) : "–", w.problem});
   }
@@ -135,7 +136,7 @@ Markup provenance(const SceneResult& scene) {
        {"Drawn by", scene.recorded_on.renderer},
        {"Instruction set", scene.recorded_on.kernels},
        {"Limits", fmt::format("motion {}; noise up to {} of 255 in a channel, {:g}% of the pixels, FLIP error {:g}",
-                              readable_distance(scene.settings.motion_tolerance), limits.channel, 100 * limits.pixels,
+                              readable_length(scene.settings.motion_tolerance), limits.channel, 100 * limits.pixels,
                               limits.flip)}});
 }
 
@@ -175,15 +176,6 @@ Tone tone_of(MotionVerdict verdict) {
 
 Tone tone_of(PictureVerdict verdict) {
   return verdict == PictureVerdict::exact ? Tone::good : verdict == PictureVerdict::noise ? Tone::caution : Tone::bad;
-}
-
-std::string readable_distance(double metres) {
-  if (!(metres > 0)) return metres == 0 ? "0" : "not finite";
-  constexpr std::array<std::pair<double, const char*>, 4> units{{{1, "m"}, {1e-3, "mm"}, {1e-6, "µm"}, {1e-9, "nm"}}};
-  for (const auto& [size, name] : units) {
-    if (metres >= size) return fmt::format("{:.3g} {}", metres / size, name);
-  }
-  return fmt::format("{:.2g} m", metres);
 }
 
 double largest_deviation(const Comparison& comparison) {

@@ -19,9 +19,6 @@ html::Markup verdict_badge(Verdict verdict) {
   return html::badge(verdict_name(verdict), tone_of(verdict));
 }
 
-/// A distance as people read it: "2.1 mm", "13 µm", "0".
-std::string readable_distance(double metres);
-
 /// The largest deviation of any vertex at any step [m]; 0 if there is none.
 double largest_deviation(const Comparison& comparison);
 

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "render/encode/quiet.hpp"
+#include "output/quiet.hpp"
 
 namespace drape {
 namespace {

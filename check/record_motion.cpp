@@ -64,25 +64,13 @@ class Recorder final : public StepObserver {
     const State& state = simulation.state();
     const double h = simulation.settings().step;
     if (plan.frame && state.step == plan.first + 1 && plan.time > (static_cast<double>(plan.first) + rounding) * h) {
-      const double back = std::clamp((simulation.time() - plan.time) / h, 0.0, 1.0);  // as FrameSampler
-      window.shown = (1 - back) * state.x + back * window.start.x;
+      window.shown = positions_at(plan.time, simulation, window.start.x);
     }
     if (state.step > plan.last) return;
     window.steps.push_back({state_bits(state), state.x, simulation.energies()});
   }
 
   const std::vector<WindowPlan>& plan_;
-};
-
-class Counter final : public StepObserver {
- public:
-  explicit Counter(Progress& progress) : progress_(progress) {}
-  void after_step(const Simulation& simulation, const StepReport&, double) override {
-    progress_.done = simulation.state().step;
-  }
-
- private:
-  Progress& progress_;
 };
 
 double aspect(const Eigen::Vector2i& size) { return static_cast<double>(size.x()) / size.y(); }
@@ -145,7 +133,7 @@ std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& set
     for (const Collider& collider : frame.colliders) framing.add(collider);
   });
   Recorder recorder(plan);
-  Counter counter(progress);
+  StepCounter counter(progress);
   const bool framed = needs_motion(scene.camera);
   std::int64_t steps = framed ? film.steps : 0;
   for (const WindowPlan& window : plan) {

@@ -10,7 +10,7 @@
 #include "core/nearest.hpp"
 #include "core/shell.hpp"
 #include "render/gl/inspect.hpp"
-#include "run/films.hpp"
+#include "run/outputs.hpp"
 #include "study/accuracy_animation.hpp"
 #include "study/accuracy_report.hpp"
 

@@ -27,7 +27,7 @@ ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
     CheckSettings settings = scene.check;
     if (!frames.empty()) settings.frames = frames;
     std::optional<Blessing> blessing;
-    run_watched(common, [&](const std::stop_token& stop, Progress& progress) {
+    run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) {
       blessing = bless_scene(scene, settings, arguments.backend, stop, progress);
     });
     if (!blessing) {

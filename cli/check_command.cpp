@@ -148,7 +148,7 @@ bool check_all(const std::vector<Scene>& scenes, const CheckArguments& arguments
         result = unjudged_scene(scene, names[i], settings, UsageError("there is not enough memory for this"));
       }
     };
-    if (run_watched(common, check)) return true;
+    if (run_watched(common.quiet, check)) return true;
     const std::string file = shell_word(scene.file.string());
     result.rerun_command = "drape check " + file + command_options(arguments);
     result.bless_command = "drape bless " + file;

@@ -13,7 +13,8 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "render/encode/inspect.hpp"
+#include "output/registry.hpp"
+#include "output/try_format.hpp"
 #include "render/gl/context.hpp"
 #include "render/renderer.hpp"
 #include "scene/scene.hpp"
@@ -130,10 +131,9 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-Finding find_encoder(const TemporaryFolder& folder, const std::string& extension) {
-  Finding found{.name = extension, .detail = {}, .problem = {}, .packages = "libopencv-dev"};
-  if (extension == ".gif") found.packages = "libavcodec-dev libavfilter-dev libavformat-dev";
-  found.problem = problem_of([&] { found.detail = encode_two_frames(folder.file(extension)); });
+Finding find_output(const TemporaryFolder& folder, const OutputFormat& format) {
+  Finding found{.name = format.extension, .detail = {}, .problem = {}, .packages = format.packages};
+  found.problem = problem_of([&] { found.detail = try_format(format, folder.file(format.extension)); });
   return found;
 }
 
@@ -172,7 +172,7 @@ std::vector<std::string> Diagnosis::missing_packages() const {
   };
   for (const BackendFinding& backend : backends) add(backend);
   add(blas);
-  for (const Finding& encoder : encoders) add(encoder);
+  for (const Finding& output : outputs) add(output);
   for (const Finding& finding : optional) add(finding);
   return missing;
 }
@@ -194,9 +194,7 @@ Diagnosis diagnose() {
   diagnosis.drawing = find_drawing(diagnosis.backends);
 
   const TemporaryFolder folder;
-  for (const char* extension : {".gif", ".png", ".mp4", ".webm", ".avi"}) {
-    diagnosis.encoders.push_back(find_encoder(folder, extension));
-  }
+  for (const OutputFormat& format : output_formats()) diagnosis.outputs.push_back(find_output(folder, format));
   diagnosis.optional = find_diagrams();
   return diagnosis;
 }

@@ -41,14 +41,14 @@ struct Diagnosis {
 
   std::vector<BackendFinding> backends;
   Finding drawing;  ///< detail: the backend that --backend auto picks; works if a picture came out as it should
-  std::vector<Finding> encoders;
+  std::vector<Finding> outputs;   ///< the formats of films
   std::vector<Finding> optional;  ///< what only some commands use
 
   /// What to install for everything to work, each package once; empty if all does.
   [[nodiscard]] std::vector<std::string> missing_packages() const;
 };
 
-/// Looks. Loads the OpenGL libraries, draws a small picture, and encodes two frames in every format in a folder for
+/// Looks. Loads the OpenGL libraries, draws a small picture, and writes two frames in every format in a folder for
 /// temporary files.
 Diagnosis diagnose();
 

@@ -52,7 +52,7 @@ std::string to_text(const Diagnosis& d) {
   }
 
   text += "\noutputs\n";
-  for (const Finding& encoder : d.encoders) text += line(encoder);
+  for (const Finding& output : d.outputs) text += line(output);
   text += "\nfor drape study\n";
   for (const Finding& finding : d.optional) text += line(finding);
 
@@ -116,7 +116,7 @@ Json to_json(const Diagnosis& d) {
           {"cholmod", d.cholmod},
           {"drawing", to_json(d.drawing)},
           {"backends", backends},
-          {"outputs", to_json(d.encoders)},
+          {"outputs", to_json(d.outputs)},
           {"optional", to_json(d.optional)},
           {"missing_packages", d.missing_packages()}};
 }

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/file_identity.hpp"
-#include "run/films.hpp"
+#include "run/outputs.hpp"
 
 namespace drape {
 namespace {
@@ -23,8 +23,9 @@ struct Writer {
 
 std::vector<Writer> writers(std::size_t number, const Scene& scene, const RunOptions& options) {
   std::vector<Writer> result;
-  for (const OutputSpec& spec : output_specs(scene, options)) {
-    result.push_back({number, "-o " + spec.path, output_files(spec)});
+  const FilmInfo film = film_info(scene, options);
+  for (const std::string& path : options.outputs) {
+    result.push_back({number, "-o " + path, output_files(path, film)});
   }
   const RecordPaths& r = options.records;
   for (const auto& [option, file] : {std::pair{"--stats", r.stats}, std::pair{"--energies", r.energies},

@@ -8,14 +8,16 @@
 #include "cli/interruption.hpp"
 #include "cli/number_option.hpp"
 #include "cli/output_clashes.hpp"
-#include "cli/progress_display.hpp"
 #include "cli/scene_files.hpp"
+#include "cli/step_by_step.hpp"
 #include "cli/summary.hpp"
+#include "cli/watched.hpp"
 #include "core/console.hpp"
-#include "render/encode/path_template.hpp"
+#include "output/path_template.hpp"
+#include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
 #include "render/texture_image.hpp"
-#include "run/films.hpp"
+#include "run/outputs.hpp"
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
 #include "sim/schemes/registry.hpp"
@@ -34,6 +36,7 @@ struct RunArguments {
   RecordPaths records;
   GlBackend backend = GlBackend::automatic;
   bool step_by_step = false;
+  bool drawing = true;  ///< render; simulate draws nothing
 };
 
 FrameRange parse_frames(const std::string& text) {
@@ -64,7 +67,6 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
   options.steps = arguments.steps;
   if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
   options.backend = arguments.backend;
-  options.step_by_step = arguments.step_by_step;
   options.time_effects = verbose || !arguments.records.stats.empty();
   return options;
 }
@@ -73,8 +75,7 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
 /// @throws Error with the problems of all scenes
 void look_ahead(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options) {
   require_files_of_their_own(scenes, options);
-  const bool drawn =
-      std::any_of(options.begin(), options.end(), [](const RunOptions& o) { return !o.outputs.empty(); });
+  const bool drawn = std::any_of(options.begin(), options.end(), needs_drawing);
   const int largest_texture = drawn ? inspect_backend(options.front().backend).max_texture_size : 0;
   ExitCode worst = ExitCode::ok;
   std::string problems;
@@ -89,9 +90,18 @@ void look_ahead(const std::vector<Scene>& scenes, const std::vector<RunOptions>&
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const Scene& scene = scenes[i];
     attempt([&] { require_outputs(scene, options[i]); });
-    if (!options[i].outputs.empty()) attempt([&] { require_texture(scene, largest_texture); });
+    if (needs_drawing(options[i])) attempt([&] { require_texture(scene, largest_texture); });
   }
   if (worst != ExitCode::ok) throw Error(worst, problems);
+}
+
+/// @throws UsageError if an output must be drawn where nothing is
+void require_no_drawing(const std::vector<std::string>& outputs) {
+  for (const std::string& path : outputs) {
+    const OutputFormat* format = find_format(path);
+    if (format == nullptr || !format->drawn()) continue;
+    throw UsageError(fmt::format("drape simulate draws nothing, and -o {} must be drawn: use drape render", path));
+  }
 }
 
 /// Says how a run ended, and returns its exit code.
@@ -112,17 +122,19 @@ ExitCode conclude(const Scene& scene, const RunResult& result) {
   return outputs;
 }
 
-ExitCode run(const Scene& scene, const RunOptions& options, const CommonOptions& common) {
+ExitCode run(const Scene& scene, RunOptions options, bool step_by_step, const CommonOptions& common) {
   spdlog::info(describe(scene, options));
   if (scene.simulation.integrator.allow_unstable) {
     if (const auto problem = stability_problem(scene.simulation, make_system(scene.simulation))) {
       spdlog::warn("{}: {}", scene.file.string(), *problem);
     }
   }
-  Progress progress;
-  ProgressDisplay display(progress, ProgressDisplay::fitting_style(common.quiet || options.step_by_step));
-  const RunResult result = run_scene(scene, options, interruption(), progress, [&] { display.update(); });
-  display.clear();
+  StepByStep pause(interruption());
+  if (step_by_step) options.observer = &pause;
+  RunResult result;
+  run_watched(common.quiet || step_by_step, [&](const std::stop_token& stop, Progress& progress) {
+    result = run_scene(scene, options, stop, progress);
+  });
   if (!result.renderer.empty()) spdlog::debug("drawn by {}", result.renderer);
   if (common.verbose) spdlog::debug(effect_shares(result.statistics));
   if (!common.quiet && result.statistics.steps() > 0) print_text(stderr, summarize(result) + "\n");
@@ -132,18 +144,19 @@ ExitCode run(const Scene& scene, const RunOptions& options, const CommonOptions&
 /// Runs one scene after the other. One that fails does not keep the next from being run.
 /// @returns the worst of their codes, which is the largest
 ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
-  const std::atomic<bool>& interrupted = interruption();
+  interruption();  // from here on, a signal ends what there is in good order
+  if (!arguments.drawing) require_no_drawing(arguments.outputs);
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, arguments.overrides);
   std::vector<RunOptions> options;
   for (const Scene& scene : scenes) options.push_back(run_options(arguments, scene, common.verbose));
   look_ahead(scenes, options);
   ExitCode worst = ExitCode::ok;
   for (std::size_t i = 0; i < scenes.size() && worst != ExitCode::interrupted; ++i) {
-    if (interrupted && i > 0) {
+    if (interrupted() && i > 0) {
       spdlog::error("interrupted before {}", scenes[i].file.string());
       return ExitCode::interrupted;
     }
-    worst = std::max(worst, reported([&] { return run(scenes[i], options[i], common); }));
+    worst = std::max(worst, reported([&] { return run(scenes[i], options[i], arguments.step_by_step, common); }));
   }
   return worst;
 }
@@ -164,18 +177,23 @@ void add_shared_options(CLI::App& command, RunArguments& arguments) {
   command.add_flag("--step-by-step", arguments.step_by_step, "Pause after each step and print its energies");
 }
 
+/// @param drawn whether what must be drawn may be among them
+void add_outputs(CLI::App& command, RunArguments& arguments, const std::string& usage, bool drawn) {
+  command
+      .add_option("-o,--output", arguments.outputs,
+                  fmt::format("Where to, and by the extension in which form; {}.\nWhat ends early, by Ctrl-C or a "
+                              "diverging motion, becomes NAME.partial.EXT.\n{}",
+                              usage, output_help(drawn)))
+      ->allow_extra_args(false);
+}
+
 }  // namespace
 
 void add_run_commands(CLI::App& app, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<RunArguments>();
 
   CLI::App* render = app.add_subcommand("render", "Simulate scenes and draw them into films");
-  render
-      ->add_option(
-          "-o,--output", arguments->outputs,
-          "A film (.gif .mp4 .webm .avi), frames ({frame:04}.png) or a still (.png); repeatable; "
-          "default out/{scene}.gif. What ends early, by Ctrl-C or a diverging motion, becomes NAME.partial.EXT")
-      ->allow_extra_args(false);
+  add_outputs(*render, *arguments, "repeatable; default out/{scene}.gif", true);
   add_backend_option(*render, arguments->backend);
   add_shared_options(*render, *arguments);
   render->callback([arguments, &common, &command] {
@@ -184,9 +202,12 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
   });
 
   CLI::App* simulate = app.add_subcommand("simulate", "Simulate scenes without drawing them");
+  add_outputs(*simulate, *arguments, "repeatable", false);
   add_shared_options(*simulate, *arguments);
-  simulate->callback(
-      [arguments, &common, &command] { command = [arguments, &common] { return run_all(*arguments, common); }; });
+  simulate->callback([arguments, &common, &command] {
+    arguments->drawing = false;
+    command = [arguments, &common] { return run_all(*arguments, common); };
+  });
 }
 
 }  // namespace drape

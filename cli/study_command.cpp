@@ -41,7 +41,7 @@ ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& com
                    const std::function<std::optional<StudyReport>(const std::stop_token&, Progress&)>& measure) {
   require_writable(folder / report_page);  // not only after the measurements
   std::optional<StudyReport> report;
-  run_watched(common, [&](const std::stop_token& stop, Progress& progress) { report = measure(stop, progress); });
+  run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) { report = measure(stop, progress); });
   if (!report) {
     spdlog::error("interrupted; there is no report");
     return ExitCode::interrupted;

@@ -78,7 +78,9 @@ std::string summarize(const RunResult& result) {
                       duration(1e-6 * s.median_microseconds()));
   text += fmt::format("simulate {}", duration(s.total_seconds()));
   if (!result.renderer.empty()) {
-    text += fmt::format(", draw {}, encode {}", duration(result.draw_seconds), duration(result.encode_seconds));
+    text += fmt::format(", draw {}, encode {}", duration(result.draw_seconds), duration(result.write_seconds));
+  } else if (result.frames_wanted > 0) {
+    text += fmt::format(", write {}", duration(result.write_seconds));
   }
   text += fmt::format(", total {}", duration(result.elapsed_seconds));
   for (const std::vector<OutputFile>& files : result.outputs) {

@@ -13,14 +13,13 @@ constexpr std::chrono::milliseconds watch_interval{100};
 
 }  // namespace
 
-bool run_watched(const CommonOptions& common, const std::function<void(const std::stop_token&, Progress&)>& work) {
-  const std::atomic<bool>& interrupted = interruption();
+bool run_watched(bool quiet, const std::function<void(const std::stop_token&, Progress&)>& work) {
+  const std::stop_token stop = interruption().get_token();
   Progress progress;
-  ProgressDisplay display(progress, ProgressDisplay::fitting_style(common.quiet));
-  std::stop_source stop;
-  std::future<void> done = std::async(std::launch::async, [&] { work(stop.get_token(), progress); });
+  ProgressDisplay display(progress, ProgressDisplay::fitting_style(quiet));
+  std::future<void> done = std::async(std::launch::async, [&] { work(stop, progress); });
   while (done.wait_for(watch_interval) != std::future_status::ready) {
-    if (interrupted) stop.request_stop();
+    static_cast<void>(interrupted());
     display.update();
   }
   display.clear();

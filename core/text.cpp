@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace drape {
@@ -54,6 +55,21 @@ std::string escape_controls(std::string_view text) {
     }
   }
   return result;
+}
+
+std::string readable_length(double metres) {
+  if (metres == 0) return "0";
+  if (!std::isfinite(metres)) return "not finite";
+  struct Unit {
+    const char* name;
+    double size, least;  // [m]
+  };
+  constexpr std::array<Unit, 3> units{{{"m", 1, 1}, {"mm", 1e-3, 1e-4}, {"µm", 1e-6, 1e-6}}};
+  constexpr double rounds_up = 0.9995;  // to 1 with three digits
+  for (const auto& [name, size, least] : units) {
+    if (std::abs(metres) >= rounds_up * least) return fmt::format("{:.3g} {}", metres / size, name);
+  }
+  return fmt::format("{:.3g} nm", 1e9 * metres);
 }
 
 }  // namespace drape

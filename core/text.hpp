@@ -13,4 +13,7 @@ std::string printable(std::string_view text);
 /// that they neither end the message nor talk to the terminal.
 std::string escape_controls(std::string_view text);
 
+/// A length for people, with three digits: "1.23 mm", "0.5 mm", "12 µm", "340 nm"; millimetres from a tenth of one on.
+std::string readable_length(double metres);
+
 }  // namespace drape

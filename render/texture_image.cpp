@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <new>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <span>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/memory.hpp"
+#include "core/read_file.hpp"
 #include "render/color.hpp"
 #include "render/image_header.hpp"
 
@@ -20,7 +22,7 @@ namespace {
 
 /// OpenCV's PNG and JPEG readers fill what is missing of a cut file with grey and only print a warning, so the file's
 /// end is looked at here.
-bool is_cut(const std::vector<unsigned char>& bytes) {
+bool is_cut(std::span<const unsigned char> bytes) {
   const auto starts_with = [&bytes](std::initializer_list<unsigned char> signature) {
     return bytes.size() >= signature.size() && std::equal(signature.begin(), signature.end(), bytes.begin());
   };
@@ -44,22 +46,27 @@ void require_size(const std::filesystem::path& file, int width, int height, int 
                  bytes_per_pixel * width * height, "take a smaller picture");
 }
 
-std::vector<unsigned char> read_bytes(const std::filesystem::path& file) {
-  std::error_code error;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || !std::filesystem::is_regular_file(file, error)) {
-    throw UsageError(fmt::format("cannot read the texture {}", file.string()));
+std::string read_bytes(const std::filesystem::path& file) {
+  constexpr std::size_t most = std::size_t{1} << 30;
+  std::error_code ignored;
+  try {
+    // It is looked at before it is drawn.
+    if (std::filesystem::is_fifo(file, ignored)) throw UsageError(file.string() + ": a pipe cannot be read twice");
+    return read_file(file, most);
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("the texture {}", error.what()));
   }
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 cv::Mat read_image(const std::filesystem::path& file, int largest) {
-  const std::vector<unsigned char> bytes = read_bytes(file);
+  const std::string content = read_bytes(file);
+  const std::span bytes(reinterpret_cast<const unsigned char*>(content.data()), content.size());
   if (const auto size = size_in_header(bytes)) require_size(file, size->width, size->height, largest);
   cv::Mat image;
   if (!bytes.empty() && !is_cut(bytes)) {
     try {
-      image = cv::imdecode(bytes, cv::IMREAD_COLOR);
+      const cv::Mat encoded(1, static_cast<int>(content.size()), CV_8UC1, const_cast<char*>(content.data()));
+      image = cv::imdecode(encoded, cv::IMREAD_COLOR);
     } catch (const cv::Exception& error) {
       if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
       image.release();

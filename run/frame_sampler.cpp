@@ -32,8 +32,14 @@ FilmExtent::FilmExtent(const Video& video, double h, std::int64_t step_count,
   }
 }
 
-FrameSampler::FrameSampler(const FilmExtent& extent, Sink sink)
-    : extent_(extent), sink_(std::move(sink)), next_(extent.frames.first) {}
+Vertices positions_at(double time, const Simulation& simulation, const Vertices& before) {
+  const Vertices& now = simulation.state().x;
+  const double back = std::clamp((simulation.time() - time) / simulation.settings().step, 0.0, 1.0);
+  return back < rounding ? now : Vertices((1 - back) * now + back * before);
+}
+
+FrameSampler::FrameSampler(const FilmExtent& extent, Receiver receiver)
+    : extent_(extent), receiver_(std::move(receiver)), next_(extent.frames.first) {}
 
 void FrameSampler::begin(const Simulation& simulation) {
   previous_ = simulation.state().x;
@@ -49,13 +55,10 @@ void FrameSampler::emit_until(const Simulation& simulation) {
   const double h = extent_.step;
   while (next_ <= extent_.frames.last && extent_.time(next_) <= simulation.time() + rounding * h) {
     const double time = extent_.time(next_);
-    const double back = std::clamp((simulation.time() - time) / h, 0.0, 1.0);
     Frame frame{.index = next_, .time = time, .positions = {}, .colliders = simulation.colliders(time)};
-    // On a step exactly, the step's own bits.
-    frame.positions =
-        back < rounding ? simulation.state().x : Vertices((1 - back) * simulation.state().x + back * previous_);
+    frame.positions = positions_at(time, simulation, previous_);
     ++next_;
-    sink_(std::move(frame));
+    receiver_(std::move(frame));
   }
 }
 

@@ -31,13 +31,18 @@ struct FilmExtent {
   [[nodiscard]] double time(int frame) const { return frame * seconds_per_frame; }
 };
 
+/// The cloth at a time within the simulation's last step: linear between where it was before and where it is now, and
+/// at the step's end exactly that, with the step's own bits.
+/// @param before n×3 [m]
+Vertices positions_at(double time, const Simulation& simulation, const Vertices& before);
+
 /// Watches a simulation and hands out the frames of a range as soon as the motion reaches them. A frame between two
 /// steps is interpolated linearly between them.
 class FrameSampler final : public StepObserver {
  public:
-  using Sink = std::function<void(Frame)>;
+  using Receiver = std::function<void(Frame)>;
 
-  FrameSampler(const FilmExtent& extent, Sink sink);
+  FrameSampler(const FilmExtent& extent, Receiver receiver);
 
   void begin(const Simulation& simulation) override;
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
@@ -46,7 +51,7 @@ class FrameSampler final : public StepObserver {
   void emit_until(const Simulation& simulation);
 
   FilmExtent extent_;
-  Sink sink_;
+  Receiver receiver_;
   int next_;
   Vertices previous_;
 };

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <chrono>
-#include <condition_variable>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -17,9 +16,8 @@
 #include "render/renderer.hpp"
 #include "render/view.hpp"
 #include "run/bounded_queue.hpp"
-#include "run/films.hpp"
+#include "run/outputs.hpp"
 #include "run/run_steps.hpp"
-#include "run/step_by_step.hpp"
 
 namespace drape {
 namespace {
@@ -28,30 +26,15 @@ using Clock = std::chrono::steady_clock;
 
 // Frames in flight between two stages: enough to ride out an uneven step or frame, little enough to hold in memory.
 constexpr std::size_t queue_capacity = 8;
-constexpr std::chrono::milliseconds watch_interval{100};
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-/// Shows how many steps are done where no frames are counted.
-class StepCounter final : public StepObserver {
- public:
-  explicit StepCounter(Progress& progress) : progress_(progress) {}
-  void after_step(const Simulation& simulation, const StepReport&, double) override {
-    progress_.done = simulation.state().step;
-  }
-
- private:
-  Progress& progress_;
-};
-
-std::vector<OutputSpec> with_progress(std::vector<OutputSpec> specs, Progress& progress) {
-  for (OutputSpec& spec : specs) {
-    spec.progress = [&progress](int done, int total) {
-      if (done <= 1) progress.begin("encoding", "frames", total);
-      progress.done = done;
-    };
-  }
-  return specs;
+FilmInfo with_progress(FilmInfo film, Progress& progress) {
+  film.progress = [&progress](int done, int total) {
+    if (done <= 1) progress.begin("encoding", "frames", total);
+    progress.done = done;
+  };
+  return film;
 }
 
 /// The three threads of a run and what flows between them.
@@ -63,30 +46,29 @@ class Pipeline {
         progress_(progress),
         extent_(film_extent(scene, options)),
         simulation_(scene.simulation, options.time_effects ? Timing::effects : Timing::none),
-        films_(with_progress(output_specs(scene, options), progress)),
+        outputs_(options.outputs, with_progress(film_info(scene, options), progress)),
+        drawn_(outputs_.drawn()),
         records_(options.records) {
     result_.steps_wanted = extent_.steps;
-    if (!films_.none()) result_.frames_wanted = extent_.frames.count();
+    if (!outputs_.none()) result_.frames_wanted = extent_.frames.count();
   }
 
-  RunResult run(const std::atomic<bool>& stop, const std::function<void()>& watch) {
+  RunResult run(const std::stop_token& stop) {
     const auto begin = Clock::now();
+    const std::stop_callback pass_on(stop, [this] { stop_.request_stop(); });
     std::vector<std::jthread> threads;
     try {
       // The consumers first: where a thread cannot be had, those that run already end when their queues close.
-      if (!films_.none()) {
-        threads.emplace_back([this] { guarded([this] { encode(); }); });
-        threads.emplace_back([this] { guarded([this] { draw(); }); });
-      }
+      if (result_.frames_wanted > 0) threads.emplace_back([this] { guarded([this] { write(); }); });
+      if (drawn_) threads.emplace_back([this] { guarded([this] { draw(); }); });
       threads.emplace_back([this] { guarded([this] { simulate(); }); });
     } catch (...) {
       fail();
     }
-    wait(threads.size(), stop, watch);
-    threads.clear();
+    threads.clear();  // waits for them
     if (error_) std::rethrow_exception(error_);
 
-    if (nothing_left_) throw OutputError(fmt::format("{}", fmt::join(films_.problems(), "\n")));
+    if (nothing_left_) throw OutputError(fmt::format("{}", fmt::join(outputs_.problems(), "\n")));
     finish_records();
     result_.elapsed_seconds = seconds_since(begin);
     return std::move(result_);
@@ -101,9 +83,6 @@ class Pipeline {
     } catch (...) {
       fail();
     }
-    const std::scoped_lock lock(mutex_);
-    ++finished_;
-    changed_.notify_all();
   }
 
   /// Ends the run with the exception that is being handled, unless there is one already.
@@ -113,39 +92,33 @@ class Pipeline {
     stop_.request_stop();
     view_.close();
     frames_.close();
-    images_.close();
+    film_.close();
   }
 
   void finish_records() {
-    result_.problems = films_.problems();
+    result_.problems = outputs_.problems();
     if (!whole_ && result_.outcome == Outcome::completed) result_.outcome = Outcome::interrupted;
     if (result_.outcome == Outcome::interrupted && result_.statistics.steps() == 0) return;
     result_.records = records_.finish(simulation_, result_.statistics, outcome_name(result_.outcome),
                                       whole_ ? Ending::complete : Ending::early, result_.problems);
   }
 
-  void wait(std::size_t threads, const std::atomic<bool>& stop, const std::function<void()>& watch) {
-    std::unique_lock lock(mutex_);
-    while (finished_ < threads) {
-      changed_.wait_for(lock, watch_interval);
-      lock.unlock();
-      if (stop) stop_.request_stop();
-      watch();
-      lock.lock();
-    }
-  }
-
   void simulate() {
     std::vector<StepObserver*> observers{&result_.statistics};
     for (StepObserver* record : records_.observers()) observers.push_back(record);
-    StepByStep step_by_step(stop_);
-    if (options_.step_by_step) observers.push_back(&step_by_step);
+    if (options_.observer != nullptr) observers.push_back(options_.observer);
 
-    FrameSampler sampler(extent_, [this](Frame frame) { frames_.push(std::move(frame)); });
+    FrameSampler sampler(extent_, [this](Frame frame) {
+      if (drawn_) {
+        frames_.push(std::move(frame));
+      } else {
+        film_.push({std::move(frame), std::nullopt});
+      }
+    });
     StepCounter counter(progress_);
     if (result_.frames_wanted > 0) {
-      if (!find_view()) return close_queues();
-      progress_.begin("drawing", "frames", extent_.frames.count());
+      if (drawn_ && !find_view()) return close_queues();
+      progress_.begin(drawn_ ? "drawing" : "simulating", "frames", extent_.frames.count());
       observers.push_back(&sampler);
     } else {
       progress_.begin("simulating", "steps", extent_.steps);
@@ -161,9 +134,11 @@ class Pipeline {
     close_queues();
   }
 
+  /// Ends the flow of frames where it begins. What is on its way is still drawn and written.
   void close_queues() {
     view_.close();
     frames_.close();
+    if (!drawn_) film_.close();
   }
 
   /// Hands the camera's view to the drawing thread. One that has to show the whole motion is found by running the
@@ -191,25 +166,28 @@ class Pipeline {
 
   void draw() {
     const std::optional<View> view = view_.pop();
-    if (!view) return images_.close();
+    if (!view) return film_.close();
     Renderer renderer(data_folder(), scene_.video.size, *view, scene_.look, simulation_.cloth().vertex_count(),
                       simulation_.cloth().triangles, scene_.uvs, options_.backend);
     result_.renderer = renderer.description();
-    while (const std::optional<Frame> frame = frames_.pop()) {
+    while (std::optional<Frame> frame = frames_.pop()) {
       const auto begin = Clock::now();
-      Image image = renderer.draw(*frame);
+      FilmFrame shown;
+      if (!undrawn_.stop_requested()) shown.image = renderer.draw(*frame);
       result_.draw_seconds += seconds_since(begin);
-      images_.push(std::move(image));
+      shown.frame = std::move(*frame);
+      film_.push(std::move(shown));
     }
-    images_.close();
+    film_.close();
   }
 
-  void encode() {
-    while (const std::optional<Image> image = images_.pop()) {
+  void write() {
+    while (const std::optional<FilmFrame> frame = film_.pop()) {
       const auto begin = Clock::now();
-      films_.add(*image);
-      result_.encode_seconds += seconds_since(begin);
-      if (films_.none()) return stop_drawing();
+      outputs_.add(*frame);
+      result_.write_seconds += seconds_since(begin);
+      if (outputs_.none()) return stop_writing();
+      if (!outputs_.drawn()) undrawn_.request_stop();
       progress_.done = ++result_.frames;
     }
     {
@@ -217,15 +195,15 @@ class Pipeline {
       if (error_) return;
     }
     const auto begin = Clock::now();
-    result_.outputs = films_.finish(result_.frames == result_.frames_wanted ? Ending::complete : Ending::early);
-    result_.encode_seconds += seconds_since(begin);
-    if (films_.none()) stop_drawing();
+    result_.outputs = outputs_.finish(result_.frames == result_.frames_wanted ? Ending::complete : Ending::early);
+    result_.write_seconds += seconds_since(begin);
+    if (outputs_.none()) stop_writing();
   }
 
-  /// When no film is left. The run goes on for the sake of its records, if there are any.
-  void stop_drawing() {
+  /// When no output is left. The run goes on for the sake of its records, if there are any.
+  void stop_writing() {
     close_queues();
-    images_.close();
+    film_.close();
     if (records_.wanted()) return;
     nothing_left_ = true;
     stop_.request_stop();
@@ -236,20 +214,20 @@ class Pipeline {
   Progress& progress_;
   FilmExtent extent_;
   Simulation simulation_;
-  Films films_;
+  Outputs outputs_;
+  const bool drawn_;  // whether there is anything to draw
   Records records_;
 
   BoundedQueue<View> view_{1};
   BoundedQueue<Frame> frames_{queue_capacity};
-  BoundedQueue<Image> images_{queue_capacity};
+  BoundedQueue<FilmFrame> film_{queue_capacity};
   std::stop_source stop_;
+  std::stop_source undrawn_;  // of the drawing, when no output takes images any more
 
   std::mutex mutex_;
-  std::condition_variable changed_;
-  std::size_t finished_ = 0;
   std::exception_ptr error_;
   bool whole_ = false;         // every step was taken
-  bool nothing_left_ = false;  // every film was given up, and there are no records
+  bool nothing_left_ = false;  // every output was given up, and there are no records
   RunResult result_;
 };
 
@@ -267,9 +245,8 @@ const char* outcome_name(Outcome outcome) {
   return "";
 }
 
-RunResult run_scene(const Scene& scene, const RunOptions& options, const std::atomic<bool>& stop, Progress& progress,
-                    const std::function<void()>& watch) {
-  return Pipeline(scene, options, progress).run(stop, watch);
+RunResult run_scene(const Scene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress) {
+  return Pipeline(scene, options, progress).run(stop);
 }
 
 }  // namespace drape

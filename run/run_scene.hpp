@@ -1,13 +1,12 @@
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "output/sink.hpp"
 #include "render/backend.hpp"
-#include "render/encode/encoder.hpp"
 #include "run/frame_sampler.hpp"
 #include "run/progress.hpp"
 #include "run/records.hpp"
@@ -18,13 +17,13 @@ namespace drape {
 
 /// What a run of a scene should do.
 struct RunOptions {
-  std::vector<std::string> outputs;  ///< films, frames and stills, see make_encoder(); empty: nothing is drawn
+  std::vector<std::string> outputs;  ///< films, frames and stills, see make_sink()
   RecordPaths records;
   std::optional<std::int64_t> steps;  ///< instead of the scene's duration
   std::optional<FrameRange> frames;   ///< draw only these, and simulate no further than they need
   GlBackend backend = GlBackend::automatic;
-  bool step_by_step = false;  ///< print every step and wait for a line of input
-  bool time_effects = false;  ///< measure which part of the steps' time each effect takes
+  bool time_effects = false;         ///< measure which part of the steps' time each effect takes
+  StepObserver* observer = nullptr;  ///< told of every step too, on the thread that simulates, after it is recorded
 };
 
 enum class Outcome { completed, interrupted, diverged };
@@ -37,23 +36,21 @@ struct RunResult {
   Outcome outcome = Outcome::completed;
   std::string divergence;  ///< the message, if it diverged
   Statistics statistics;
-  int frames = 0;         ///< that were drawn and encoded
-  int frames_wanted = 0;  ///< 0: nothing was to be drawn
+  int frames = 0;         ///< that were written
+  int frames_wanted = 0;  ///< 0: there are no outputs
   std::int64_t steps_wanted = 0;
-  double draw_seconds = 0, encode_seconds = 0, elapsed_seconds = 0;
+  double draw_seconds = 0, write_seconds = 0, elapsed_seconds = 0;
   std::string renderer;                          ///< what drew; empty if nothing was
   std::vector<std::vector<OutputFile>> outputs;  ///< the files of each output that there is
   std::vector<std::string> records;              ///< likewise
   std::vector<std::string> problems;             ///< a message for each output and record that could not be written
 };
 
-/// Runs a scene: one thread simulates, one owns the GL context and draws, one encodes, with bounded queues between
-/// them; the calling thread only waits. When the motion diverges or `stop` becomes true, what was done so far is
-/// completed, under names that say that it is not all (see Ending): nothing if there was no step yet. An output or a
-/// record that cannot be written does not keep the others from being completed.
-/// @param watch  called about ten times a second on the calling thread, to show the progress
+/// Runs a scene: one thread simulates, one owns the GL context and draws, if anything is to be drawn, and one writes,
+/// with bounded queues between them; the calling thread only waits. When the motion diverges or a stop is requested,
+/// what was done so far is completed, under names that say that it is not all (see Ending): nothing if there was no
+/// step yet. An output or a record that cannot be written does not keep the others from being completed.
 /// @throws Error whatever stopped one of the threads, or that there is nothing left to run for; no file is left then
-RunResult run_scene(const Scene& scene, const RunOptions& options, const std::atomic<bool>& stop, Progress& progress,
-                    const std::function<void()>& watch);
+RunResult run_scene(const Scene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress);
 
 }  // namespace drape

@@ -1,8 +1,21 @@
 #include "run/run_steps.hpp"
 
+#include <array>
 #include <chrono>
 
 namespace drape {
+namespace {
+
+class Watch final : public StepObserver {
+ public:
+  explicit Watch(const std::function<void(const StepReport&)>& after_step) : after_step_(after_step) {}
+  void after_step(const Simulation&, const StepReport& report, double) override { after_step_(report); }
+
+ private:
+  const std::function<void(const StepReport&)>& after_step_;
+};
+
+}  // namespace
 
 void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserver* const> observers,
                const std::stop_token& stop) {
@@ -14,6 +27,17 @@ void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserve
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     for (StepObserver* observer : observers) observer->after_step(simulation, report, seconds);
   }
+}
+
+void run_steps(Simulation& simulation, std::int64_t steps, const std::stop_token& stop,
+               const std::function<void(const StepReport&)>& after_step) {
+  if (!after_step) return run_steps(simulation, steps, std::span<StepObserver* const>(), stop);
+  Watch watch(after_step);
+  run_steps(simulation, steps, std::array<StepObserver*, 1>{&watch}, stop);
+}
+
+void StepCounter::after_step(const Simulation& simulation, const StepReport&, double) {
+  progress_.done = simulation.state().step;
 }
 
 }  // namespace drape

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <stop_token>
 
+#include "run/progress.hpp"
 #include "run/step_observer.hpp"
 
 namespace drape {
@@ -13,5 +15,19 @@ namespace drape {
 /// @throws DivergedError after the observers saw the last finite step
 void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserver* const> observers,
                const std::stop_token& stop);
+
+/// The same, telling one function.
+void run_steps(Simulation& simulation, std::int64_t steps, const std::stop_token& stop,
+               const std::function<void(const StepReport&)>& after_step = {});
+
+/// Shows how many steps are done.
+class StepCounter final : public StepObserver {
+ public:
+  explicit StepCounter(Progress& progress) : progress_(progress) {}
+  void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
+
+ private:
+  Progress& progress_;
+};
 
 }  // namespace drape

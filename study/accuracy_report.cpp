@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text.hpp"
 #include "study/accuracy_charts.hpp"
 
 namespace drape {
@@ -115,7 +116,7 @@ ResultTable cheapest_table(const SceneAccuracy& scene) {
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     for (const double limit : limits) {
       const Cheapest c = find_cheapest(kinds[k].offers, limit);
-      std::vector<std::string> row{kinds[k].name, short_length(limit)};
+      std::vector<std::string> row{kinds[k].name, readable_length(limit)};
       const std::string unknown = why_unknown(scene, k, limit);
       if (!unknown.empty() || c.first == nullptr) {
         row.emplace_back(unknown.empty() ? "none that was run" : unknown);
@@ -139,7 +140,7 @@ std::string describe_cheapest(const SceneAccuracy& scene) {
   std::string text = "The cheapest";
   for (const double limit : limits) {
     const Cheapest c = find_cheapest(kinds.front().offers, limit);
-    text += fmt::format("{} below {} is {}", limit == limits.front() ? "" : "; the cheapest", short_length(limit),
+    text += fmt::format("{} below {} is {}", limit == limits.front() ? "" : "; the cheapest", readable_length(limit),
                         c.first == nullptr ? "not among what was run"
                                            : fmt::format("{} at {} with {} µs per step", c.first->method, c.first->at,
                                                          three_digits(c.first->cost.median)));
@@ -205,11 +206,6 @@ std::string headline(const std::vector<SceneAccuracy>& scenes) {
 }
 
 }  // namespace
-
-std::string short_length(double metres) {
-  if (metres >= 1) return fmt::format("{:g} m", metres);
-  return metres >= 0.99e-4 ? fmt::format("{:g} mm", 1e3 * metres) : fmt::format("{:g} µm", 1e6 * metres);
-}
 
 Cheapest find_cheapest(const std::vector<Offer>& offers, double limit) {
   Cheapest found;

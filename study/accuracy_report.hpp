@@ -12,9 +12,6 @@ namespace drape {
 StudyReport accuracy_report(const std::vector<SceneAccuracy>& scenes, const std::string& command,
                             const std::vector<std::vector<StudyPicture>>& pictures, double seconds);
 
-/// "1 mm", "10 µm", for a length that is a power of ten [m].
-std::string short_length(double metres);
-
 /// A method, with its tolerance or its step, that keeps an error below a limit, and what that costs.
 struct Offer {
   std::string method, at;  ///< "liu13", "ε = 0.001"

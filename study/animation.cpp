@@ -10,7 +10,8 @@
 #include <memory>
 
 #include "core/read_file.hpp"
-#include "render/encode/gif_encoder.hpp"
+#include "core/text.hpp"
+#include "output/gif_encoder.hpp"
 #include "render/montage.hpp"
 #include "render/renderer.hpp"
 #include "run/frame_sampler.hpp"
@@ -45,12 +46,6 @@ std::vector<Frame> frames_of(const SimulationSettings& settings, const Video& vi
   Simulation simulation(settings);
   run_steps(simulation, film.steps, observers, stop);
   return frames;
-}
-
-std::string length(double metres) {
-  if (metres >= 1) return fmt::format("{:.2f} m", metres);
-  if (metres >= 1e-3) return fmt::format("{:.3g} mm", 1e3 * metres);
-  return fmt::format("{:.3g} µm", 1e6 * metres);
 }
 
 /// The strip below the panels.
@@ -106,10 +101,10 @@ class PanelPainter {
     std::fill(head.pixels.begin(), head.pixels.end(), paper);
     draw_text(head, margin, 16, label, letters, ink);
     const int flipped = pairs_.count(frame.positions);
-    draw_text(
-        head, margin, 34,
-        fmt::format("error {}, {} flipped {}", length(distances.maxCoeff()), flipped, flipped == 1 ? "pair" : "pairs"),
-        letters, ink);
+    draw_text(head, margin, 34,
+              fmt::format("error {}, {} flipped {}", readable_length(distances.maxCoeff()), flipped,
+                          flipped == 1 ? "pair" : "pairs"),
+              letters, ink);
     return beneath(head, cloth);
   }
 

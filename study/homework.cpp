@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 
+#include "run/run_steps.hpp"
 #include "sim/simulation.hpp"
 #include "study/homework_cases.hpp"
 #include "study/homework_conclusions.hpp"
@@ -69,8 +70,8 @@ void add_energies(HomeworkStudy& study) {
        "energy. The steady loss is the scheme's own, ½ M g² h² = 4.78e-5 J per step in free fall, and no "
        "damping.",
        what.command() + " --energies energies.csv"}};
-  for (std::int64_t step = 1; step <= what.steps; ++step) {
-    simulation.step();
+  run_steps(simulation, what.steps, {}, [&](const StepReport&) {
+    const std::int64_t step = simulation.state().step;
     const Energies e = simulation.energies();
     const auto text = [](double value) { return fmt::format("{:.6g}", value); };
     study.energies.rows.push_back({fmt::format("{}", step), fmt::format("{:.17g}", e.total()),
@@ -81,7 +82,7 @@ void add_energies(HomeworkStudy& study) {
       beside.rows.push_back({fmt::format("{}", step), text(r.total), text(e.total()), text(r.kinetic), text(e.kinetic),
                              text(r.gravity), text(e.gravity), text(r.elastic), text(e.elastic)});
     }
-  }
+  });
   study.tables.push_back(std::move(beside));
 }
 

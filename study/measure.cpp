@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "run/run_steps.hpp"
 #include "sim/flipped_pairs.hpp"
 
 namespace drape {
@@ -31,12 +32,10 @@ class CaseRun {
   void turn() {
     const std::int64_t steps = step_count();
     const std::int64_t end = std::min(steps, simulation_->state().step + (steps + turns - 1) / turns);
-    while (simulation_->state().step < end) {
-      const double begin = thread_seconds();
-      const StepReport report = simulation_->step();
-      seconds_ += thread_seconds() - begin;
-      if (watch_) observe(report);
-    }
+    if (watch_) return run_steps(*simulation_, end, {}, [this](const StepReport& report) { observe(report); });
+    const double begin = thread_seconds();
+    run_steps(*simulation_, end, {});
+    seconds_ += thread_seconds() - begin;
   }
 
   void finish() {

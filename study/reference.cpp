@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "run/run_steps.hpp"
+
 namespace drape {
 namespace {
 
@@ -55,14 +57,13 @@ std::optional<ReferenceMotion> run_reference(const SimulationSettings& settings,
     for (; next != keep.end() && *next == newton.state().step; ++next) motion.states.push_back(newton.state());
   };
   look();
-  while (newton.state().step < steps) {
-    if (stop.stop_requested()) return std::nullopt;
-    newton.step();
+  run_steps(newton, steps, stop, [&](const StepReport&) {
     quasi_newton.step();
     motion.apart.push_back(distance(newton.state().x, quasi_newton.state().x).max);
     look();
     ++progress.done;
-  }
+  });
+  if (stop.stop_requested()) return std::nullopt;
   return motion;
 }
 

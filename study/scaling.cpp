@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "run/run_steps.hpp"
 #include "sim/linear/constant_factor.hpp"
 #include "sim/stability.hpp"
 #include "study/kernel_clock.hpp"
@@ -109,7 +110,8 @@ class MethodOnGrid {
   double run(Simulation& simulation) {
     simulation.restore(start_);
     double iterations = 0;
-    for (std::int64_t i = 0; i < timed_steps; ++i) iterations += simulation.step().iterations;
+    run_steps(simulation, start_.step + timed_steps, {},
+              [&](const StepReport& report) { iterations += report.iterations; });
     return iterations;
   }
 
@@ -147,7 +149,7 @@ class MethodOnGrid {
 State start_on(int cells, double& time) {
   const StudyCase what{"", scene_file, {grid_override(cells), "integrator.method=quasi-newton"}, warm_up};
   Simulation simulation(what.load().simulation);
-  for (std::int64_t i = 0; i < warm_up; ++i) simulation.step();
+  run_steps(simulation, warm_up, {});
   time = simulation.time();
   return simulation.state();
 }

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/parallel.hpp"
+#include "run/run_steps.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/simulation.hpp"
@@ -136,15 +137,17 @@ StabilityCell stability_cell(Method method, StabilityAxis axis, double step, dou
     const Energies begin = simulation.energies();
     const double had = begin.kinetic + begin.elastic, level = potential(begin, simulation.state().x);
     double moved = had, differed = 0, given = 0;
-    for (int step_number = 0; step_number < steps; ++step_number) {
-      if (!simulation.step().converged) ++cell.not_converged;
+    std::stop_source enough;
+    run_steps(simulation, steps, enough.get_token(), [&](const StepReport& report) {
+      if (!report.converged) ++cell.not_converged;
       const Energies now = simulation.energies();
       const double has = now.kinetic + now.elastic, got = level - potential(now, simulation.state().x);
       given = std::max(given, got);
-      if (!(has <= BlowUpWatch::limit_of_unstable_steps * (had + given))) return blown_up();
+      if (!(has <= BlowUpWatch::limit_of_unstable_steps * (had + given))) enough.request_stop();
       differed = std::max(differed, std::abs(has - had - got));
       moved = std::max({moved, now.kinetic, std::abs(got), now.elastic});
-    }
+    });
+    if (enough.stop_requested()) return blown_up();
     cell.energy_error = moved > 0 ? differed / moved : 0;
   } catch (const DivergedError&) {
     return blown_up();

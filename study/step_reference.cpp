@@ -1,5 +1,8 @@
 #include "study/step_reference.hpp"
 
+#include <array>
+
+#include "run/run_steps.hpp"
 #include "study/reference.hpp"
 
 namespace drape {
@@ -13,11 +16,9 @@ std::optional<StepReference> extrapolate_step(SimulationSettings settings, doubl
   settings.step = time / static_cast<double>(steps);
   Simulation fine(to_rounding(settings, Method::implicit));
   progress.begin("computing the reference in small steps", "steps", steps);
-  while (fine.state().step < steps) {
-    if (stop.stop_requested()) return std::nullopt;
-    fine.step();
-    ++progress.done;
-  }
+  StepCounter counter(progress);
+  run_steps(fine, steps, std::array<StepObserver*, 1>{&counter}, stop);
+  if (stop.stop_requested()) return std::nullopt;
   StepReference reference;
   reference.x = 2 * fine.state().x - coarse->states.front().x;
   reference.step = settings.step;

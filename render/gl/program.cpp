@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <fstream>
 #include <sstream>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/read_file.hpp"
 
 namespace drape {
 namespace {
@@ -19,8 +19,8 @@ struct Source {
 };
 
 void append_file(Source& source, const std::filesystem::path& file, const std::vector<std::string>& defines) {
-  std::ifstream stream(file);
-  if (!stream) throw UsageError(fmt::format("cannot read the shader {}", file.string()));
+  constexpr std::size_t most = 1 << 20;
+  std::istringstream stream(read_text(file, most));
   const std::size_t number = source.files.size();
   source.files.push_back(file);
   constexpr std::string_view include = "#include \"";

@@ -7,7 +7,7 @@
 
 #include <map>
 
-#include "render/encode/png_encoder.hpp"
+#include "output/png_encoder.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/synthetic_film.hpp"

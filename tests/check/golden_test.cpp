@@ -13,7 +13,7 @@
 
 #include "check/golden_folder.hpp"
 #include "check/motion_file.hpp"
-#include "render/encode/png_encoder.hpp"
+#include "output/png_encoder.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/motion_bytes.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "render/encode/png_encoder.hpp"
+#include "output/png_encoder.hpp"
 #include "tests/support/synthetic_film.hpp"
 
 namespace drape::picture {

@@ -33,6 +33,19 @@ TEST(Doctor, SaysInJsonWhatItFound) {
   EXPECT_GE(json.at("machine").at("threads"), 1);
 }
 
+TEST(Doctor, TriesEveryFormatWhateverTheFolderForTemporaryFilesIsCalled) {
+  const SceneFolder folder;
+  std::filesystem::create_directory(folder.path("{odd}"));
+  const Finished finished = drape(folder, "doctor --json", "TMPDIR='" + folder.path("{odd}") + "'");
+  std::vector<std::string> formats;
+  const auto json = nlohmann::json::parse(finished.text);
+  for (const auto& output : json.at("outputs")) {
+    EXPECT_TRUE(output.at("works")) << output;
+    formats.push_back(output.at("name"));
+  }
+  EXPECT_EQ(formats, (std::vector<std::string>{".gif", ".png", ".mp4", ".webm", ".avi", ".obj"}));
+}
+
 TEST(Doctor, ObeysTheCapOnInstructionSets) {
   const SceneFolder folder;
   const auto json = nlohmann::json::parse(drape(folder, "doctor --json", "DRAPE_ISA=sse2").text);

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "tests/cli/run_drape.hpp"
+#include "tests/cli/without_opengl.hpp"
 #include "tests/support/files.hpp"
 
 namespace drape::outputs {
@@ -81,7 +82,10 @@ TEST(Outputs, AreRefusedWhereTwoAreOneFile) {
            {"render scene.toml -o a/x.png -o c/x.png", "-o a/x.png and -o c/x.png"},
            {"render scene.toml -o new/x.png -o new/../new/x.png", "new/../new/x.png is new/x.png"},
            {"render scene.toml -o one.png -o two.png", "-o one.png and -o two.png"},
-           {"render scene.toml -o {frame:04}.png -o 0003.png", "-o {frame:04}.png and -o 0003.png"}}) {
+           {"render scene.toml -o {frame:04}.png -o 0003.png", "-o {frame:04}.png and -o 0003.png"},
+           {"simulate scene.toml -o {frame:04}.obj -o 0003.obj", "-o {frame:04}.obj and -o 0003.obj"},
+           {"simulate a/x.toml scene.toml -o end.obj", "put {scene} into the name"},
+           {"simulate scene.toml -o end.obj --positions end.obj", "-o end.obj and --positions end.obj"}}) {
     const Finished finished = drape(folder, arguments);
     EXPECT_EQ(finished.code, 2) << arguments;
     EXPECT_TRUE(contains(finished.text, named)) << finished.text;
@@ -142,10 +146,14 @@ TEST(Outputs, OfAllScenesAreLookedAtBeforeTheFirstRuns) {
   folder.write("a.toml", scene);
   folder.write("b.toml", scene + "[look]\ntexture = \"cut.png\"\n");
   for (const auto& [arguments, code, named] : std::vector<std::tuple<std::string, int, std::string>>{
-           {"render a.toml b.toml", 2, "b.toml:14:11: the texture cut.png is damaged"},
+           {"render a.toml b.toml", 2, "b.toml:15:11: the texture cut.png is damaged"},
            {"render a.toml ./b.toml --set look.texture=cut.png", 2, "--set look.texture=cut.png: the texture"},
            {"render a.toml -o a.gif -o a.mov", 2, "unknown extension '.mov'"},
            {"render a.toml -o ''", 2, "has no extension"},
+           {"simulate a.toml -o {frame}.objj", 2, "did you mean '.obj'?"},
+           {"simulate a.toml -o {frame}.gif -o {frme}.obj", 2, "use drape render"},
+           {"simulate a.toml -o {frme}.obj", 2, "did you mean '{frame}'?"},
+           {"simulate a.toml -o /proc/{frame}.obj", 4, "/proc/"},
            {"render a.toml --stats /proc/stats.json", 4, "/proc/stats.json"}}) {
     const Finished finished = drape(folder, arguments);
     EXPECT_EQ(finished.code, code) << finished.text;
@@ -168,6 +176,66 @@ TEST(Outputs, OfASceneThatFailsDoNotKeepTheNextFromItsOwn) {
   EXPECT_EQ(finished.code, 2) << finished.text;
   EXPECT_TRUE(contains(finished.text, "a.toml: implicit")) << finished.text;
   EXPECT_TRUE(contains(finished.text, "b.toml: implicit")) << finished.text;
+}
+
+TEST(MotionOutputs, NeedNoOpenGl) {
+  const SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const std::string environment = test::without_opengl(folder);
+  for (const std::string command : {"simulate", "render"}) {
+    const Finished finished = drape(folder, command + " scene.toml -o " + command + "/{frame:04}.obj", environment);
+    EXPECT_EQ(finished.code, 0) << finished.text;
+    EXPECT_TRUE(contains(finished.text, "/0000.obj … " + command + "/0010.obj  11 files")) << finished.text;
+    EXPECT_EQ(lines(content(folder.path(command + "/0010.obj"))), 1U + 49U + 49U + 72U);
+  }
+  EXPECT_EQ(drape(folder, "render scene.toml -o film.gif -o {frame}.obj", environment).code, 4);
+}
+
+TEST(MotionOutputs, ComeFromThePassThatDrawsTheFilm) {
+  const SceneFolder folder;
+  folder.write("scene.toml", scene);
+  ASSERT_EQ(drape(folder, "render scene.toml -o alone.gif --quiet").text, "");
+  ASSERT_EQ(drape(folder, "simulate scene.toml -o alone/{frame}.obj --quiet").text, "");
+  ASSERT_EQ(drape(folder, "render scene.toml -o both.gif -o both/{frame}.obj --quiet").text, "");
+  EXPECT_EQ(content(folder.path("both.gif")), content(folder.path("alone.gif")));
+  for (const std::string frame : {"00", "07", "10"}) {
+    EXPECT_EQ(content(folder.path("both/" + frame + ".obj")), content(folder.path("alone/" + frame + ".obj")));
+  }
+}
+
+TEST(MotionOutputs, GoOnWhereAFilmCannot) {
+  const SceneFolder folder;
+  folder.write("scene.toml", framed);
+  const Finished finished = drape(folder,
+                                  "render scene.toml -o film.avi -o {frame:02}.obj --set video.size=[320,240] "
+                                  "--set video.fps=50 --set look.mesh_lines=true",
+                                  "ulimit -f 100;");
+  EXPECT_EQ(finished.code, 4) << finished.text;
+  EXPECT_TRUE(contains(finished.text, "cannot write film.avi: File too large")) << finished.text;
+  EXPECT_EQ(folder.file_count(), 1U + 21U) << finished.text;
+}
+
+TEST(MotionOutputs, ThatDoNotFitOnTheDiskLeaveTheOldOne) {
+  const SceneFolder folder;
+  folder.write("scene.toml", scene);
+  folder.write("end.obj", "old");
+  const Finished finished = drape(folder, "simulate scene.toml -o end.obj", "ulimit -f 1;");
+  EXPECT_EQ(finished.code, 4) << finished.text;
+  EXPECT_TRUE(contains(finished.text, "cannot write end.obj: File too large")) << finished.text;
+  EXPECT_EQ(content(folder.path("end.obj")), "old");
+  EXPECT_EQ(folder.file_count(), 2U);
+}
+
+TEST(MotionOutputs, OfAMotionThatEndsEarlyAreCalledPartial) {
+  const SceneFolder folder;
+  folder.write("scene.toml", scene);
+  folder.write("end.obj", "old");
+  folder.write("input", "\n\n\n\nq");
+  const Finished finished =
+      drape(folder, "simulate scene.toml --step-by-step --quiet -o end.obj -o {frame:02}.obj < input");
+  EXPECT_EQ(finished.code, 130) << finished.text;
+  EXPECT_EQ(content(folder.path("end.obj")), "old");
+  EXPECT_EQ(content(folder.path("end.partial.obj")), content(folder.path("02.obj")));  // after five of 0.04 s / 0.02 s
 }
 
 TEST(Outputs, OfASequenceAreToldInOneLine) {

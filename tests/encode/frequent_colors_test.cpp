@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <random>
 
-#include "render/encode/frequent_colors.hpp"
+#include "output/frequent_colors.hpp"
 
 using namespace drape;
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "render/encode/encoder.hpp"
 #include "tests/support/decoded_film.hpp"
+#include "tests/support/encoder.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/gif_file.hpp"
@@ -21,7 +21,7 @@ namespace {
 class Gif : public InScratchFolder {
  protected:
   [[nodiscard]] std::unique_ptr<Encoder> encoder(double fps = 25) const {
-    return make_encoder({.path = path("x.gif"), .scene = "test", .fps = fps, .progress = {}});
+    return make_encoder(path("x.gif"), {.scene = "test", .fps = fps});
   }
 
   /// Writes the film to x.gif.
@@ -181,10 +181,10 @@ TEST_F(Gif, HasTheSameBytesEveryTime) {
 
 TEST_F(Gif, ReportsItsProgress) {
   std::vector<int> done;
-  const auto gif = make_encoder({.path = path("x.gif"), .scene = "test", .progress = [&done](int k, int total) {
-                                   EXPECT_EQ(total, 4);
-                                   done.push_back(k);
-                                 }});
+  const auto gif = make_encoder(path("x.gif"), {.scene = "test", .progress = [&done](int k, int total) {
+                                                  EXPECT_EQ(total, 4);
+                                                  done.push_back(k);
+                                                }});
   for (const Image& image : synthetic_film(4, 32, 24)) gif->add(image);
   EXPECT_TRUE(done.empty());
   gif->finish();

@@ -4,8 +4,10 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "render/encode/encoder.hpp"
-#include "render/encode/path_template.hpp"
+#include "output/make_sink.hpp"
+#include "output/path_template.hpp"
+#include "output/registry.hpp"
+#include "output/try_format.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/usage_error.hpp"
 
@@ -52,61 +54,80 @@ TEST(PathTemplate, RefusesSingleBraces) {
             "a '}' without '{' in the output path a}.gif; write '}}' for a brace");
 }
 
-class MakeEncoder : public drape::test::InScratchFolder {
+/// A name for every form there is, of a film and of a sequence.
+std::vector<std::string> every_name() {
+  std::vector<std::string> names;
+  for (const OutputFormat& format : output_formats()) {
+    names.push_back("x" + format.extension);
+    if (format.file_per_frame()) names.push_back("{frame}" + format.extension);
+  }
+  return names;
+}
+
+class MakeSink : public drape::test::InScratchFolder {
  protected:
   [[nodiscard]] std::string error(const std::string& name, double fps = 25) const {
-    return usage_error([&] { make_encoder({.path = path(name), .scene = "flag", .fps = fps, .progress = {}}); });
+    return usage_error([&] { make_sink(path(name), {.scene = "flag", .fps = fps}); });
   }
 };
 
-TEST_F(MakeEncoder, NamesTheValidExtensions) {
-  const std::string valid = "the valid ones are '.gif', '.png', '.mp4', '.webm', '.avi'";
+TEST_F(MakeSink, NamesTheValidExtensions) {
+  const std::string valid = "the valid ones are '.gif', '.png', '.mp4', '.webm', '.avi', '.obj'";
   EXPECT_EQ(error("x.gfi"),
             "the output " + path("x.gfi") + " has the unknown extension '.gfi'; did you mean '.gif'? " + valid);
   EXPECT_EQ(error("x"), "the output " + path("x") + " has no extension; " + valid);
   EXPECT_EQ(file_count(), 0u);
 }
 
-TEST_F(MakeEncoder, TakesExtensionsInCapitals) { EXPECT_EQ(error("X.GIF"), "(no error)"); }
+TEST_F(MakeSink, TakesExtensionsInCapitals) { EXPECT_EQ(error("X.GIF"), "(no error)"); }
 
-TEST_F(MakeEncoder, RefusesFrameNumbersForOneFile) {
-  EXPECT_NE(error("{frame}.gif").find("only .png makes one file per frame"), std::string::npos);
+TEST_F(MakeSink, RefusesFrameNumbersForOneFile) {
+  const std::string message = error("{frame}.gif");
+  EXPECT_NE(message.find("a .gif holds all frames; one file per frame make '.png', '.obj'"), std::string::npos)
+      << message;
 }
 
-TEST_F(MakeEncoder, RefusesAGifFasterThanBrowsersPlay) {
+TEST_F(MakeSink, RefusesAGifFasterThanBrowsersPlay) {
   const std::string message = error("x.gif", 60);
   EXPECT_NE(message.find("the most a GIF can play is 50"), std::string::npos) << message;
   EXPECT_EQ(error("x.gif", 50), "(no error)");
   EXPECT_EQ(error("x.mp4", 60), "(no error)");
 }
 
-TEST_F(MakeEncoder, RefusesRatesThatAreNoRates) {
+TEST_F(MakeSink, RefusesRatesThatAreNoRates) {
   for (const double fps : {0.0, -1.0, std::nan(""), 1e-9}) {
     for (const std::string name : {"x.gif", "x.mp4"}) EXPECT_NE(error(name, fps), "(no error)") << name << " " << fps;
   }
 }
 
-TEST_F(MakeEncoder, FailsBeforeTheFirstFrameWhereItCannotWrite) {
+TEST_F(MakeSink, FailsBeforeTheFirstFrameWhereItCannotWrite) {
   put(path("file"), "");
-  for (const std::string name : {"x.gif", "x.mp4", "x.webm", "x.avi", "x.png", "{frame}.png"}) {
-    EXPECT_THROW(make_encoder({.path = path("file/" + name), .scene = "flag", .progress = {}}), OutputError) << name;
-    EXPECT_THROW(make_encoder({.path = "/proc/" + name, .scene = "flag", .progress = {}}), OutputError) << name;
+  for (const std::string& name : every_name()) {
+    EXPECT_THROW(make_sink(path("file/" + name), {.scene = "flag"}), OutputError) << name;
+    EXPECT_THROW(make_sink("/proc/" + name, {.scene = "flag"}), OutputError) << name;
   }
 }
 
-TEST_F(MakeEncoder, LeavesNothingIfDestroyedAtOnce) {
-  for (const std::string name : {"x.gif", "x.mp4", "x.webm", "x.avi", "x.png", "{frame}.png"}) {
-    make_encoder({.path = path(name), .scene = "flag", .progress = {}});
+TEST_F(MakeSink, LeavesNothingIfDestroyedAtOnce) {
+  for (const std::string& name : every_name()) {
+    make_sink(path(name), {.scene = "flag"});
     EXPECT_EQ(file_count(), 0u) << name;
   }
 }
 
-TEST_F(MakeEncoder, WritesNothingWithoutFrames) {
-  for (const std::string name : {"x.gif", "x.mp4", "x.webm", "x.avi", "x.png", "{frame}.png"}) {
-    const auto encoder = make_encoder({.path = path(name), .scene = "flag", .progress = {}});
-    EXPECT_TRUE(encoder->finish().empty()) << name;
+TEST_F(MakeSink, WritesNothingWithoutFrames) {
+  for (const std::string& name : every_name()) {
+    const AnySink any = make_sink(path(name), {.scene = "flag"});
+    EXPECT_TRUE(std::visit([](const auto& sink) { return sink->finish().empty(); }, any)) << name;
   }
   EXPECT_EQ(file_count(), 0u);
+}
+
+TEST_F(MakeSink, TakesAFileAsItIsWhereItIsGivenAFormat) {
+  for (const OutputFormat& format : output_formats()) {
+    try_format(format, path("{scene} {frame}" + format.extension));
+    EXPECT_TRUE(std::filesystem::exists(path("{scene} {frame}" + format.extension)));
+  }
 }
 
 }  // namespace

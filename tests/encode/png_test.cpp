@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "render/encode/encoder.hpp"
+#include "tests/support/encoder.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -28,7 +28,7 @@ class Png : public InScratchFolder {
 };
 
 TEST_F(Png, HoldsTheLastFrameExactly) {
-  const auto png = make_encoder({.path = path("{scene}.png"), .scene = "flag", .progress = {}});
+  const auto png = make_encoder(path("{scene}.png"), {.scene = "flag"});
   png->add(synthetic_frame(0, 33, 21));
   png->add(synthetic_frame(1, 33, 21));
   EXPECT_EQ(file_count(), 0u);
@@ -40,11 +40,8 @@ TEST_F(Png, HoldsTheLastFrameExactly) {
 }
 
 TEST_F(Png, SequenceHoldsEveryFrameExactlyUnderItsNumber) {
-  const auto png = make_encoder({.path = path("f/{scene}-{frame:04}.png"),
-                                 .scene = "flag",
-                                 .first_frame = 9,
-                                 .expected_frames = 3,
-                                 .progress = {}});
+  const auto png =
+      make_encoder(path("f/{scene}-{frame:04}.png"), {.scene = "flag", .first_frame = 9, .expected_frames = 3});
   for (int k = 9; k < 12; ++k) png->add(synthetic_frame(k, 33, 21));
   const auto files = png->finish();
   ASSERT_EQ(files.size(), 3u);
@@ -58,14 +55,13 @@ TEST_F(Png, SequenceHoldsEveryFrameExactlyUnderItsNumber) {
 }
 
 TEST_F(Png, SequenceSortsByNameWithoutAWidth) {
-  const auto png = make_encoder(
-      {.path = path("{frame}.png"), .scene = "flag", .first_frame = 95, .expected_frames = 10, .progress = {}});
+  const auto png = make_encoder(path("{frame}.png"), {.scene = "flag", .first_frame = 95, .expected_frames = 10});
   png->add(Image(4, 4));
   EXPECT_EQ(png->finish().at(0).path, path("095.png"));
 }
 
 TEST_F(Png, SequenceMayHaveAFolderPerFrame) {
-  const auto png = make_encoder({.path = path("{frame:2}/x.png"), .scene = "flag", .progress = {}});
+  const auto png = make_encoder(path("{frame:2}/x.png"), {.scene = "flag"});
   png->add(Image(4, 4));
   png->add(Image(4, 4));
   EXPECT_EQ(png->finish().at(1).path, path("01/x.png"));
@@ -74,7 +70,7 @@ TEST_F(Png, SequenceMayHaveAFolderPerFrame) {
 TEST_F(Png, SequenceLeavesAloneWhatItDoesNotReplace) {
   put(path("0.png"), "old");
   put(path("1.png"), "old");
-  const auto png = make_encoder({.path = path("{frame}.png"), .scene = "flag", .progress = {}});
+  const auto png = make_encoder(path("{frame}.png"), {.scene = "flag"});
   png->add(Image(4, 4));
   png->finish();
   EXPECT_NE(test::content(path("0.png")), "old");
@@ -83,7 +79,7 @@ TEST_F(Png, SequenceLeavesAloneWhatItDoesNotReplace) {
 
 TEST_F(Png, HasTheSameBytesEveryTime) {
   const auto bytes = [this] {
-    const auto png = make_encoder({.path = path("x.png"), .scene = "flag", .progress = {}});
+    const auto png = make_encoder(path("x.png"), {.scene = "flag"});
     png->add(synthetic_frame(0, 120, 100));
     png->finish();
     return test::content(path("x.png"));
@@ -97,7 +93,7 @@ TEST_F(Png, LeavesTheOldFileOnAFullDisk) {
   put(path("0.png"), "old");
   for (const std::string name : {"x.png", "{frame}.png"}) {
     const FileSizeLimit limit(500);
-    const auto png = make_encoder({.path = path(name), .scene = "flag", .progress = {}});
+    const auto png = make_encoder(path(name), {.scene = "flag"});
     EXPECT_THROW(
         {
           png->add(synthetic_frame(0, 120, 100));

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "render/encode/encoder.hpp"
 #include "tests/support/decoded_film.hpp"
+#include "tests/support/encoder.hpp"
 #include "tests/support/file_size_limit.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -19,7 +19,7 @@ namespace {
 class Video : public InScratchFolder, public ::testing::WithParamInterface<std::string> {
  protected:
   [[nodiscard]] std::unique_ptr<Encoder> encoder(double fps = 25) const {
-    return make_encoder({.path = file(), .scene = "test", .fps = fps, .progress = {}});
+    return make_encoder(file(), {.scene = "test", .fps = fps});
   }
   void write(int frames, int width, int height, double fps = 25) const {
     const auto video = encoder(fps);
@@ -63,8 +63,8 @@ TEST_P(Video, HasTheRateItIsGiven) {
 TEST_P(Video, MayBeSmallAndSlow) {
   // Which VP8 makes nothing of: its bit rate rounds to nothing.
   for (const double fps : {0.2, 0.05}) {
-    const auto video = make_encoder(
-        {.path = file(), .scene = "test", .fps = fps, .expected_frames = 3, .width = 17, .height = 16, .progress = {}});
+    const auto video =
+        make_encoder(file(), {.scene = "test", .fps = fps, .expected_frames = 3, .width = 17, .height = 16});
     for (int k = 0; k < 3; ++k) video->add(synthetic_frame(k, 17, 16));
     EXPECT_EQ(video->finish().size(), 1u);
     EXPECT_EQ(decoded_film(file()).size(), 3u);

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "check/html_report.hpp"
-#include "render/encode/png_encoder.hpp"
+#include "output/png_encoder.hpp"
 #include "tests/html/html_page.hpp"
 #include "tests/html/sample_check.hpp"
 

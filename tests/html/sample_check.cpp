@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "render/encode/png_encoder.hpp"
+#include "output/png_encoder.hpp"
 #include "render/renderer.hpp"
 #include "scene/scene.hpp"
 #include "sim/simulation.hpp"

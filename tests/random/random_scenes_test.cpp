@@ -71,11 +71,10 @@ std::string outcome(const test::SceneFolder& folder, const std::string& text) {
   std::filesystem::remove(options.records.energies);
   std::filesystem::remove(part);
   Progress progress;
-  const std::atomic<bool> stop = false;
   std::string how = "ok";
   try {
     const Scene scene = folder.load(text);
-    const RunResult result = run_scene(scene, options, stop, progress, [] {});
+    const RunResult result = run_scene(scene, options, {}, progress);
     if (result.outcome == Outcome::diverged) {
       how = "diverged";
       EXPECT_TRUE(result.divergence.starts_with("the simulation diverged at step ")) << result.divergence;

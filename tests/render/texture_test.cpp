@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -122,6 +123,13 @@ TEST(Texture, ThatIsTooLargeIsRefusedBeforeItIsDecoded) {
       EXPECT_NE(std::string(error.what()).find("is damaged"), std::string::npos) << error.what();
     }
   }
+}
+
+TEST(Texture, ThatIsAPipeIsRefusedAndNotWaitedFor) {
+  const TemporaryFile pipe("pipe.png", "");
+  std::filesystem::remove(pipe.path());
+  ASSERT_EQ(mkfifo(pipe.path().c_str(), 0600), 0);
+  EXPECT_NE(message_of(pipe.path()).find("a pipe cannot be read twice"), std::string::npos);
 }
 
 TEST(Texture, NeedsTextureCoordinates) {

@@ -34,10 +34,18 @@ std::vector<std::string> lines(const fs::path& file) {
 }
 
 RunResult run(const Scene& scene, const RunOptions& options) {
-  const std::atomic<bool> stop = false;
   Progress progress;
-  return run_scene(scene, options, stop, progress, [] {});
+  return run_scene(scene, options, {}, progress);
 }
+
+class StopAfterAStep final : public StepObserver {
+ public:
+  explicit StopAfterAStep(std::stop_source stop) : stop_(std::move(stop)) {}
+  void after_step(const Simulation&, const StepReport&, double) override { stop_.request_stop(); }
+
+ private:
+  std::stop_source stop_;
+};
 
 TEST(RunScene, WritesEveryRecordThatIsAskedFor) {
   const test::SceneFolder folder;
@@ -126,11 +134,14 @@ TEST(RunScene, StopsWhenItIsToldToAndKeepsTheRecords) {
   RunOptions options;
   options.records.stats = (folder.path() / "stats.json").string();
   options.steps = 1'000'000'000;
-  std::atomic<bool> stop = false;
+  std::stop_source stop;
+  StopAfterAStep watch(stop);
+  options.observer = &watch;
   Progress progress;
-  const RunResult result = run_scene(folder.load(swinging), options, stop, progress, [&] { stop = true; });
+  const RunResult result = run_scene(folder.load(swinging), options, stop.get_token(), progress);
   EXPECT_EQ(result.outcome, Outcome::interrupted);
   EXPECT_EQ(nlohmann::json::parse(test::content(folder.path() / "stats.partial.json"))["outcome"], "interrupted");
+  EXPECT_EQ(result.statistics.steps(), 1);
 }
 
 TEST(RunScene, AnUnwritableRecordIsKnownBeforeAnythingIsSimulated) {

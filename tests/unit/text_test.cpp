@@ -33,5 +33,22 @@ TEST(Printable, ReplacesWhatNoPageMayHold) {
   EXPECT_EQ(printable("\xEF\xBF\xBF"), mark + mark + mark);  // U+FFFF, no character
 }
 
+TEST(ReadableLength, HasThreeDigitsAndTheUnitInWhichOneReadsThem) {
+  EXPECT_EQ(readable_length(0), "0");
+  EXPECT_EQ(readable_length(12.345), "12.3 m");
+  EXPECT_EQ(readable_length(0.4), "400 mm");
+  EXPECT_EQ(readable_length(1e-3), "1 mm");
+  EXPECT_EQ(readable_length(1e-4), "0.1 mm");
+  EXPECT_EQ(readable_length(1e-5), "10 µm");
+  EXPECT_EQ(readable_length(3.4e-8), "34 nm");
+  EXPECT_EQ(readable_length(1 / 0.0), "not finite");
+}
+
+TEST(ReadableLength, TakesTheUnitOfTheRoundedNumber) {
+  EXPECT_EQ(readable_length(0.9996), "1 m");
+  EXPECT_EQ(readable_length(0.9994), "999 mm");
+  EXPECT_EQ(readable_length(0.9996e-6), "1 µm");
+}
+
 }  // namespace
 }  // namespace drape

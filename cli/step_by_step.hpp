@@ -1,0 +1,26 @@
+#pragma once
+
+#include <stop_token>
+#include <utility>
+
+#include "run/step_observer.hpp"
+
+namespace drape {
+
+/// Prints every step's energies and iterations to standard output, and waits for a line of input before the next.
+class StepByStep final : public StepObserver {
+ public:
+  /// @param stop a stop is requested when the person types q; one requested elsewhere ends the waiting
+  explicit StepByStep(std::stop_source stop) : stop_(std::move(stop)) {}
+
+  void begin(const Simulation& simulation) override;
+  void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
+
+ private:
+  void wait_for_line();
+
+  std::stop_source stop_;
+  bool input_ended_ = false;
+};
+
+}  // namespace drape

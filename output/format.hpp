@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "output/sink.hpp"
+#include "sim/mesh.hpp"
+
+namespace drape {
+
+/// What is known of a film before its first frame.
+struct FilmInfo {
+  std::string scene;            ///< the scene's name
+  double fps = 25;              ///< frames per second
+  int first_frame = 0;          ///< number of the first frame added
+  int expected_frames = 0;      ///< how many will be added; fewer is no error
+  int width = 64, height = 64;  ///< of the pictures, to try beforehand what can be tried [pixels]
+
+  /// The cloth's triangles and its texture coordinates, as in Mesh. They outlive the sinks; null: there is no cloth.
+  const std::vector<Triangle>* triangles = nullptr;
+  const std::vector<std::array<float, 2>>* uvs = nullptr;
+
+  /// Called in Sink::finish() while it has frames left to encode: how many are done, and of how many.
+  std::function<void(int done, int total)> progress = {};
+};
+
+/// Makes the sink of a format of which one file holds the whole film.
+template <class Item>
+using FilmMaker = std::function<std::unique_ptr<Sink<Item>>(const std::filesystem::path& file, const FilmInfo& film)>;
+
+/// Makes what gives the bytes of a frame's file, for a format of which one file holds one frame.
+template <class Item>
+using FrameMaker = std::function<std::function<std::string(const Item&)>(const FilmInfo& film)>;
+
+/// A form in which frames are written. What the command line, its messages, `drape doctor` and docs/outputs.md say of
+/// it comes from here.
+struct OutputFormat {
+  std::string extension;  ///< ".gif"
+  std::string help;       ///< what a file is: "an animation that repeats for ever"
+  std::string made_by;    ///< the library that makes it, with its version; empty: drape itself
+  std::string packages;   ///< of Debian, separated by spaces: what to install where it does not work
+  std::variant<FilmMaker<Image>, FrameMaker<Image>, FilmMaker<Frame>, FrameMaker<Frame>> make;
+
+  /// Whether it takes images, so that somebody has to draw them.
+  [[nodiscard]] bool drawn() const;
+  /// Whether a file holds one frame. Then a path with {frame} means a file for each frame, and one without means one
+  /// for the last frame. Otherwise a path has no {frame}.
+  [[nodiscard]] bool file_per_frame() const;
+};
+
+}  // namespace drape

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/atomic_file.hpp"
+#include "output/sink.hpp"
+
+namespace drape {
+
+/// A file for every frame, each of which appears complete. Files of an earlier, longer sequence are left alone.
+template <class Item>
+class FrameFiles final : public Sink<Item> {
+ public:
+  /// @param name  of the file of the frame with a number
+  /// @param bytes of a frame's file
+  FrameFiles(std::function<std::string(int)> name, int first_frame, std::function<std::string(const Item&)> bytes)
+      : name_(std::move(name)), frame_(first_frame), bytes_(std::move(bytes)) {
+    const PartialFile writable(name_(frame_));  // or it throws
+  }
+
+  void add(const Item& item) override {
+    const std::string file = name_(frame_);
+    files_.push_back({file, write_file_atomically(file, bytes_(item))});
+    ++frame_;
+  }
+  std::vector<OutputFile> finish(Ending) override { return std::move(files_); }
+
+ private:
+  std::function<std::string(int)> name_;
+  int frame_;
+  std::function<std::string(const Item&)> bytes_;
+  std::vector<OutputFile> files_;
+};
+
+/// One file, of the last frame added.
+template <class Item>
+class LastFrameFile final : public Sink<Item> {
+ public:
+  LastFrameFile(std::filesystem::path file, std::function<std::string(const Item&)> bytes)
+      : file_(std::move(file)), bytes_(std::move(bytes)) {
+    const PartialFile writable(file_);  // or it throws
+  }
+
+  void add(const Item& item) override { last_ = item; }
+
+  std::vector<OutputFile> finish(Ending ending) override {
+    if (!last_) return {};
+    PartialFile file(file_);
+    file.write(bytes_(*last_));
+    const std::uintmax_t size = file.commit(ending);
+    return {{file.name(ending), size}};
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::function<std::string(const Item&)> bytes_;
+  std::optional<Item> last_;
+};
+
+}  // namespace drape

@@ -1,0 +1,80 @@
+#include "output/gif_encoder.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+#include "output/gif_writer.hpp"
+#include "output/video_check.hpp"
+
+namespace drape {
+namespace {
+
+double checked_rate(const std::filesystem::path& file, double fps) {
+  if (fps > 50) {
+    throw UsageError(fmt::format(
+        "cannot write {} at {} frames per second: the most a GIF can play is 50, because it counts in hundredths of a "
+        "second and browsers slow down frames shorter than two; choose fps = 50 or less, or write .mp4 or .webm",
+        file.string(), fps));
+  }
+  if (!(fps >= 0.01)) {
+    throw UsageError(
+        fmt::format("cannot write {} at {} frames per second: the least of a GIF is 0.01", file.string(), fps));
+  }
+  return fps;
+}
+
+}  // namespace
+
+GifEncoder::GifEncoder(const std::filesystem::path& file, double fps, std::function<void(int, int)> progress)
+    : fps_(checked_rate(file, fps)), file_(file), progress_(std::move(progress)), spool_(file_) {
+  libav::silence();
+}
+
+std::int64_t GifEncoder::start(int frame) const { return std::llround(frame * 100.0 / fps_); }
+
+void GifEncoder::add(const Image& image) {
+  spool_.append(image);
+  if (!palette_) palette_.emplace(image.width, image.height);
+  palette_->add(image);
+}
+
+std::vector<OutputFile> GifEncoder::finish(Ending ending) {
+  if (spool_.count() == 0) return {};
+  encode();
+  require_frames(file_, spool_.count());
+  const std::uintmax_t size = file_.commit(ending);
+  return {{file_.name(ending), size}};
+}
+
+void GifEncoder::encode() {
+  const GifPalette palette = palette_->finish();
+  palette_.reset();
+  const int count = spool_.count();
+  std::optional<GifWriter> writer;
+  spool_.rewind();
+  for (int k = 0; k < count; ++k) {
+    const Image& image = spool_.next();
+    if (!writer) {
+      writer.emplace(file_.temporary(), file_.file().string(), image.width, image.height, palette,
+                     start(count) - start(count - 1));
+    }
+    writer->add(image, start(k));
+    if (progress_) progress_(k + 1, count);
+  }
+  writer->finish();
+}
+
+OutputFormat gif_format() {
+  return {.extension = ".gif",
+          .help = "an animation that repeats for ever, of at most 50 frames per second",
+          .made_by = std::string("FFmpeg ") + av_version_info(),
+          .packages = "libavcodec-dev libavfilter-dev libavformat-dev",
+          .make = FilmMaker<Image>([](const std::filesystem::path& file, const FilmInfo& film) {
+            return std::make_unique<GifEncoder>(file, film.fps, film.progress);
+          })};
+}
+
+}  // namespace drape

@@ -1,0 +1,87 @@
+#include "output/make_sink.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/nearest.hpp"
+#include "output/frame_files.hpp"
+#include "output/path_template.hpp"
+#include "output/registry.hpp"
+
+namespace drape {
+namespace {
+
+/// Digits of the sequence's last number, so that its files sort by name.
+int digits(const FilmInfo& film) {
+  return static_cast<int>(std::to_string(film.first_frame + std::max(1, film.expected_frames) - 1).size());
+}
+
+/// Makes the sinks of a film at one file.
+struct AtFile {
+  const std::filesystem::path& file;
+  const FilmInfo& film;
+
+  template <class Item>
+  AnySink operator()(const FilmMaker<Item>& make) const {
+    return make(file, film);
+  }
+  template <class Item>
+  AnySink operator()(const FrameMaker<Item>& make) const {
+    return std::make_unique<LastFrameFile<Item>>(file, make(film));
+  }
+};
+
+[[noreturn]] void fail_for_frame(const std::string& path, const OutputFormat& format) {
+  std::vector<std::string> others;
+  for (const OutputFormat& other : output_formats()) {
+    if (other.file_per_frame()) others.push_back(other.extension);
+  }
+  throw UsageError(fmt::format("the output {} has a {{frame}}, but a {} holds all frames; one file per frame make {}",
+                               path, format.extension, quoted_list(others)));
+}
+
+/// Makes the sinks of a film at a file for each frame.
+struct AtFiles {
+  const std::string& text;  // of the path
+  const PathTemplate& path;
+  const OutputFormat& format;
+  const FilmInfo& film;
+
+  template <class Item>
+  AnySink operator()(const FilmMaker<Item>&) const {
+    fail_for_frame(text, format);
+  }
+  template <class Item>
+  AnySink operator()(const FrameMaker<Item>& make) const {
+    const auto name = [path = path, scene = film.scene, width = digits(film)](int frame) {
+      return path.path(scene, frame, width);
+    };
+    return std::make_unique<FrameFiles<Item>>(name, film.first_frame, make(film));
+  }
+};
+
+}  // namespace
+
+std::vector<std::string> output_files(const std::string& path, const FilmInfo& film) {
+  const PathTemplate path_template(path);
+  std::vector<std::string> files;
+  for (int i = 0; i < (path_template.has_frame() ? std::max(1, film.expected_frames) : 1); ++i) {
+    files.push_back(path_template.path(film.scene, film.first_frame + i, digits(film)));
+  }
+  return files;
+}
+
+AnySink make_sink(const std::string& path, const FilmInfo& film) {
+  const PathTemplate path_template(path);
+  const OutputFormat& format = format_of(path);
+  if (!path_template.has_frame()) return make_sink(format, path_template.path(film.scene, 0, 1), film);
+  return std::visit(AtFiles{path, path_template, format, film}, format.make);
+}
+
+AnySink make_sink(const OutputFormat& format, const std::filesystem::path& file, const FilmInfo& film) {
+  return std::visit(AtFile{file, film}, format.make);
+}
+
+}  // namespace drape

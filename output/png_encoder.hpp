@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "output/format.hpp"
+
+namespace drape {
+
+/// The bytes of a PNG file. The same image gives the same bytes.
+/// @throws OutputError
+std::string encode_png(const Image& image);
+
+OutputFormat png_format();
+
+}  // namespace drape

@@ -1,0 +1,117 @@
+#include "output/video_encoder.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "core/error.hpp"
+#include "output/libav.hpp"
+#include "output/quiet.hpp"
+#include "output/video_check.hpp"
+
+namespace drape {
+namespace {
+
+double checked_rate(const std::filesystem::path& file, double fps) {
+  // The containers count time in thousandths of a second or finer.
+  if (fps >= 0.01 && fps <= 1000) return fps;
+  throw UsageError(
+      fmt::format("cannot write {} at {} frames per second: a video has 0.01 to 1000", file.string(), fps));
+}
+
+/// @param codecs in the order to try
+OutputFormat video_format(const std::string& extension, const std::vector<VideoCodec>& codecs) {
+  std::string help = "a video, ";
+  for (const VideoCodec& codec : codecs) help += (&codec == &codecs.front() ? "" : " or else ") + codec.name;
+  return {.extension = extension,
+          .help = help,
+          .made_by = "OpenCV " + cv::getVersionString(),
+          .packages = "libopencv-dev",
+          .make = FilmMaker<Image>([codecs](const std::filesystem::path& file, const FilmInfo& film) {
+            return std::make_unique<VideoEncoder>(file, film.fps, codecs, film.width, film.height);
+          })};
+}
+
+}  // namespace
+
+VideoEncoder::VideoEncoder(const std::filesystem::path& file, double fps, const std::vector<VideoCodec>& codecs,
+                           int width, int height)
+    : fps_(checked_rate(file, fps)), file_(file) {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  bool opened = false;
+  std::string tried;
+  for (const VideoCodec& codec : codecs) {
+    codec_ = codec;
+    if (open({width, height})) {
+      opened = true;
+      write(Image(width, height));
+      const QuietStderr quiet;
+      writer_.release();
+      if (readable_frames(file_) == 1) return;
+    }
+    tried += (tried.empty() ? "" : " or ") + codec.name;
+  }
+  file_.require_space();
+  if (opened) {
+    throw OutputError(
+        fmt::format("cannot write {}: OpenCV's {} encoder makes no video of {}x{} pixels at {} frames per second; it "
+                    "does with more of them, and a .gif or a .png sequence takes any",
+                    file.string(), tried, width, height, fps));
+  }
+  throw OutputError(
+      fmt::format("cannot write {}: OpenCV has no {} encoder; is it built with FFmpeg? A .gif or a .png "
+                  "sequence needs none",
+                  file.string(), tried));
+}
+
+bool VideoEncoder::open(cv::Size size) {
+  const QuietStderr quiet;
+  const std::string& c = codec_.fourcc;
+  const bool opened =
+      writer_.open(file_.temporary().string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc(c[0], c[1], c[2], c[3]), fps_,
+                   {size.width + size.width % 2, size.height + size.height % 2});
+  libav::silence();  // OpenCV turns its messages on when it is first used
+  return opened;
+}
+
+void VideoEncoder::write(const Image& image) {
+  const cv::Mat rgb(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data()));
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  cv::copyMakeBorder(bgr, bgr, 0, image.height % 2, 0, image.width % 2, cv::BORDER_REPLICATE);
+  writer_.write(bgr);
+}
+
+void VideoEncoder::add(const Image& image) {
+  const cv::Size size(image.width, image.height);
+  if (count_ == 0) {
+    size_ = size;
+    if (!open(size)) {
+      file_.require_space();
+      throw OutputError(fmt::format("cannot write {}: OpenCV's {} encoder does not take pictures of {}x{}",
+                                    file_.file().string(), codec_.name, size.width, size.height));
+    }
+  }
+  if (size != size_) throw std::invalid_argument("the frames of a film must have one size");
+  write(image);
+  ++count_;
+}
+
+std::vector<OutputFile> VideoEncoder::finish(Ending ending) {
+  if (count_ == 0) return {};
+  writer_.release();
+  require_frames(file_, count_);
+  const std::uintmax_t size = file_.commit(ending);
+  return {{file_.name(ending), size}};
+}
+
+OutputFormat mp4_format() { return video_format(".mp4", {{"avc1", "H.264"}, {"mp4v", "MPEG-4"}}); }
+// At the quality OpenCV asks for, VP9 takes four times as long as VP8 for files only a tenth smaller.
+OutputFormat webm_format() { return video_format(".webm", {{"VP80", "VP8"}, {"VP90", "VP9"}}); }
+OutputFormat avi_format() { return video_format(".avi", {{"MJPG", "Motion JPEG"}, {"XVID", "MPEG-4"}}); }
+
+}  // namespace drape

@@ -1,0 +1,102 @@
+#include "run/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "output/registry.hpp"
+
+namespace drape {
+namespace {
+
+/// Hands over what a sink takes.
+void add_to(Encoder& encoder, const FilmFrame& frame) {
+  if (frame.image) encoder.add(*frame.image);
+}
+void add_to(MotionWriter& writer, const FilmFrame& frame) { writer.add(frame.frame); }
+
+}  // namespace
+
+FilmExtent film_extent(const Scene& scene, const RunOptions& options) {
+  return FilmExtent(scene.video, scene.simulation.step, options.steps.value_or(scene.step_count()), options.frames);
+}
+
+FilmInfo film_info(const Scene& scene, const RunOptions& options) {
+  const FrameRange frames = film_extent(scene, options).frames;
+  FilmInfo film;
+  film.scene = scene.name;
+  film.fps = scene.video.fps;
+  film.first_frame = frames.first;
+  film.expected_frames = frames.count();
+  film.width = scene.video.size.x();
+  film.height = scene.video.size.y();
+  film.triangles = &scene.simulation.cloth.triangles;
+  film.uvs = &scene.uvs;
+  return film;
+}
+
+bool needs_drawing(const RunOptions& options) {
+  return std::any_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) {
+    const OutputFormat* format = find_format(path);
+    return format != nullptr && format->drawn();
+  });
+}
+
+void require_outputs(const Scene& scene, const RunOptions& options) {
+  const Outputs outputs(options.outputs, film_info(scene, options));
+  const Records records(options.records);
+}
+
+void require_texture(const Scene& scene, int largest) {
+  if (scene.look.texture.empty()) return;
+  try {
+    require_texture_image(scene.look.texture, largest);
+  } catch (const UsageError& error) {
+    throw UsageError(scene.texture_place + ": " + error.what());
+  }
+}
+
+Outputs::Outputs(const std::vector<std::string>& paths, const FilmInfo& film) {
+  for (const std::string& path : paths) outputs_.push_back({path, make_sink(path, film)});
+}
+
+bool Outputs::none() const {
+  return std::none_of(outputs_.begin(), outputs_.end(), [](const Output& output) { return output.sink.has_value(); });
+}
+
+bool Outputs::drawn() const {
+  return std::any_of(outputs_.begin(), outputs_.end(), [](const Output& output) {
+    return output.sink && std::holds_alternative<std::unique_ptr<Encoder>>(*output.sink);
+  });
+}
+
+/// Does a thing with an output's sink, and gives the output up if it fails.
+template <class Work>
+void Outputs::attempt(Output& output, Work work) {
+  if (!output.sink) return;
+  try {
+    std::visit([&](auto& sink) { work(*sink); }, *output.sink);
+  } catch (const std::exception& error) {
+    const bool complete = dynamic_cast<const Error*>(&error) != nullptr;  // a message that names the file
+    problems_.push_back(complete ? error.what() : fmt::format("cannot write {}: {}", output.path, error.what()));
+    output.sink.reset();
+  }
+}
+
+void Outputs::add(const FilmFrame& frame) {
+  for (Output& output : outputs_) attempt(output, [&](auto& sink) { add_to(sink, frame); });
+}
+
+std::vector<std::vector<OutputFile>> Outputs::finish(Ending ending) {
+  std::vector<std::vector<OutputFile>> written;
+  for (Output& output : outputs_) {
+    attempt(output, [&](auto& sink) {
+      std::vector<OutputFile> files = sink.finish(ending);
+      if (!files.empty()) written.push_back(std::move(files));
+    });
+  }
+  return written;
+}
+
+}  // namespace drape
