@@ -68,6 +68,8 @@ Subject make(const Case& c, int cells, bool with) {
   SimulationSettings settings;
   settings.cloth = c.cloth(cells);
   settings.step = step;
+  settings.integrator.method = Method::liu13;
+  settings.integrator.tolerance = 1e-3;
   settings.effects = {Gravity{}};
   if (with) settings.effects.add(c.effect);
   const auto simulation = std::make_shared<Simulation>(std::move(settings));

@@ -138,6 +138,7 @@ ExitCode run(const Scene& scene, RunOptions options, bool step_by_step, const Co
   if (!result.renderer.empty()) spdlog::debug("drawn by {}", result.renderer);
   if (common.verbose) spdlog::debug(effect_shares(result.statistics));
   if (!common.quiet && result.statistics.steps() > 0) print_text(stderr, summarize(result) + "\n");
+  for (const std::string& doubt : doubts(result)) spdlog::warn("{}: {}", scene.file.string(), doubt);
   return conclude(scene, result);
 }
 

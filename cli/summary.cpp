@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/text.hpp"
+
 namespace drape {
 namespace {
 
@@ -17,6 +19,11 @@ std::string duration(double seconds) {
   if (seconds < 1e-3) return fmt::format("{:.1f} µs", 1e6 * seconds);
   if (seconds < 1) return fmt::format("{:.1f} ms", 1e3 * seconds);
   return fmt::format("{:.1f} s", seconds);
+}
+
+std::string out_of_balance(const Exactness::Unbalanced& unbalanced) {
+  if (!unbalanced.of_weight) return fmt::format("{:.2g} N out of balance", unbalanced.force);
+  return fmt::format("{:.2g} % of its weight out of balance", 100 * *unbalanced.of_weight);
 }
 
 /// Of the files of an output.
@@ -65,6 +72,22 @@ std::string describe_end(const RunResult& result) {
   return text;
 }
 
+std::vector<std::string> doubts(const RunResult& result) {
+  constexpr const char* remedy =
+      "leave [integrator] tolerance and stop out with method = \"quasi-newton\", or take a smaller tolerance";
+  const Exactness& exactness = result.statistics.exactness();
+  std::vector<std::string> found;
+  if (exactness.coarse()) {
+    found.push_back(fmt::format("the steps were solved to about {}, more than a hundredth of the cloth's size: {}",
+                                readable_length(exactness.errors()->mean), remedy));
+  }
+  if (const auto& unbalanced = exactness.unbalanced(); unbalanced && unbalanced->notable()) {
+    found.push_back(fmt::format("the cloth stands still with {}, so this is no equilibrium: {}",
+                                out_of_balance(*unbalanced), remedy));
+  }
+  return found;
+}
+
 std::string summarize(const RunResult& result) {
   const Statistics& s = result.statistics;
   std::string text = fmt::format("{} steps", s.steps());
@@ -73,6 +96,13 @@ std::string summarize(const RunResult& result) {
     if (s.not_converged() > 0) {
       text += fmt::format(", {} steps not converged (worst residual {:.2g} N)", s.not_converged(), s.worst_residual());
     }
+  }
+  if (const auto errors = s.exactness().errors()) {
+    text += fmt::format(", an error of about {} a step, estimated (at most {})", readable_length(errors->mean),
+                        readable_length(errors->largest));
+  }
+  if (const auto& unbalanced = s.exactness().unbalanced()) {
+    text += fmt::format(", stands still with {}", out_of_balance(*unbalanced));
   }
   text += fmt::format(", {} a step (median {})\n", duration(1e-6 * s.mean_microseconds()),
                       duration(1e-6 * s.median_microseconds()));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "run/run_scene.hpp"
 
@@ -15,6 +16,9 @@ std::string effect_shares(const Statistics& statistics);
 /// How far a run came that ended early, and which files have what there is of it: "after 36 of 417 steps; out/5.gif has
 /// …".
 std::string describe_end(const RunResult& result);
+
+/// Why the result of a run should not be trusted, a sentence for each reason.
+std::vector<std::string> doubts(const RunResult& result);
 
 /// What a run did, in a few lines without a final line end.
 std::string summarize(const RunResult& result);

@@ -25,7 +25,7 @@ struct Rgb {
 struct Choice {
   std::vector<std::string> names;
   std::function<void(std::size_t)> set;
-  std::size_t initial = 0;  ///< the place of the one that holds without the key
+  std::optional<std::size_t> initial = 0;  ///< the place of the one that holds without the key
 };
 
 /// A key whose value is of a kind of its own, such as a mesh or a file with a motion. Nothing here knows what it is:
@@ -94,6 +94,13 @@ class Keys {
   Key& choice(std::string name, Enum& target, std::vector<std::string> names, std::string help) {
     Choice choice{std::move(names), [&target](std::size_t index) { target = static_cast<Enum>(index); },
                   static_cast<std::size_t>(target)};
+    return add(std::move(name), std::move(choice), "", std::move(help));
+  }
+
+  /// The same for a choice that stays open without the key.
+  template <class Enum>
+  Key& choice(std::string name, std::optional<Enum>& target, std::vector<std::string> names, std::string help) {
+    Choice choice{std::move(names), [&target](std::size_t index) { target = static_cast<Enum>(index); }, std::nullopt};
     return add(std::move(name), std::move(choice), "", std::move(help));
   }
 

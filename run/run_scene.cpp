@@ -126,6 +126,7 @@ class Pipeline {
     }
     try {
       run_steps(simulation_, extent_.steps, observers, stop_.get_token());
+      result_.statistics.finish(simulation_);
       whole_ = simulation_.state().step == extent_.steps;
     } catch (const DivergedError& diverged) {
       result_.outcome = Outcome::diverged;

@@ -7,6 +7,7 @@
 namespace drape {
 
 void Statistics::begin(const Simulation& simulation) {
+  exactness_.begin(simulation);
   method_ = method_name(simulation.settings().integrator.method);
   vertices_ = simulation.cloth().vertex_count();
   springs_ = static_cast<std::int64_t>(simulation.springs().size());
@@ -15,6 +16,7 @@ void Statistics::begin(const Simulation& simulation) {
 }
 
 void Statistics::after_step(const Simulation& simulation, const StepReport& report, double seconds) {
+  exactness_.after_step(simulation, report, seconds);
   effect_seconds_ = simulation.effect_seconds();
   microseconds_.push_back(static_cast<float>(1e6 * seconds));
   iterations_ += report.iterations;
@@ -54,6 +56,25 @@ std::vector<Statistics::EffectShare> Statistics::effects() const {
   return shares;
 }
 
+namespace {
+
+/// null where nothing is minimised, or nothing was looked at.
+nlohmann::ordered_json accuracy_json(const Exactness& exactness) {
+  const auto& accuracy = exactness.accuracy();
+  if (!accuracy) return nullptr;
+  nlohmann::ordered_json json = {{"stop", stopping_rule_name(accuracy->rule)}, {"tolerance", accuracy->tolerance}};
+  if (const auto errors = exactness.errors()) {
+    json["estimated_error"] = {{"mean", errors->mean}, {"largest", errors->largest}};
+  }
+  if (const auto& unbalanced = exactness.unbalanced()) {
+    json["unbalanced_at_rest"] = {{"force", unbalanced->force}};
+    if (unbalanced->of_weight) json["unbalanced_at_rest"]["of_weight"] = *unbalanced->of_weight;
+  }
+  return json;
+}
+
+}  // namespace
+
 std::string Statistics::to_json(const std::string& outcome) const {
   // Of every effect its name, and of those of one name together their share of the steps' time.
   auto names = nlohmann::ordered_json::array();
@@ -72,6 +93,7 @@ std::string Statistics::to_json(const std::string& outcome) const {
                                          {"max", max_iterations_},
                                          {"steps_not_converged", not_converged_},
                                          {"worst_residual", worst_residual_}}},
+                                       {"accuracy", accuracy_json(exactness_)},
                                        {"step_us", {{"mean", mean_microseconds()}, {"median", median_microseconds()}}},
                                        {"effects", names},
                                        {"effect_shares", shares},

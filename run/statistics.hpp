@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "run/step_observer.hpp"
+#include "run/exactness.hpp"
 
 namespace drape {
 
@@ -14,6 +14,8 @@ class Statistics final : public StepObserver {
  public:
   void begin(const Simulation& simulation) override;
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
+  /// After the last step.
+  void finish(const Simulation& simulation) { exactness_.finish(simulation); }
 
   [[nodiscard]] std::int64_t steps() const { return static_cast<std::int64_t>(microseconds_.size()); }
   [[nodiscard]] double mean_iterations() const;
@@ -22,6 +24,7 @@ class Statistics final : public StepObserver {
   [[nodiscard]] std::int64_t not_converged() const { return not_converged_; }
   /// The largest ‖∇g‖ that such a step was left with [N].
   [[nodiscard]] double worst_residual() const { return worst_residual_; }
+  [[nodiscard]] const Exactness& exactness() const { return exactness_; }
   [[nodiscard]] double mean_microseconds() const;
   [[nodiscard]] double median_microseconds() const;
   [[nodiscard]] double total_seconds() const;
@@ -48,6 +51,7 @@ class Statistics final : public StepObserver {
   std::int64_t iterations_ = 0, not_converged_ = 0;
   int max_iterations_ = 0;
   double worst_residual_ = 0;
+  Exactness exactness_;
 };
 
 }  // namespace drape

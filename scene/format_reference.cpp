@@ -29,7 +29,7 @@ struct Describe {
   ValueText operator()(const std::filesystem::path*) const { return {"file", ""}; }
   ValueText operator()(const Rgb* value) const { return {"colour", fmt::format("\"{}\"", color_text(*value))}; }
   ValueText operator()(const Choice& choice) const {
-    return {choices(choice), fmt::format("\"{}\"", choice.names[choice.initial])};
+    return {choices(choice), choice.initial ? fmt::format("\"{}\"", choice.names[*choice.initial]) : ""};
   }
   ValueText operator()(const OwnForm& own) const { return {own.form, ""}; }
   ValueText operator()(const KeyframeList& list) const {

@@ -41,6 +41,15 @@ class Checks {
     }
   }
 
+  void stopping_rule() const {
+    const IntegratorSettings& integrator = scene_.simulation.integrator;
+    if (integrator.stop != StoppingRule::error || method_type(integrator.method).iterates) return;
+    add("integrator", "stop",
+        fmt::format("stop: {} computes a step without solving for it, so there is no error of a solve to stop at; take "
+                    "an implicit method, or leave the key out",
+                    method_name(integrator.method)));
+  }
+
   /// Of the whole simulation, once nothing else is wrong with it.
   void stability() const {
     const SimulationSettings& settings = scene_.simulation;
@@ -154,6 +163,7 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   // A rule between keys means nothing where one of them could not be read: the default stands in its place.
   const Checks checks(scene, document, problems);
   if (reader.good("time") && reader.good("video")) checks.length();
+  if (reader.good("integrator")) checks.stopping_rule();
   if (reader.good("camera")) checks.camera();
   if (reader.good("look")) checks.samples();
   if (reader.good("look") && cloth_good) checks.texture();

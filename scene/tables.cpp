@@ -39,12 +39,21 @@ Keys integrator_keys(IntegratorSettings& integrator) {
   keys.choice("method", integrator.method, {method_names.begin(), method_names.end()},
               "How a step is computed: semi-implicit is symplectic Euler, the others are implicit Euler, solved by "
               "Newton's method, by the alternation of Liu et al. 2013, or by L-BFGS that starts from its matrix.");
-  keys.choice("stop", integrator.stop, {"change", "gradient"},
-              "An iteration ends a step when the norm of the change of the positions (in m), or of the forces out of "
-              "balance (in N), is below the tolerance. Only for implicit methods, like the next two.");
-  keys.add("tolerance", &integrator.tolerance, "m or N", "See `stop`.").above(0);
+  keys.choice(
+      "stop", integrator.stop, {stopping_rule_names.begin(), stopping_rule_names.end()},
+      "An iteration ends a step when the norm of the change of the positions (in m), the norm of the forces out "
+      "of balance (in N), or the estimated distance of the worst vertex from the exact end of the step (in m, "
+      "see [accuracy.md](accuracy.md#stopping-at-an-error)) is below the tolerance. Without it change where "
+      "there is a tolerance, error where there is none. Only for implicit methods, like the next two.");
+  keys.add("tolerance", &integrator.tolerance, "m or N",
+           "See `stop`. Without it 1e-3 for change and gradient; for error 1e-4 of the cloth's size, or 0.003 of how "
+           "far "
+           "the external forces move a vertex in a step, if that is less.")
+      .above(0);
   keys.add("max_iterations", &integrator.max_iterations, "",
-           "The step ends after as many in any case. Without it 20 for implicit, 100 for liu13, 500 for quasi-newton.")
+           "The step ends after as many in any case. Without it 20 for implicit, 100 for liu13, and for quasi-newton "
+           "500, or 2000 "
+           "where it stops at an error.")
       .at_least(1);
   keys.choice(
       "linear_solver", integrator.linear_solver, {"automatic", "cholesky", "conjugate-gradients"},

@@ -30,4 +30,11 @@ Cloth make_cloth(const Mesh& start, const Mesh& rest, double mass, double stiffn
   return cloth;
 }
 
+double size_of(const Cloth& cloth) {
+  const Vertices& x = cloth.positions;
+  double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).stableNorm();
+  for (const Spring& spring : cloth.springs) size = std::max(size, spring.rest_length);
+  return size;
+}
+
 }  // namespace drape

@@ -27,6 +27,9 @@ struct Cloth {
   [[nodiscard]] int vertex_count() const { return static_cast<int>(positions.rows()); }
 };
 
+/// The diagonal of the box around the cloth as it starts, or its longest spring's rest length where that is more [m].
+double size_of(const Cloth& cloth);
+
 /// The homework's cloth: one spring per edge of `rest`, as long as there and all equally stiff, and the total mass
 /// shared equally by all vertices.
 /// @param start    the mesh whose positions the cloth starts from, at rest

@@ -26,10 +26,18 @@ inline std::string method_name(Method method) { return std::string(method_names[
 
 /// When an iterative step is accurate enough.
 enum class StoppingRule {
-  change,   ///< the 2-norm of the change of all unknowns together is below the tolerance [m], from the second iteration
-            ///< on
-  gradient  ///< ‖∇g‖, the 2-norm of the forces out of balance on all unknowns together, is below the tolerance [N]
+  change,  ///< the 2-norm of the change of all unknowns together is below the tolerance [m], from the second iteration
+           ///< on
+  gradient,  ///< ‖∇g‖, the 2-norm of the forces out of balance on all unknowns together, is below the tolerance [N]
+  error      ///< the estimated distance of the worst vertex from the exact minimiser is below the tolerance [m]
 };
+
+/// The rules as scenes write them, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 3> stopping_rule_names{"change", "gradient", "error"};
+
+inline std::string stopping_rule_name(StoppingRule rule) {
+  return std::string(stopping_rule_names[static_cast<std::size_t>(rule)]);
+}
 
 /// How Newton's equations are solved.
 enum class LinearSolver {
@@ -40,11 +48,11 @@ enum class LinearSolver {
 
 /// The scene's [integrator] table. Keys that a method does not use are ignored by it.
 struct IntegratorSettings {
-  Method method = Method::liu13;
-  StoppingRule stop = StoppingRule::change;
-  double tolerance = 1e-3;  ///< [m] or [N], see `stop`
-  std::optional<int>
-      max_iterations;  ///< absent: the homework's 20 for implicit and 100 for liu13; 500 for quasi_newton
+  Method method = Method::quasi_newton;
+  std::optional<StoppingRule> stop;   ///< absent: see Accuracy
+  std::optional<double> tolerance;    ///< [m] or [N], see `stop`; absent: see Accuracy
+  std::optional<int> max_iterations;  ///< absent: the homework's 20 for implicit and 100 for liu13; 500 for
+                                      ///< quasi_newton, 2000 where it stops at an error
   LinearSolver linear_solver = LinearSolver::automatic;  ///< of the implicit method
   bool allow_unstable = false;                           ///< run what stability_problem() refuses
 };

@@ -62,6 +62,14 @@ class Simulation {
   [[nodiscard]] Energies energies() const;
   /// ‖∇g‖ [N] where the last step ended, see Scheme::residual.
   [[nodiscard]] double residual() const { return scheme_->residual(); }
+  /// The estimated error of the last step's solve [m], see Scheme::error.
+  [[nodiscard]] double error() const { return scheme_->error(); }
+  /// The forces left out of balance there [N], see Scheme::unbalanced.
+  [[nodiscard]] double unbalanced() const { return scheme_->unbalanced(); }
+  /// Σ m‖g‖ [N].
+  [[nodiscard]] double weight() const { return settings_.cloth.masses.sum() * system_->gravity.norm(); }
+  /// When a step is accurate enough; nothing where nothing is minimised.
+  [[nodiscard]] std::optional<Accuracy> accuracy() const { return scheme_->accuracy(); }
   /// Where everything that the cloth can touch is at a time [s].
   [[nodiscard]] std::vector<Collider> colliders(double time) const;
 

@@ -32,6 +32,15 @@ class StepObjective {
   /// inertia.
   [[nodiscard]] double rounding(double value) const;
 
+  /// How far the worst vertex is from the minimum at most, where g is convex and has this gradient [m]: no Hessian is
+  /// below the inertia, so ‖x − x*‖_M ≤ ‖M⁻¹∇g‖_M h². Taken for each vertex by itself, h²‖∇gᵢ‖/mᵢ, it is an estimate:
+  /// how good, docs/accuracy.md says.
+  [[nodiscard]] double error_bound(const Vertices& gradient) const;
+
+  /// What rounding makes of error_bound() at the minimum [m]: positions are known to ε‖x‖, the springs' forces to as
+  /// much times their stiffness.
+  [[nodiscard]] double error_rounding() const;
+
   [[nodiscard]] const SpringNetwork& springs() const { return springs_; }
   /// m/h² of every vertex [N/m].
   [[nodiscard]] const Eigen::VectorXd& inertia() const { return inertia_; }
@@ -48,6 +57,7 @@ class StepObjective {
   Vertices y_;
   double time_ = 0;
   double elastic_scale_ = 0, scale_ = 0;  // Σ k L², and that with Σ m/h² ‖y‖² [J]
+  double stiffness_ratio_ = 1;            // the most that inertia and springs hold a vertex with, of inertia alone
 };
 
 }  // namespace drape

@@ -71,7 +71,7 @@ class SceneStudy {
     result_.scene = file;
     result_.options = complete(asked, scene_);
     result_.step = scene_.simulation.step;
-    result_.tolerance_unit = scene_.simulation.integrator.stop == StoppingRule::change ? "m" : "N";
+    result_.tolerance_unit = scene_.simulation.integrator.stop == StoppingRule::gradient ? "N" : "m";
     cases_ = accuracy_cases(scene_, file, result_.options, result_.notes);
   }
 

@@ -13,10 +13,12 @@ constexpr int max_iterations = 1000;
 
 }  // namespace
 
-ConjugateGradients::ConjugateGradients(const System& system, const StepObjective& objective)
+ConjugateGradients::ConjugateGradients(const System& system, const StepObjective& objective,
+                                       ConstantFactor* preconditioner)
     : system_(system),
       objective_(objective),
-      preconditioner_(system, Precision::automatic),
+      own_(preconditioner == nullptr ? std::make_unique<ConstantFactor>(system, Precision::automatic) : nullptr),
+      preconditioner_(preconditioner == nullptr ? *own_ : *preconditioner),
       residual_(Vertices::Zero(system.cloth.vertex_count(), 3)),
       preconditioned_(residual_),
       search_(residual_),

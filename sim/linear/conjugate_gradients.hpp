@@ -11,7 +11,8 @@ namespace drape {
 /// extremely so. H is never assembled: its springs' blocks are kept as vectors, and a product is one pass over them.
 class ConjugateGradients final : public NewtonSolver {
  public:
-  ConjugateGradients(const System& system, const StepObjective& objective);
+  /// @param preconditioner A of the same system, which must outlive this; without it one is made
+  ConjugateGradients(const System& system, const StepObjective& objective, ConstantFactor* preconditioner = nullptr);
   void solve(const Vertices& x, const Vertices& gradient, Vertices& direction) override;
 
  private:
@@ -20,7 +21,8 @@ class ConjugateGradients final : public NewtonSolver {
 
   const System& system_;
   const StepObjective& objective_;
-  ConstantFactor preconditioner_;
+  std::unique_ptr<ConstantFactor> own_;  // unless it is given
+  ConstantFactor& preconditioner_;
   SpringNetwork::Blocks blocks_;
   std::vector<std::unique_ptr<EnergyHessian>> hessians_;  // of the system's energies
   Vertices residual_, preconditioned_, search_, product_;

@@ -2,12 +2,11 @@
 
 namespace drape {
 
-BackwardEuler::BackwardEuler(const System& system, const IntegratorSettings& settings, const MakeSolver& make_solver)
+BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver)
     : system_(system),
       objective_(system),
-      stop_(settings.stop),
       solver_(make_solver(objective_)),
-      books_(system, objective_, settings),
+      books_(system, objective_, solver_->accuracy()),
       point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
       free_(is_free(system)) {}
 
@@ -19,7 +18,7 @@ StepReport BackwardEuler::advance(State& state, const Vertices& force) {
   point_.value = objective_.evaluate(point_.x, point_.gradient);
   StepReport report = solver_->minimise(point_, [this] { return !books_.gains(point_, true); });
   // A step that a small change ended has been looked at.
-  const bool looked = report.converged && stop_ == StoppingRule::change;
+  const bool looked = report.converged && solver_->accuracy().rule == StoppingRule::change;
   if (!looked && books_.gains(point_, report.converged)) {
     report.kept = books_.shed(point_);
     report.converged = false;

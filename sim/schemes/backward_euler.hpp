@@ -19,10 +19,13 @@ class BackwardEuler final : public Scheme {
  public:
   using MakeSolver = std::function<std::unique_ptr<Minimiser>(const StepObjective& objective)>;
 
-  BackwardEuler(const System& system, const IntegratorSettings& settings, const MakeSolver& make_solver);
+  BackwardEuler(const System& system, const MakeSolver& make_solver);
 
   StepReport advance(State& state, const Vertices& force) override;
   [[nodiscard]] double residual() override { return norm(point_.gradient); }
+  [[nodiscard]] double error() override { return solver_->error(point_); }
+  [[nodiscard]] double unbalanced() override { return point_.gradient.rowwise().norm().sum(); }
+  [[nodiscard]] std::optional<Accuracy> accuracy() const override { return solver_->accuracy(); }
 
  private:
   /// Moves the cloth as a whole to where Σ∇g = 0.
@@ -30,7 +33,6 @@ class BackwardEuler final : public Scheme {
 
   const System& system_;
   StepObjective objective_;
-  StoppingRule stop_;
   std::unique_ptr<Minimiser> solver_;
   EnergyBooks books_;
   Point point_;

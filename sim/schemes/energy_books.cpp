@@ -28,11 +28,10 @@ Eigen::RowVector3d mean(const Cloth& cloth, const Vertices& v) {
 
 bool is_free(const System& system) { return system.cloth.pins.empty() && system.all_internal(); }
 
-EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
+EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, const Accuracy& accuracy)
     : system_(system),
       objective_(objective),
-      stop_(settings.stop),
-      tolerance_(settings.tolerance),
+      accuracy_(accuracy),
       start_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
       steady_(system.filters.empty() && system.pin_motions.empty() && system.all_internal()),
       trial_(start_) {}
@@ -92,7 +91,8 @@ double EnergyBooks::tolerated(const Point& point) const {
   const double h = system_.step;
   const Eigen::VectorXd& inertia = objective_.free_inertia();
   const auto way = point.x - state_->x;
-  if (stop_ == StoppingRule::gradient) return tolerance_ * way.norm();
+  if (accuracy_.rule == StoppingRule::gradient) return accuracy_.tolerance * way.norm();
+  if (accuracy_.rule == StoppingRule::error) return accuracy_.tolerance * inertia.dot(way.rowwise().norm());
   const auto push = objective_.y() - state_->x - h * state_->v;  // h² M⁻¹f
   const double work = inner(inertia, push, way);
   const double most = std::sqrt(inner(inertia, push, push) * inner(inertia, way, way));

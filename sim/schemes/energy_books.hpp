@@ -17,10 +17,11 @@ namespace drape {
 /// that the forces can do in a step, ‖h M⁻¹f‖_M ‖v'‖_M, provided that the step loses as much otherwise, ½‖v' − v‖²_M,
 /// or that the forces take as much, −W. In proportion to speed it is what a tenth of the forces' size would give if it
 /// pushed along the way; it has no share in what the cloth has, so it cannot compound. Who stops at a gradient
-/// is given what that can do, tolerance·‖Δx‖. Where something solved for pushes the cloth, B is not looked at.
+/// is given what that can do, tolerance·‖Δx‖, and who stops at an error δ what the forces that it leaves can do,
+/// Σ m/h² δ ‖Δxᵢ‖. Where something solved for pushes the cloth, B is not looked at.
 class EnergyBooks {
  public:
-  EnergyBooks(const System& system, const StepObjective& objective, const IntegratorSettings& settings);
+  EnergyBooks(const System& system, const StepObjective& objective, const Accuracy& accuracy);
 
   /// Notes what the cloth has at the start of a step, whose y the objective has.
   /// @param state must stay as it is until the step ends
@@ -48,8 +49,7 @@ class EnergyBooks {
 
   const System& system_;
   const StepObjective& objective_;
-  StoppingRule stop_;
-  double tolerance_;
+  Accuracy accuracy_;
   const State* state_ = nullptr;  // at the start of the step
   Point start_;                   // its x with its pins where they are when the step ends, and g there…
   bool start_exact_ = false;      // …or, where it has not been needed, a lower bound of g and nothing else

@@ -19,9 +19,8 @@ std::unique_ptr<Scheme> make_semi_implicit(const IntegratorSettings& /*settings*
 
 template <class Solver>
 std::unique_ptr<Scheme> make_backward_euler(const IntegratorSettings& settings, const System& system) {
-  return std::make_unique<BackwardEuler>(system, settings, [&](const StepObjective& objective) {
-    return std::make_unique<Solver>(system, objective, settings);
-  });
+  return std::make_unique<BackwardEuler>(
+      system, [&](const StepObjective& objective) { return std::make_unique<Solver>(system, objective, settings); });
 }
 
 template <class Guard>

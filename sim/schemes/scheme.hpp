@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "sim/solvers/accuracy.hpp"
 #include "sim/step_report.hpp"
 #include "sim/system.hpp"
 
@@ -17,6 +20,15 @@ class Scheme {
   /// ‖∇g‖ [N] where the last step ended: the 2-norm of the forces left out of balance on all unknowns together.
   /// Zero for a method that minimises nothing. Not counted in the step: it is evaluated when asked for.
   [[nodiscard]] virtual double residual() { return 0; }
+
+  // Likewise, for a method that minimises nothing zero, and nothing:
+
+  /// How far the worst vertex is from the exact solution of the last step, estimated [m]; see Minimiser::error.
+  [[nodiscard]] virtual double error() { return 0; }
+  /// Σ ‖∇gᵢ‖ [N] where the last step ended: the forces left out of balance, each vertex's by itself.
+  [[nodiscard]] virtual double unbalanced() { return 0; }
+  /// When a step is accurate enough.
+  [[nodiscard]] virtual std::optional<Accuracy> accuracy() const { return std::nullopt; }
 };
 
 }  // namespace drape

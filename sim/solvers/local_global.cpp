@@ -8,10 +8,10 @@ constexpr int local_global_iterations = 100;  // the homework's
 }  // namespace
 
 LocalGlobal::LocalGlobal(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
-    : Minimiser(objective, settings, local_global_iterations), factor_(system, Precision::automatic) {}
+    : FactoredMinimiser(system, objective, settings, local_global_iterations) {}
 
 double LocalGlobal::iterate(Point& point) {
-  const double change = factor_.subtract_solution(point.gradient, point.x);
+  const double change = factor().subtract_solution(point.gradient, point.x);
   point.value = objective().evaluate(point.x, point.gradient);
   return change;
 }

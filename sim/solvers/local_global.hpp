@@ -1,21 +1,18 @@
 #pragma once
 
-#include "sim/linear/constant_factor.hpp"
-#include "sim/solvers/minimiser.hpp"
+#include "sim/solvers/factored_minimiser.hpp"
 
 namespace drape {
 
 /// The local/global alternation of Liu, Bargteil, O'Brien and Kavan, "Fast Simulation of Mass-Spring
 /// Systems", 2013. Its local step d = L·x̂ for every spring and its global step (M + h²L)x' = h²Jd + My are computed
 /// together as x' = x − A⁻¹∇g(x), A = M/h² + L: at the d of the local step, ∇g(x) = A x − (J d + M y/h²).
-class LocalGlobal final : public Minimiser {
+class LocalGlobal final : public FactoredMinimiser {
  public:
   LocalGlobal(const System& system, const StepObjective& objective, const IntegratorSettings& settings);
 
  private:
   double iterate(Point& point) override;
-
-  ConstantFactor factor_;
 };
 
 }  // namespace drape

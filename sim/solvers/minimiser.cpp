@@ -1,6 +1,8 @@
 #include "sim/solvers/minimiser.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace drape {
@@ -8,13 +10,14 @@ namespace {
 
 constexpr double sufficient_decrease = 1e-4;  // Armijo's constant, as usual (Nocedal and Wright 2006, section 3.1)
 constexpr double shortest_move = 1e-10;       // of a direction
+constexpr int patience = 20;                  // iterations that gain nothing where rounding hides the error
 
 }  // namespace
 
-Minimiser::Minimiser(const StepObjective& objective, const IntegratorSettings& settings, int default_max_iterations)
+Minimiser::Minimiser(const System& system, const StepObjective& objective, const IntegratorSettings& settings,
+                     int default_max_iterations)
     : objective_(objective),
-      stop_(settings.stop),
-      tolerance_(settings.tolerance),
+      accuracy_(settings, system, objective.inertia()),
       max_iterations_(settings.max_iterations.value_or(default_max_iterations)) {
   trial_.gradient = trial_.x = Vertices::Zero(objective.y().rows(), 3);
 }
@@ -22,23 +25,51 @@ Minimiser::Minimiser(const StepObjective& objective, const IntegratorSettings& s
 StepReport Minimiser::minimise(Point& point, const std::function<bool()>& may_end) {
   start();
   StepReport report;
-  // Who asks for a gradient gets it; a change says little about how far the minimum is.
-  const auto balanced = [&] { return stop_ == StoppingRule::gradient && norm(point.gradient) < tolerance_; };
+  double change = std::numeric_limits<double>::infinity();
+  least_error_ = change;
+  in_vain_ = 0;
   for (; report.iterations < max_iterations_; ++report.iterations) {
-    if (balanced()) return report;
+    if (balanced(point, change)) return report;
     const double before = point.value;
-    const double change = iterate(point);
+    change = iterate(point);
     if (point.value > before) {
       report.rise = std::max(report.rise, point.value - before - objective_.rounding(before));
     }
-    const bool settled = stop_ == StoppingRule::change && report.iterations >= 1 && change < tolerance_;
+    const bool settled =
+        accuracy_.rule == StoppingRule::change && report.iterations >= 1 && change < accuracy_.tolerance;
     if (settled && may_end()) {
       ++report.iterations;
       return report;
     }
+    // A line search that finds nothing has found what rounding leaves of a minimum, and would again.
+    if (accuracy_.rule == StoppingRule::error && change == 0) break;
   }
-  report.converged = balanced();
+  report.converged = balanced(point, change);
   return report;
+}
+
+bool Minimiser::balanced(const Point& point, double change) {
+  switch (accuracy_.rule) {
+    case StoppingRule::change:
+      return false;  // a change says little about how far the minimum is: who asks for more gets it
+    case StoppingRule::gradient:
+      return norm(point.gradient) < accuracy_.tolerance;
+    case StoppingRule::error:
+      break;
+  }
+  const double error = objective_.error_bound(point.gradient);
+  if (error <= accuracy_.tolerance) return true;
+  // Where rounding hides the error, small iterations, or no progress, are all that can be had.
+  in_vain_ = error < least_error_ ? 0 : in_vain_ + 1;
+  least_error_ = std::min(least_error_, error);
+  return (change <= accuracy_.tolerance || in_vain_ >= patience) && error <= objective_.error_rounding();
+}
+
+double Minimiser::error(const Point& point) {
+  const double bound = objective_.error_bound(point.gradient);
+  if (accuracy_.rule == StoppingRule::error && bound <= accuracy_.tolerance) return bound;
+  find_newton_step(point, trial_.x);
+  return std::min(bound, trial_.x.rowwise().norm().maxCoeff());
 }
 
 double Minimiser::descend(Point& point, const Vertices& direction, double slope) {

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "sim/settings.hpp"
+#include "sim/solvers/accuracy.hpp"
 #include "sim/step_objective.hpp"
 #include "sim/step_report.hpp"
 
@@ -21,7 +21,8 @@ struct Point {
 class Minimiser {
  public:
   /// @param objective of every step, which must outlive this
-  Minimiser(const StepObjective& objective, const IntegratorSettings& settings, int default_max_iterations);
+  Minimiser(const System& system, const StepObjective& objective, const IntegratorSettings& settings,
+            int default_max_iterations);
   virtual ~Minimiser() = default;
   Minimiser(const Minimiser&) = delete;
   Minimiser& operator=(const Minimiser&) = delete;
@@ -30,6 +31,13 @@ class Minimiser {
   /// beyond rounding.
   /// @param may_end asked where an iteration changes little, whether the point will do
   StepReport minimise(Point& point, const std::function<bool()>& may_end);
+
+  [[nodiscard]] const Accuracy& accuracy() const { return accuracy_; }
+
+  /// How far the worst vertex is from the minimum, estimated where a minimisation has ended [m]: the error that it
+  /// stopped at, or else Newton's step from there, which costs some iterations. Nothing of what comes after depends on
+  /// whether it was asked for.
+  double error(const Point& point);
 
  protected:
   /// Begins another minimisation.
@@ -43,14 +51,22 @@ class Minimiser {
   /// @return the length, or 0 where none was found: the point is as low as it can be computed
   double descend(Point& point, const Vertices& direction, double slope);
 
+  /// direction = H(x)⁻¹∇g, see NewtonSolver.
+  virtual void find_newton_step(const Point& point, Vertices& direction) = 0;
+
   [[nodiscard]] const StepObjective& objective() const { return objective_; }
 
  private:
+  /// Whether the point will do by a rule that looks at the gradient.
+  /// @param change how far the last iteration has moved the point [m]
+  bool balanced(const Point& point, double change);
+
   const StepObjective& objective_;
-  StoppingRule stop_;
-  double tolerance_;
+  Accuracy accuracy_;
   int max_iterations_;
   Point trial_;
+  double least_error_ = 0;  // that a point of this minimisation had, where it stops at an error…
+  int in_vain_ = 0;         // …and how many points had none that was less since
 };
 
 }  // namespace drape

@@ -16,12 +16,16 @@ std::unique_ptr<NewtonSolver> make_solver(LinearSolver choice, const System& sys
 }  // namespace
 
 Newton::Newton(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
-    : Minimiser(objective, settings, newton_iterations),
+    : Minimiser(system, objective, settings, newton_iterations),
       solver_(make_solver(settings.linear_solver, system, objective)),
       direction_(system.cloth.vertex_count(), 3) {}
 
+void Newton::find_newton_step(const Point& point, Vertices& direction) {
+  solver_->solve(point.x, point.gradient, direction);
+}
+
 double Newton::iterate(Point& point) {
-  solver_->solve(point.x, point.gradient, direction_);
+  find_newton_step(point, direction_);
   return descend(point, direction_, dot(point.gradient, direction_)) * norm(direction_);
 }
 

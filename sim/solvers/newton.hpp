@@ -14,6 +14,7 @@ class Newton final : public Minimiser {
 
  private:
   double iterate(Point& point) override;
+  void find_newton_step(const Point& point, Vertices& direction) override;
 
   std::unique_ptr<NewtonSolver> solver_;
   Vertices direction_;

@@ -4,12 +4,17 @@ namespace drape {
 namespace {
 
 constexpr int quasi_newton_iterations = 500;
+constexpr int iterations_to_an_error = 2000;  // the default must get there
+
+int most_iterations(const IntegratorSettings& settings) {
+  const bool by_default = !settings.stop && !settings.tolerance;
+  return by_default || settings.stop == StoppingRule::error ? iterations_to_an_error : quasi_newton_iterations;
+}
 
 }  // namespace
 
 QuasiNewton::QuasiNewton(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
-    : Minimiser(objective, settings, quasi_newton_iterations),
-      factor_(system, Precision::automatic),
+    : FactoredMinimiser(system, objective, settings, most_iterations(settings)),
       history_(system.cloth.vertex_count()),
       preconditioned_(Vertices::Zero(system.cloth.vertex_count(), 3)),
       direction_(preconditioned_) {}
@@ -17,7 +22,7 @@ QuasiNewton::QuasiNewton(const System& system, const StepObjective& objective, c
 void QuasiNewton::start() { history_.clear(); }
 
 double QuasiNewton::iterate(Point& point) {
-  factor_.solve(point.gradient, preconditioned_);
+  factor().solve(point.gradient, preconditioned_);
   history_.observe(point.gradient, preconditioned_);
   history_.find_direction(preconditioned_, direction_);
   double slope = dot(point.gradient, direction_);

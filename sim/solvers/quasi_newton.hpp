@@ -1,8 +1,7 @@
 #pragma once
 
-#include "sim/linear/constant_factor.hpp"
+#include "sim/solvers/factored_minimiser.hpp"
 #include "sim/solvers/lbfgs_history.hpp"
-#include "sim/solvers/minimiser.hpp"
 
 namespace drape {
 
@@ -10,7 +9,7 @@ namespace drape {
 /// Methods for Real-Time Simulation of Hyperelastic Materials", 2017, section 4), scaled in every iteration to the
 /// curvature last seen (Nocedal and Wright 2006, eq. 7.20), which saves a third of the iterations. A line search keeps
 /// g from rising.
-class QuasiNewton final : public Minimiser {
+class QuasiNewton final : public FactoredMinimiser {
  public:
   QuasiNewton(const System& system, const StepObjective& objective, const IntegratorSettings& settings);
 
@@ -18,7 +17,6 @@ class QuasiNewton final : public Minimiser {
   void start() override;
   double iterate(Point& point) override;
 
-  ConstantFactor factor_;
   LbfgsHistory history_;
   Vertices preconditioned_;  // A⁻¹∇g at the point
   Vertices direction_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/solvers/accuracy.hpp"
+
 namespace drape::test {
 namespace {
 
@@ -126,8 +128,12 @@ Real StepLedger::tolerated(const StepBalance& b, const RealVertices& force, cons
     way += change.row(i).squaredNorm();
     push += force.row(i).squaredNorm() / masses_[i];
   }
-  const IntegratorSettings& integrator = settings_.integrator;
-  if (integrator.stop == StoppingRule::gradient) return integrator.tolerance * std::sqrt(way);
+  const Accuracy accuracy(settings_.integrator, system_, system_.inertia());
+  if (accuracy.rule == StoppingRule::gradient) return accuracy.tolerance * std::sqrt(way);
+  if (accuracy.rule == StoppingRule::error) {
+    const Real error = accuracy.tolerance, h = settings_.step;
+    return error * masses_.dot(change.rowwise().norm()) / (h * h);
+  }
   const Real most = settings_.step * std::sqrt(push) * std::sqrt(2 * b.kinetic_after);
   return std::min(most / 10, std::max(b.inertial_loss, -b.work));
 }

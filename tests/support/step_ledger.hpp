@@ -28,7 +28,8 @@ struct StepBalance {
   Real imbalance = 0;                          ///< ∇g·Δx [J]
   Real gradient_norm = 0;                      ///< ‖∇g‖ [N]
   Real start_value = 0, end_value = 0;         ///< g(y) and g(x') [J]
-  /// What the step may gain if it met its tolerance [J]: at a gradient, tolerance·‖Δx‖; at a change, a tenth of
+  /// What the step may gain if it met its tolerance [J]: at a gradient, tolerance·‖Δx‖; at an error δ,
+  /// Σ m/h² δ ‖Δxᵢ‖; at a change, a tenth of
   /// ‖h M⁻¹f‖_M ‖w‖_M, and no more than the inertial loss or than the forces took, −W_ext.
   Real tolerated = 0;
   Real pushed = 0;  ///< what it may gain where E is concave and something solved for pushes, which may be moved, −B [J]

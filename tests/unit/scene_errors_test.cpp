@@ -84,7 +84,16 @@ TEST(SceneErrors, AnUnknownChoiceNamesTheNearest) {
   EXPECT_EQ(folder.problems(with("integrator", "method = \"implict\"")),
             "scene.toml:5:10: unknown method 'implict'; did you mean 'implicit'?");
   EXPECT_EQ(folder.problems(with("integrator", "stop = \"never\"")),
-            "scene.toml:5:8: unknown stop 'never'; the choices are 'change', 'gradient'");
+            "scene.toml:5:8: unknown stop 'never'; the choices are 'change', 'gradient', 'error'");
+}
+
+TEST(SceneErrors, AMethodThatSolvesNothingHasNoErrorToStopAt) {
+  const SceneFolder folder;
+  const std::string problem = folder.problems(with("integrator", "method = \"semi-implicit\"\nstop = \"error\""));
+  EXPECT_EQ(problem.substr(0, 39), "scene.toml:6:8: stop: semi-implicit com") << problem;
+  EXPECT_NE(problem.find("take an implicit method"), std::string::npos) << problem;
+  EXPECT_EQ(folder.problems(with("integrator", "method = \"semi-implicit\"")), "(no error)");
+  EXPECT_EQ(folder.problems(with("integrator", "stop = \"error\"")), "(no error)");
 }
 
 TEST(SceneErrors, EveryKindOfValueIsChecked) {

@@ -29,8 +29,10 @@ TEST_P(Homework, SceneIsWhatTheTableSays) {
   const Scene scene = load_scene(folder / (expected.file + ".toml"));
   EXPECT_EQ(scene.name, expected.file);
   EXPECT_EQ(scene.simulation.integrator.method, expected.method);
-  EXPECT_EQ(scene.simulation.integrator.stop, StoppingRule::change);
-  EXPECT_EQ(scene.simulation.integrator.tolerance, 1e-3);
+  if (expected.method != Method::semi_implicit) {
+    EXPECT_EQ(scene.simulation.integrator.stop.value_or(StoppingRule::change), StoppingRule::change);
+    EXPECT_EQ(scene.simulation.integrator.tolerance, 1e-3);
+  }
   EXPECT_EQ(scene.simulation.step, expected.step);
   EXPECT_EQ(scene.step_count(), expected.steps);
   EXPECT_EQ(!scene.look.texture.empty(), expected.textured);

@@ -1,0 +1,55 @@
+#include "run/exactness.hpp"
+
+#include <algorithm>
+
+namespace drape {
+namespace {
+
+constexpr std::int64_t between_looks = 64;  // steps
+constexpr double coarse_share = 0.01;       // of the cloth's size
+constexpr double still = 1e-3;              // sizes of the cloth in a second, and less is standing still…
+constexpr double moment = 0.01;             // …as is what forces out of balance would give it within this time [s]
+
+}  // namespace
+
+void Exactness::begin(const Simulation& simulation) {
+  accuracy_ = simulation.accuracy();
+  size_ = size_of(simulation.cloth());
+}
+
+void Exactness::after_step(const Simulation& simulation, const StepReport& report, double /*seconds*/) {
+  if (!accuracy_) return;
+  const bool known = accuracy_->rule == StoppingRule::error && report.converged;
+  if (known || simulation.state().step % between_looks == 0) look(simulation);
+}
+
+void Exactness::look(const Simulation& simulation) {
+  const double error = simulation.error();
+  sum_ += error;
+  largest_ = std::max(largest_, error);
+  last_ = simulation.state().step;
+  ++looked_at_;
+}
+
+void Exactness::finish(const Simulation& simulation) {
+  const State& state = simulation.state();
+  if (!accuracy_ || state.step == 0) return;
+  if (last_ != state.step) look(simulation);
+  const double force = simulation.unbalanced();
+  const double standing = std::max(still * size_, moment * force / simulation.cloth().masses.sum());
+  if (!(state.v.rowwise().norm().maxCoeff() <= standing)) return;
+  const double weight = simulation.weight();
+  unbalanced_ = {.force = force, .of_weight = weight > 0 ? std::optional(force / weight) : std::nullopt};
+}
+
+std::optional<Exactness::Errors> Exactness::errors() const {
+  if (looked_at_ == 0) return std::nullopt;
+  return Errors{.mean = sum_ / static_cast<double>(looked_at_), .largest = largest_};
+}
+
+bool Exactness::coarse() const {
+  const auto found = errors();
+  return found && found->mean > coarse_share * size_;
+}
+
+}  // namespace drape

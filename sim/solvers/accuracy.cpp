@@ -1,0 +1,62 @@
+#include "sim/solvers/accuracy.hpp"
+
+#include <algorithm>
+
+namespace drape {
+namespace {
+
+constexpr double visible = 1e-4;     // of the cloth's size
+constexpr double tolerated = 0.003;  // of the way that forces move a vertex in a step
+constexpr double customary = 1e-3;   // for a rule that is given without a tolerance [m] or [N]: the homework's
+
+double longest(const Vertices& v) { return v.rowwise().stableNorm().maxCoeff(); }
+
+/// The forces of the springs as the cloth starts, n×3 [N].
+Vertices spring_forces(const System& system) {
+  const Vertices& x = system.cloth.positions;
+  Vertices force = Vertices::Zero(x.rows(), 3);
+  for (const Spring& spring : system.springs) {
+    const Eigen::RowVector3d d = x.row(spring.j) - x.row(spring.i);
+    const double length = d.stableNorm();
+    if (length == 0) continue;
+    const Eigen::RowVector3d pull = spring.stiffness * (length - spring.rest_length) / length * d;
+    force.row(spring.i) += pull;
+    force.row(spring.j) -= pull;
+  }
+  return force;
+}
+
+/// How far a vertex is moved in a step by what moves the cloth, at most [m]; 0 if nothing does.
+double way_in_a_step(const System& system, const Eigen::VectorXd& inertia) {
+  const State start{.x = system.cloth.positions, .v = system.cloth.velocities, .step = 0};
+  const auto moved = [&](Vertices force) {
+    force.array().colwise() /= inertia.array();
+    for (const int pin : system.cloth.pins) force.row(pin).setZero();
+    return longest(force);
+  };
+  Vertices force = Vertices::Zero(start.x.rows(), 3);
+  for (const auto& each : system.forces) {
+    if (each->constant()) each->add(start, 0, force);
+  }
+  if (const double way = moved(force); way > 0) return way;
+  for (const auto& each : system.forces) {
+    if (!each->constant()) each->add(start, 0, force);
+  }
+  return std::max(moved(force + spring_forces(system)), system.step * longest(start.v));
+}
+
+double default_error(const System& system, const Eigen::VectorXd& inertia) {
+  const double seen = visible * size_of(system.cloth);
+  const double way = way_in_a_step(system, inertia);
+  return way > 0 ? std::min(seen, tolerated * way) : seen;
+}
+
+}  // namespace
+
+Accuracy::Accuracy(const IntegratorSettings& settings, const System& system, const Eigen::VectorXd& inertia)
+    : rule(settings.stop.value_or(settings.tolerance ? StoppingRule::change : StoppingRule::error)),
+      tolerance(settings.tolerance.value_or(customary)) {
+  if (!settings.tolerance && rule == StoppingRule::error) tolerance = default_error(system, inertia);
+}
+
+}  // namespace drape

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "sim/settings.hpp"
+#include "sim/system.hpp"
+
+namespace drape {
+
+/// When a step is accurate enough: what [integrator] says, and what holds where it does not.
+///
+/// Without a tolerance a step stops at an error. That is the smaller of two: 10⁻⁴ of the cloth's size, which nobody
+/// sees; and 0.003 of the way that the external forces move a vertex in the step, h²a. An error δ of every step is a
+/// force of Mδ/h² that is not there, so the cloth is computed with its external forces known to 0.3 %, whatever the
+/// step: a tolerance from the size alone would let it freeze where steps are small. Where no external force is constant
+/// in time, what counts in its place is what moves the cloth at the start: its velocities, and all forces on it.
+struct Accuracy {
+  StoppingRule rule;
+  double tolerance;  ///< [m], or [N] for StoppingRule::gradient
+
+  /// @param inertia of every vertex in a step, m/h² [N/m]
+  Accuracy(const IntegratorSettings& settings, const System& system, const Eigen::VectorXd& inertia);
+};
+
+}  // namespace drape

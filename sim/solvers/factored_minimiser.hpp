@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+
+#include "sim/linear/conjugate_gradients.hpp"
+#include "sim/linear/constant_factor.hpp"
+#include "sim/solvers/minimiser.hpp"
+
+namespace drape {
+
+/// A minimisation that knows the Hessian by Liu13's factored matrix A alone.
+class FactoredMinimiser : public Minimiser {
+ public:
+  FactoredMinimiser(const System& system, const StepObjective& objective, const IntegratorSettings& settings,
+                    int default_max_iterations);
+
+ protected:
+  ConstantFactor& factor() { return factor_; }
+
+ private:
+  void find_newton_step(const Point& point, Vertices& direction) override;
+
+  const System& system_;
+  ConstantFactor factor_;
+  std::unique_ptr<ConjugateGradients> newton_;  // once it is asked for
+};
+
+}  // namespace drape
