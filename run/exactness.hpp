@@ -12,7 +12,7 @@ namespace drape {
 class Exactness final : public StepObserver {
  public:
   void begin(const Simulation& simulation) override;
-  /// Looks at every step that stopped at an error, which is known then, and else at every 64th, since it costs some
+  /// Looks at every step that stopped at an error, which is known then, and else at every 128th, since it costs some
   /// iterations.
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
   /// Looks at the last step, and whether the cloth stands still.
