@@ -33,7 +33,7 @@ StepReport Minimiser::minimise(Point& point, const std::function<bool()>& may_en
     const double before = point.value;
     change = iterate(point);
     if (point.value > before) {
-      report.rise = std::max(report.rise, point.value - before - objective_.rounding(before));
+      report.rise = std::max(report.rise, point.value - (before + objective_.rounding(before)));
     }
     const bool settled =
         accuracy_.rule == StoppingRule::change && report.iterations >= 1 && change < accuracy_.tolerance;

@@ -45,6 +45,22 @@ TEST(CommandLine, RefusesAFactorThatCannotFitBeforeItIsBegun) {
   EXPECT_NE(finished.text.find("a sparse factor of 121197 rows would take"), std::string::npos) << finished.text;
 }
 
+TEST(CommandLine, SaysWhatErrorTheStepsLeftAndThatAStandingClothIsNoEquilibrium) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", scene + "[effects.damping]\nfactor = 1e-4\n");
+  const std::string stiff = "simulate scene.toml --set cloth.stiffness=1e6 --set time.duration=6 ";
+  Finished finished = drape(folder, stiff + "--set integrator.tolerance=1");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  EXPECT_NE(finished.text.find(" a step, estimated (at most "), std::string::npos) << finished.text;
+  EXPECT_NE(finished.text.find("% of its weight out of balance, so this is no equilibrium"), std::string::npos)
+      << finished.text;
+  // Left to itself it says so too, and has nothing to warn of.
+  finished = drape(folder, "simulate scene.toml --set integrator={}");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  EXPECT_NE(finished.text.find(" a step, estimated (at most "), std::string::npos) << finished.text;
+  EXPECT_EQ(finished.text.find("equilibrium"), std::string::npos) << finished.text;
+}
+
 TEST(CommandLine, ReportsTheProblemsOfAllScenesTogether) {
   const test::SceneFolder folder;
   folder.write("a.toml", "[cloth]\nstifness = 1\n");

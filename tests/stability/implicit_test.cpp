@@ -104,5 +104,30 @@ TEST_P(HardCases, ObeyTheLawsOfAStep) {
   RecordProperty("worst_residual_N", std::to_string(record.worst_residual));
 }
 
+class HardCasesByDefault : public testing::TestWithParam<HardCase> {};
+INSTANTIATE_TEST_SUITE_P(Case, HardCasesByDefault, testing::ValuesIn(hard_cases()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST_P(HardCasesByDefault, GainNoEnergyOutOfNothing) {
+  HardRun hard = load(GetParam(), Method::quasi_newton, {"integrator.allow_unstable=true"});
+  hard.settings.integrator = {};
+  if (condition_bound(make_system(hard.settings)) > largest_condition) return;
+  const StepLedger ledger(hard.settings);
+  const FloatingPointTraps traps;
+  Simulation simulation(hard.settings);
+  for (int step = 0; step < std::min<std::int64_t>(hard.steps, 30); ++step) {
+    const State before = simulation.state();
+    const StepReport report = simulation.step();
+    const StepBalance b = ledger.balance(before, simulation.state());
+    ASSERT_TRUE(simulation.state().x.allFinite() && simulation.state().v.allFinite());
+    EXPECT_LE(report.rise, 0);
+    EXPECT_LE(b.gain(), (report.converged ? b.tolerated : 0) + b.pushed + b.gain_rounding()) << "step " << step;
+    // Converged is what the forces out of balance say, or what rounding leaves of them.
+    if (report.converged && condition_bound(make_system(hard.settings)) < 1e6) {
+      EXPECT_LE(simulation.error(), simulation.accuracy()->tolerance) << "step " << step;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace drape::test
