@@ -16,7 +16,7 @@ constexpr int max_iterations = 1000;
 ConjugateGradients::ConjugateGradients(const System& system, const StepObjective& objective)
     : system_(system),
       objective_(objective),
-      preconditioner_(system, Precision::automatic),
+      preconditioner_(system, objective.duration(), Precision::automatic),
       residual_(Vertices::Zero(system.cloth.vertex_count(), 3)),
       preconditioned_(residual_),
       search_(residual_),

@@ -9,7 +9,7 @@ constexpr int quasi_newton_iterations = 500;
 
 QuasiNewton::QuasiNewton(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
     : Minimiser(objective, settings, quasi_newton_iterations),
-      factor_(system, Precision::automatic),
+      factor_(system, objective.duration(), Precision::automatic),
       history_(system.cloth.vertex_count()),
       preconditioned_(Vertices::Zero(system.cloth.vertex_count(), 3)),
       direction_(preconditioned_) {}
