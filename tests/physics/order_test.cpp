@@ -152,10 +152,11 @@ struct Homework {
   bool sphere;
   int verlet_steps, sdirk2_steps;
 };
+void PrintTo(const Homework& scene, std::ostream* out) { *out << "scene " << scene.name; }
 constexpr double until = 0.4;  // [s]
 constexpr std::array homework_scenes{
     Homework{"1", 18, 0.2, false, 400, 80}, Homework{"2", 18, 1, false, 400, 160},
-    Homework{"3", 180, 1, false, 400, 320}, Homework{"4", 1800, 1, false, 800, 400},
+    Homework{"3", 180, 1, false, 400, 320}, Homework{"4", 1800, 1, false, 800, 800},
     Homework{"5", 180, 1, true, 400, 320},
 };
 
@@ -185,6 +186,34 @@ TEST_P(SecondOrderHomework, HoldsForTheHomework) {
   const auto& [scene, method] = GetParam();
   const int steps = method.is_explicit() ? scene.verlet_steps : scene.sdirk2_steps;
   expect_second(orders(settings_of(scene, method), reference(scene), until, steps));
+}
+
+// What second order is for: bench/time_schemes.cpp measures what these motions cost.
+TEST(EqualErrors, AreThoseOfTheBenchmark) {
+  constexpr double duration = 0.42;
+  struct Motion {
+    Solver solver;
+    int steps;
+    double tolerance, error;  // [m]
+  };
+  const auto expect_errors = [&](const Homework& scene, const std::vector<Motion>& motions) {
+    const State exact = run(settings_of(scene, Method::verlet), duration, 21'000);
+    for (const Motion& motion : motions) {
+      SimulationSettings settings = settings_of(scene, motion.solver);
+      settings.step = duration / motion.steps;
+      settings.integrator.stop = StoppingRule::change;
+      settings.integrator.tolerance = motion.tolerance;
+      Simulation simulation(settings);
+      for (int step = 0; step < motion.steps; ++step) simulation.step();
+      EXPECT_LE(largest(simulation.state().x, exact.x), motion.error) << scene.name << " in " << motion.steps;
+    }
+  };
+  expect_errors(homework_scenes[2],
+                {{{Method::quasi_newton, TimeScheme::sdirk2}, 168, 1e-5, 1e-3}, {Method::liu13, 3500, 0.1, 1e-3}});
+  expect_errors(homework_scenes[0], {{Method::verlet, 70, 0, 1e-3},
+                                     {Method::semi_implicit, 420, 0, 1e-3},
+                                     {Method::verlet, 220, 0, 1e-4},
+                                     {Method::semi_implicit, 4200, 0, 1e-4}});
 }
 
 // Another truth about Verlet: the same steps lead back.
