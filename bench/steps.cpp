@@ -15,6 +15,7 @@
 #include "bench/ratio_table.hpp"
 #include "bench/subject.hpp"
 #include "bench/textbook.hpp"
+#include "bench/time_schemes.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/simulation.hpp"
 
@@ -104,6 +105,7 @@ int main(int argc, char** argv) {
   }
   for (std::string& name : drape::register_equal_accuracy()) names.push_back(std::move(name));
 
+  std::vector<std::string> schemes = drape::register_time_schemes();
   std::vector<std::string> effects = drape::register_effect_costs();
 
   // Ours first, so that the caller's own flags win.
@@ -117,6 +119,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 1;
 
   drape::RatioReporter reporter({{.first = "drape", .second = "textbook", .cases = std::move(names)},
+                                 {.first = "second order", .second = "first order", .cases = std::move(schemes)},
                                  {.first = "with", .second = "without", .cases = std::move(effects)}});
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();

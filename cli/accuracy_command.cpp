@@ -50,11 +50,12 @@ std::vector<AnimatedBy> parse_animations(const std::vector<std::string>& names) 
   return animations;
 }
 
-std::vector<Method> parse_methods(const std::vector<std::string>& names) {
-  const std::vector<std::string> known(method_names.begin(), method_names.end());
-  std::vector<Method> methods;
+std::vector<StepMethod> parse_methods(const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const StepMethod method : step_methods) known.push_back(step_method_name(method));
+  std::vector<StepMethod> methods;
   for (const std::string& name : names) {
-    const auto method = static_cast<Method>(parse_name("--methods", name, known, "the methods are"));
+    const StepMethod method = step_methods.at(parse_name("--methods", name, known, "the methods are"));
     if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
   }
   return methods;

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "core/console.hpp"
-#include "sim/schemes/registry.hpp"
 
 namespace drape {
 namespace {
@@ -22,7 +21,7 @@ void StepByStep::after_step(const Simulation& simulation, const StepReport& repo
   const Energies e = simulation.energies();
   std::string text = fmt::format("step {}: total {:.6g} = kinetic {:.6g} + gravity {:.6g} + elastic {:.6g} J",
                                  simulation.state().step, e.total(), e.kinetic, e.gravity, e.elastic);
-  if (method_type(simulation.settings().integrator.method).iterates) {
+  if (!is_explicit(simulation.settings().integrator.method)) {
     text += fmt::format(", {} iterations{}", report.iterations, report.converged ? "" : " (not converged)");
   }
   print_text(stdout, text + fmt::format(", {:.1f} µs\n", 1e6 * seconds));

@@ -38,8 +38,8 @@ std::string describe(const Scene& scene, const RunOptions& options) {
   const SimulationSettings& s = scene.simulation;
   const std::int64_t steps = options.steps.value_or(scene.step_count());
   std::string text = fmt::format("{}: {}, {} vertices, {} springs, {} steps of {:g} s ({:g} s)", scene.file.string(),
-                                 method_name(s.integrator.method), s.cloth.vertex_count(), s.cloth.springs.size(),
-                                 steps, s.step, static_cast<double>(steps) * s.step);
+                                 step_method_name(s.integrator.step_method()), s.cloth.vertex_count(),
+                                 s.cloth.springs.size(), steps, s.step, static_cast<double>(steps) * s.step);
   for (const Effect& effect : s.effects) text += ", " + std::string(effect.name());
   return text;
 }

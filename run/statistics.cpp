@@ -9,6 +9,8 @@ namespace drape {
 void Statistics::begin(const Simulation& simulation) {
   exactness_.begin(simulation);
   method_ = method_name(simulation.settings().integrator.method);
+  const IntegratorSettings& integrator = simulation.settings().integrator;
+  scheme_ = is_explicit(integrator.method) ? method_ : scheme_name(integrator.scheme);
   vertices_ = simulation.cloth().vertex_count();
   springs_ = static_cast<std::int64_t>(simulation.springs().size());
   h_ = simulation.settings().step;
@@ -84,6 +86,7 @@ std::string Statistics::to_json(const std::string& outcome) const {
     if (effect.share) shares[effect.name] = shares.value(effect.name, 0.0) + *effect.share;
   }
   const nlohmann::ordered_json json = {{"method", method_},
+                                       {"scheme", scheme_},
                                        {"vertices", vertices_},
                                        {"springs", springs_},
                                        {"step", h_},

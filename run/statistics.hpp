@@ -42,7 +42,7 @@ class Statistics final : public StepObserver {
   [[nodiscard]] std::string to_json(const std::string& outcome) const;
 
  private:
-  std::string method_;
+  std::string method_, scheme_;
   std::int64_t vertices_ = 0, springs_ = 0;
   double h_ = 0;
   std::vector<std::string> effects_;

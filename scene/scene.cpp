@@ -59,6 +59,16 @@ class Checks {
     }
   }
 
+  /// What only implicit methods have.
+  void scheme() const {
+    const Method method = scene_.simulation.integrator.method;
+    if (!is_explicit(method) || find_path(document_, "integrator.scheme") == nullptr) return;
+    add("integrator", "scheme",
+        fmt::format("scheme: it is how time advances with an implicit method, and {} is a scheme of its own: leave it "
+                    "out, or take method = \"implicit\", \"liu13\" or \"quasi-newton\"",
+                    method_name(method)));
+  }
+
   void camera() const {
     const Camera& camera = scene_.camera;
     if (camera.up.isZero(0)) add("camera", "up", "up: expected a direction, found [0, 0, 0]");
@@ -163,7 +173,10 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   // A rule between keys means nothing where one of them could not be read: the default stands in its place.
   const Checks checks(scene, document, problems);
   if (reader.good("time") && reader.good("video")) checks.length();
-  if (reader.good("integrator")) checks.stopping_rule();
+  if (reader.good("integrator")) {
+    checks.scheme();
+    checks.stopping_rule();
+  }
   if (reader.good("camera")) checks.camera();
   if (reader.good("look")) checks.samples();
   if (reader.good("look") && cloth_good) checks.texture();

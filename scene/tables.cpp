@@ -36,9 +36,14 @@ Keys time_keys(Scene& scene) {
 
 Keys integrator_keys(IntegratorSettings& integrator) {
   Keys keys;
-  keys.choice("method", integrator.method, {method_names.begin(), method_names.end()},
-              "How a step is computed: semi-implicit is symplectic Euler, the others are implicit Euler, solved by "
-              "Newton's method, by the alternation of Liu et al. 2013, or by L-BFGS that starts from its matrix.");
+  keys.choice(
+      "method", integrator.method, {method_names.begin(), method_names.end()},
+      "How a step is computed: semi-implicit is symplectic Euler and verlet velocity Verlet, both explicit; the "
+      "others are implicit, solved by Newton's method, by the alternation of Liu et al. 2013, or by L-BFGS "
+      "that starts from its matrix.");
+  keys.choice("scheme", integrator.scheme, {scheme_names.begin(), scheme_names.end()},
+              "How time advances with an implicit method: backward Euler, of first order, or in two stages that are "
+              "solved like its steps, of second order (Alexander 1977).");
   keys.choice(
       "stop", integrator.stop, {stopping_rule_names.begin(), stopping_rule_names.end()},
       "An iteration ends a step when the norm of the change of the positions (in m), the norm of the forces out "
@@ -47,8 +52,7 @@ Keys integrator_keys(IntegratorSettings& integrator) {
       "there is a tolerance, error where there is none. Only for implicit methods, like the next two.");
   keys.add("tolerance", &integrator.tolerance, "m or N",
            "See `stop`. Without it 1e-3 for change and gradient; for error 1e-4 of the cloth's size, or 0.003 of how "
-           "far "
-           "the external forces move a vertex in a step, if that is less.")
+           "far the external forces move a vertex in a step, if that is less.")
       .above(0);
   keys.add("max_iterations", &integrator.max_iterations, "",
            "The step ends after as many in any case. Without it 20 for implicit, 100 for liu13, and for quasi-newton "
@@ -60,8 +64,8 @@ Keys integrator_keys(IntegratorSettings& integrator) {
       "How the implicit method solves Newton's equations: by a sparse factor, or by conjugate gradients that are "
       "preconditioned with liu13's matrix.");
   keys.add("allow_unstable", &integrator.allow_unstable, "",
-           "Run what is refused otherwise: semi-implicit with a step beyond its largest safe one, or an implicit "
-           "method where double precision cannot hold the inertia beside the springs.");
+           "Run what is refused otherwise: an explicit method with a step beyond its largest safe one, or an "
+           "implicit one where double precision cannot hold the inertia beside the springs.");
   return keys;
 }
 

@@ -25,20 +25,31 @@ double BlowUpWatch::limit(double ratio) {
   return std::min(limit_of_unstable_steps, 4 * (1 + ratio) / (1 - ratio));
 }
 
-BlowUpWatch::BlowUpWatch(const System& system, double safe_step)
-    : limit_(limit(system.step / safe_step)), interval_(system.step > safe_step ? 1 : 256) {
+BlowUpWatch::BlowUpWatch(const System& system, double limit, int interval)
+    : step_(system.step), limit_(limit), interval_(interval) {
   // Where every spring has its rest length, rounding lengths by ε leaves Σ k (εL)²/2.
   double scale = std::numeric_limits<double>::min();
   for (const Spring& s : system.springs) scale += s.stiffness * s.rest_length * s.rest_length;
   rounding_ = std::numeric_limits<double>::epsilon() * scale;
 }
 
-void BlowUpWatch::begin(double energy) { explained_ = std::max(energy, rounding_); }
+void BlowUpWatch::begin(const State& state, double energy) {
+  explained_ = std::max(energy, rounding_);
+  looked_at_ = state.x;
+  work_ = 0;
+}
 
-std::optional<double> BlowUpWatch::look(double work, double energy) {
-  explained_ += work;
-  if (!(energy > limit_ * explained_)) return std::nullopt;
-  return energy / explained_;
+std::optional<double> BlowUpWatch::look(const State& state, const Vertices& push, bool constant,
+                                        const std::function<double()>& energy) {
+  if (!constant) work_ += step_ * std::abs(push.cwiseProduct(state.v).sum());
+  if (state.step % interval_ != 0) return std::nullopt;
+  if (constant) work_ = std::abs(push.cwiseProduct(state.x - looked_at_).sum());
+  explained_ += work_;
+  looked_at_ = state.x;
+  work_ = 0;
+  const double now = energy();
+  if (!(now > limit_ * explained_)) return std::nullopt;
+  return now / explained_;
 }
 
 DivergedError diverged(const State& state, double time, std::optional<double> growth, const std::string& remedy) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -15,37 +16,37 @@ class DivergedError : public Error {
   explicit DivergedError(const std::string& message) : Error(ExitCode::diverged, message) {}
 };
 
-/// Recognises that a motion of semi-implicit Euler has more energy than can be explained: than what the cloth had and
-/// what the forces gave it, Σ|f·Δx|.
-///
-/// Symplectic Euler keeps K + E − (h/2)·v·∇E of a linear cloth. With r = step/safe_step() < 1 that is between (1 − r)
-/// and (1 + r) times K + E, which so stays within a factor of (1 + r)/(1 − r); the limit is four times that. Beyond r =
-/// 1 the energy grows by a constant factor in every step, and ten thousand times what is explained is far beyond what a
-/// stable motion has, and a few steps after the beginning of its end.
+/// Recognises that a motion has more energy than can be explained: than what the cloth had and what the forces gave
+/// it, Σ|f·Δx|.
 class BlowUpWatch {
  public:
   static constexpr double limit_of_unstable_steps = 1e4;
-  /// How many times the energy that is explained is a blow-up.
+  /// How many times the energy that is explained is a blow-up of an explicit method. Symplectic Euler keeps K + E −
+  /// (h/2)·v·∇E of a linear cloth. With r = step/safe_step() < 1 that is between (1 − r) and (1 + r) times K + E, which
+  /// so stays within a factor of (1 + r)/(1 − r); the limit is four times that. Velocity Verlet keeps (1 − r²) K + E and
+  /// stays nearer. Beyond r = 1 the energy grows by a constant factor in every step, and ten thousand times what is
+  /// explained is far beyond what a stable motion has, and a few steps after the beginning of its end.
   /// @param ratio step/safe_step()
   static double limit(double ratio);
 
-  BlowUpWatch(const System& system, double safe_step);
-
-  /// How many steps may lie between two looks: one beyond the safe step, and below it, where a cloth can only gain
-  /// energy little by little, so many that looking costs nothing.
-  [[nodiscard]] int interval() const { return interval_; }
+  /// @param limit    how many times the energy that is explained is a blow-up
+  /// @param interval how many steps lie between two looks
+  BlowUpWatch(const System& system, double limit, int interval);
 
   /// Begins with a state of this energy, K + E [J].
-  void begin(double energy);
-  /// Takes note of steps in which the forces did this work, Σ|f·Δx|, and which ended with this energy [J].
-  /// @returns how many times the energy that is explained, if that is beyond the limit
-  std::optional<double> look(double work, double energy);
+  void begin(const State& state, double energy);
+  /// Takes note of a step that has ended, and looks after every interval, see StabilityGuard::look.
+  std::optional<double> look(const State& state, const Vertices& push, bool constant,
+                             const std::function<double()>& energy);
 
  private:
+  double step_;  // [s]
   double limit_;
   int interval_;
   double rounding_;       // what rounding the positions does to the energy [J]
   double explained_ = 0;  // [J]
+  Vertices looked_at_;    // where the cloth was when it last looked
+  double work_ = 0;       // since then [J]
 };
 
 /// Names the step, the time, the worst vertex of a motion's last state (the first that is not finite, else the

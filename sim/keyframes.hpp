@@ -26,6 +26,9 @@ class Keyframes {
   /// The value at a time [s]; before the first and after the last keyframe that of it.
   [[nodiscard]] Eigen::Vector3d at(double time) const;
 
+  /// How fast it changes [1/s]; where that jumps, at a keyframe, as it does before.
+  [[nodiscard]] Eigen::Vector3d velocity(double time) const;
+
  private:
   std::vector<Keyframe> keyframes_;
   std::vector<Eigen::Vector3d> slopes_;  // per second, at each keyframe; empty if linear

@@ -15,6 +15,11 @@ void PinMotion::drive(double from, double to, Vertices& v) const {
   for (const int vertex : vertices) v.row(vertex) = velocity;
 }
 
+void PinMotion::drive(double at, Vertices& v) const {
+  const Eigen::RowVector3d velocity = path.velocity(at).transpose();
+  for (const int vertex : vertices) v.row(vertex) = velocity;
+}
+
 std::vector<PinPhase> pin_phases(const std::vector<int>& pins, const std::vector<PinRelease>& releases) {
   std::map<std::int64_t, std::vector<int>> released{{0, {}}};
   for (const PinRelease& release : releases) {

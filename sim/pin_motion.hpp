@@ -20,6 +20,8 @@ struct PinMotion {
   /// Writes the velocity that leads from where they are at one time to where they are at another [s] into their rows
   /// of v, n×3 [m/s].
   void drive(double from, double to, Vertices& v) const;
+  /// The same with the velocity that they have at a time, where it jumps that before.
+  void drive(double at, Vertices& v) const;
 };
 
 /// Pins that are let go.

@@ -14,15 +14,65 @@ namespace drape {
 /// How a step is computed. The order is that of the names in a scene.
 enum class Method {
   semi_implicit,  ///< symplectic Euler: v += h·a(x), x += h·v
-  implicit,       ///< implicit Euler, minimised by Newton's method
-  liu13,          ///< implicit Euler, minimised by the local/global alternation of Liu et al. 2013
-  quasi_newton    ///< implicit Euler, minimised by L-BFGS that starts from the matrix of Liu et al. 2013
+  implicit,       ///< steps minimised by Newton's method
+  liu13,          ///< steps minimised by the local/global alternation of Liu et al. 2013
+  quasi_newton,   ///< steps minimised by L-BFGS that starts from the matrix of Liu et al. 2013
+  verlet          ///< velocity Verlet: x += h/2·v, v += h·a(x), x += h/2·v
 };
 
 /// The methods as scenes write them, in the order of the enumeration.
-inline constexpr std::array<std::string_view, 4> method_names{"semi-implicit", "implicit", "liu13", "quasi-newton"};
+inline constexpr std::array<std::string_view, 5> method_names{"semi-implicit", "implicit", "liu13", "quasi-newton",
+                                                              "verlet"};
 
 inline std::string method_name(Method method) { return std::string(method_names[static_cast<std::size_t>(method)]); }
+
+/// Whether a method computes a step from the forces alone: it minimises nothing, and has a largest stable step.
+inline constexpr bool is_explicit(Method method) { return method == Method::semi_implicit || method == Method::verlet; }
+
+/// What an explicit method is called in a sentence.
+inline constexpr std::string_view explicit_title(Method method) {
+  return method == Method::verlet ? "velocity Verlet" : "semi-implicit Euler";
+}
+
+/// How time advances with a method that is not explicit. The order is that of the names in a scene.
+enum class TimeScheme {
+  backward_euler,  ///< of first order
+  sdirk2           ///< of second order, in two stages (Alexander 1977)
+};
+
+/// The schemes as scenes write them, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 2> scheme_names{"backward-euler", "sdirk2"};
+
+inline std::string scheme_name(TimeScheme scheme) {
+  return std::string(scheme_names[static_cast<std::size_t>(scheme)]);
+}
+
+/// How a motion is computed, in a name: a method and, where it is implicit, its scheme.
+struct StepMethod {
+  Method method = Method::liu13;
+  TimeScheme scheme = TimeScheme::backward_euler;
+
+  // Implicit: a method alone is meant with backward Euler.
+  constexpr StepMethod(Method m, TimeScheme s = TimeScheme::backward_euler) : method(m), scheme(s) {}
+  bool operator==(const StepMethod&) const = default;
+};
+
+/// All of them.
+inline constexpr std::array step_methods{
+    StepMethod{Method::semi_implicit},
+    StepMethod{Method::implicit},
+    StepMethod{Method::liu13},
+    StepMethod{Method::quasi_newton},
+    StepMethod{Method::verlet},
+    StepMethod{Method::implicit, TimeScheme::sdirk2},
+    StepMethod{Method::liu13, TimeScheme::sdirk2},
+    StepMethod{Method::quasi_newton, TimeScheme::sdirk2},
+};
+
+/// "verlet", "liu13", "liu13-sdirk2".
+inline std::string step_method_name(StepMethod how) {
+  return method_name(how.method) + (how.scheme == TimeScheme::sdirk2 ? "-sdirk2" : "");
+}
 
 /// When an iterative step is accurate enough.
 enum class StoppingRule {
@@ -49,12 +99,17 @@ enum class LinearSolver {
 /// The scene's [integrator] table. Keys that a method does not use are ignored by it.
 struct IntegratorSettings {
   Method method = Method::quasi_newton;
+  TimeScheme scheme = TimeScheme::backward_euler;
   std::optional<StoppingRule> stop;   ///< absent: see Accuracy
   std::optional<double> tolerance;    ///< [m] or [N], see `stop`; absent: see Accuracy
   std::optional<int> max_iterations;  ///< absent: the homework's 20 for implicit and 100 for liu13; 500 for
                                       ///< quasi_newton, 2000 where it stops at an error
   LinearSolver linear_solver = LinearSolver::automatic;  ///< of the implicit method
   bool allow_unstable = false;                           ///< run what stability_problem() refuses
+
+  [[nodiscard]] StepMethod step_method() const {
+    return is_explicit(method) ? StepMethod(method) : StepMethod(method, scheme);
+  }
 };
 
 /// Everything a simulation is made from.

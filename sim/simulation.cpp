@@ -1,6 +1,5 @@
 #include "sim/simulation.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "sim/schemes/registry.hpp"
@@ -10,7 +9,7 @@ namespace drape {
 namespace {
 
 std::unique_ptr<StabilityGuard> make_guard(const SimulationSettings& settings, const System& system) {
-  auto guard = method_type(settings.integrator.method).make_guard(system);
+  auto guard = method_type(settings.integrator.method).make_guard(settings.integrator, system);
   if (settings.integrator.allow_unstable) return guard;
   if (const auto problem = guard->problem()) throw UsageError(*problem);
   return guard;
@@ -24,14 +23,6 @@ State initial_state(const Cloth& cloth) {
   State state{.x = cloth.positions, .v = cloth.velocities, .step = 0};
   for (const int pin : cloth.pins) state.v.row(pin).setZero();
   return state;
-}
-
-Vertices constant_force(const System& system, const State& state) {
-  Vertices sum = Vertices::Zero(state.x.rows(), 3);
-  for (const auto& force : system.forces) {
-    if (force->constant()) force->add(state, 0, sum);
-  }
-  return sum;
 }
 
 }  // namespace
@@ -52,8 +43,7 @@ Simulation::Simulation(SimulationSettings settings, Timing timing)
       system_(make_system(settings_, timing == Timing::effects ? &effect_seconds_ : nullptr)),
       phases_(pin_phases(settings_.cloth.pins, system_->pin_releases)),
       state_(initial_state(settings_.cloth)),
-      constant_force_(constant_force(*system_, state_)),
-      force_(constant_force_),
+      forces_(*system_, state_),
       guard_(make_guard(settings_, *system_)),
       scheme_(make_scheme(settings_, *system_)),
       springs_(system_->springs, settings_.cloth.vertex_count()),
@@ -79,30 +69,17 @@ void Simulation::enter_phase() {
 
 StepReport Simulation::step() {
   if (phases_.size() > 1) enter_phase();
-  const Vertices& push = force();
-  StepReport report = scheme_->advance(state_, push);
+  StepReport report = scheme_->advance(state_, forces_);
   for (const auto& filter : system_->filters) report.converged = report.converged && filter->converged();
   ++state_.step;
   // What is not finite makes the sum of its squares so, and any velocity that is not moves its vertex there.
   if (!std::isfinite(norm(state_.x))) throw diverged_by(std::nullopt);
-  if (const auto growth = guard_->look(state_, push, &push == &constant_force_, energy_)) throw diverged_by(growth);
+  if (const auto growth = guard_->look(state_, forces_.push(), forces_.constant(), energy_)) throw diverged_by(growth);
   return report;
 }
 
 DivergedError Simulation::diverged_by(std::optional<double> growth) const {
   return diverged(state_, time(), growth, guard_->remedy());
-}
-
-const Vertices& Simulation::force() {
-  const auto& forces = system_->forces;
-  if (std::all_of(forces.begin(), forces.end(), [](const auto& f) { return f->constant(); })) {
-    return constant_force_;
-  }
-  force_ = constant_force_;
-  for (const auto& force : forces) {
-    if (!force->constant()) force->add(state_, time(), force_);
-  }
-  return force_;
 }
 
 void Simulation::restore(const State& state) {

@@ -10,6 +10,7 @@
 #include "sim/schemes/stability_guard.hpp"
 #include "sim/settings.hpp"
 #include "sim/spring_network.hpp"
+#include "sim/step_forces.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
@@ -76,8 +77,6 @@ class Simulation {
  private:
   /// Makes the system and the scheme for the pins of the next step, unless they are those.
   void enter_phase();
-  /// The sum of all forces now.
-  [[nodiscard]] const Vertices& force();
   /// @param growth of the energy, see BlowUpWatch; absent: the numbers are no longer finite
   [[nodiscard]] DivergedError diverged_by(std::optional<double> growth) const;
 
@@ -87,7 +86,7 @@ class Simulation {
   std::vector<PinPhase> phases_;  // by step, the first from 0 on
   std::size_t phase_ = 0;
   State state_;
-  Vertices constant_force_, force_;
+  StepForces forces_;
   std::unique_ptr<StabilityGuard> guard_;
   std::unique_ptr<Scheme> scheme_;
   SpringNetwork springs_;

@@ -11,10 +11,11 @@ constexpr double units = 4;  // roundings on the way to a term of the energy, or
 
 }  // namespace
 
-StepObjective::StepObjective(const System& system)
+StepObjective::StepObjective(const System& system, double duration)
     : system_(system),
+      duration_(duration),
       springs_(system.springs, system.cloth.vertex_count()),
-      inertia_(system.inertia()),
+      inertia_(system.inertia(duration)),
       free_inertia_(inertia_),
       push_(inertia_.cwiseInverse()),
       y_(system.cloth.vertex_count(), 3) {
@@ -34,16 +35,16 @@ StepObjective::StepObjective(const System& system)
   stiffness_ratio_ = stiffness.cwiseProduct(push_).maxCoeff();
 }
 
-void StepObjective::begin(const State& state, const Vertices& force) {
+void StepObjective::begin(const Vertices& x, const Vertices& v, const Vertices& force, double end) {
   const Kernels& k = kernels();
-  const auto count = static_cast<std::size_t>(state.x.rows());
-  time_ = system_.time(state.step + 1);
-  y_ = state.x;
-  k.add_multiple(3 * count, system_.step, state.v.data(), y_.data());
+  const auto count = static_cast<std::size_t>(x.rows());
+  time_ = end;
+  y_ = x;
+  k.add_multiple(3 * count, duration_, v.data(), y_.data());
   for (int axis = 0; axis < 3; ++axis) {
     k.add_scaled(count, push_.data(), force.col(axis).data(), y_.col(axis).data());
   }
-  system_.place_pins(state, y_);
+  system_.place_pins(end, y_);
   scale_ = elastic_scale_ + inertia_.dot(y_.rowwise().squaredNorm());
 }
 

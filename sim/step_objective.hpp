@@ -5,18 +5,23 @@
 
 namespace drape {
 
-/// What a step of implicit Euler minimises over the free vertices (Liu et al. 2013, eq. 5, divided by h²):
-///   g(x) = 1/(2h²) ‖x − y‖²_M + E(x),   y = xₙ + h vₙ + h² M⁻¹ f,
-/// with E the energy of the springs and of everything else in the system that has one.
-/// Pinned vertices are no unknowns: y has them where they are when the step ends, and every gradient is zero there, so
+/// What an implicit step of τ seconds from x₀ with v₀ minimises over the free vertices (Liu et al. 2013, eq. 5, divided
+/// by τ²):
+///   g(x) = 1/(2τ²) ‖x − y‖²_M + E(x),   y = x₀ + τ v₀ + τ² M⁻¹ f,
+/// with E the energy of the springs and of everything else in the system that has one. A scheme may be made of several
+/// such steps, all of the same length.
+/// Pinned vertices are no unknowns: y has them where they are when it ends, and every gradient is zero there, so
 /// that plain vector arithmetic never moves them.
 class StepObjective {
  public:
-  explicit StepObjective(const System& system);
+  /// @param duration τ [s]
+  StepObjective(const System& system, double duration);
 
-  /// Begins a step: computes y.
-  /// @param force evaluated at the start of the step, n×3 [N]
-  void begin(const State& state, const Vertices& force);
+  /// Begins another step: computes y.
+  /// @param x, v  where it starts, n×3 [m], [m/s]
+  /// @param force f, n×3 [N]
+  /// @param end   the time when it ends [s]
+  void begin(const Vertices& x, const Vertices& v, const Vertices& force, double end);
 
   /// Where the cloth would go without its energies, and where the pins are when the step ends, n×3 [m].
   [[nodiscard]] const Vertices& y() const { return y_; }
@@ -24,7 +29,7 @@ class StepObjective {
   /// Computes gradient = ∇g(x), n×3 and zero on pins [N], and returns g(x) [J], in one pass.
   double evaluate(const Vertices& x, Vertices& gradient) const;
 
-  /// The part of g(x) that is inertia's, 1/(2h²) ‖x − y‖²_M [J].
+  /// The part of g(x) that is inertia's, 1/(2τ²) ‖x − y‖²_M [J].
   [[nodiscard]] double inertial_value(const Vertices& x) const;
 
   /// The error that rounding can be expected to make where g has this value [J]. A length L is known to ε·L, which
@@ -42,7 +47,9 @@ class StepObjective {
   [[nodiscard]] double error_rounding() const;
 
   [[nodiscard]] const SpringNetwork& springs() const { return springs_; }
-  /// m/h² of every vertex [N/m].
+  /// τ [s].
+  [[nodiscard]] double duration() const { return duration_; }
+  /// m/τ² of every vertex [N/m].
   [[nodiscard]] const Eigen::VectorXd& inertia() const { return inertia_; }
   /// The same, but 0 at pins.
   [[nodiscard]] const Eigen::VectorXd& free_inertia() const { return free_inertia_; }
@@ -51,12 +58,13 @@ class StepObjective {
 
  private:
   const System& system_;
+  double duration_;
   SpringNetwork springs_;
   Eigen::VectorXd inertia_, free_inertia_;
-  Eigen::VectorXd push_;  // h²/m, 0 on pins [m/N]
+  Eigen::VectorXd push_;  // τ²/m, 0 on pins [m/N]
   Vertices y_;
   double time_ = 0;
-  double elastic_scale_ = 0, scale_ = 0;  // Σ k L², and that with Σ m/h² ‖y‖² [J]
+  double elastic_scale_ = 0, scale_ = 0;  // Σ k L², and that with Σ m/τ² ‖y‖² [J]
   double stiffness_ratio_ = 1;            // the most that inertia and springs hold a vertex with, of inertia alone
 };
 

@@ -23,7 +23,21 @@ void System::move(State& state, const Vertices* reached) const {
   }
   for (const auto& filter : filters) filter->apply(state.x, time(state.step), step, state.v);
   kernels().add_multiple(static_cast<std::size_t>(state.x.size()), step, state.v.data(), state.x.data());
-  place_pins(state, state.x);
+  place_pins(time(state.step + 1), state.x);
+  for (const auto& filter : filters) filter->finish(state.v);
+}
+
+void System::move(State& state, const Vertices& reached, Vertices& way) const {
+  if (filters.empty()) {
+    state.x = reached;
+    return;
+  }
+  way = (reached - state.x) / step;
+  state.v -= way;
+  for (const auto& filter : filters) filter->apply(state.x, time(state.step), step, way);
+  state.v += way;
+  kernels().add_multiple(static_cast<std::size_t>(state.x.size()), step, way.data(), state.x.data());
+  place_pins(time(state.step + 1), state.x);
   for (const auto& filter : filters) filter->finish(state.v);
 }
 

@@ -17,11 +17,13 @@ struct State {
   std::int64_t step = 0;
 };
 
-/// A force that is evaluated once, at the start of a step.
+/// A force that is evaluated a fixed number of times in a step, see StepForces.
 struct Force {
   virtual ~Force() = default;
   /// Whether it is the same at every time and in every state.
   [[nodiscard]] virtual bool constant() const { return false; }
+  /// Whether it depends on the velocities.
+  [[nodiscard]] virtual bool of_velocity() const { return false; }
   /// Adds the force on every vertex [N] at the given time [s].
   virtual void add(const State& state, double time, Vertices& force) const = 0;
   /// By how much the acceleration of a vertex changes at most with its place, as if it hung on a spring of this
@@ -70,6 +72,10 @@ struct Energy {
   /// Whether it is the cloth's own: the same at every time and wherever the cloth is as a whole. Any other is held by
   /// something that pushes, and only methods that solve for the end of a step can have it.
   [[nodiscard]] virtual bool internal() const = 0;
+  /// How far what pushes goes from one time to another [s], if it moves [m].
+  [[nodiscard]] virtual Eigen::Vector3d displacement(double /*from*/, double /*to*/) const {
+    return Eigen::Vector3d::Zero();
+  }
 };
 
 /// A change of the velocity at the end of a step.
@@ -130,21 +136,21 @@ struct System {
   /// When a step begins, and so the one before it ends [s]: never a running sum.
   [[nodiscard]] double time(std::int64_t number) const { return static_cast<double>(number) * step; }
 
-  /// m/h² of every vertex [N/m], the inertia that holds it in an implicit step.
-  [[nodiscard]] Eigen::VectorXd inertia() const { return cloth.masses / (step * step); }
+  /// m/τ² of every vertex [N/m], the inertia that holds it in an implicit step of τ seconds.
+  [[nodiscard]] Eigen::VectorXd inertia(double duration) const { return cloth.masses / (duration * duration); }
 
   /// Shows every filter the state in which a step begins.
   void begin(const State& state) const {
     for (const auto& filter : filters) filter->begin(state, time(state.step));
   }
 
-  /// Writes where the pins that move are when the step ends that begins at state.step into their rows of x.
-  void place_pins(const State& state, Vertices& x) const {
-    for (const PinMotion& motion : pin_motions) motion.place(time(state.step + 1), x);
+  /// Writes where the pins that move are at a time [s] into their rows of x.
+  void place_pins(double at, Vertices& x) const {
+    for (const PinMotion& motion : pin_motions) motion.place(at, x);
   }
 
-  // What ends every step. A scheme whose velocities are those of the end corrects them before it moves by them; one
-  // that solves for where the cloth is moves first.
+  // What ends every step of Euler's, whose velocities are those with which the cloth goes. One that computes them
+  // corrects them before it moves by them; one that solves for where the cloth is moves first.
 
   /// Moves the cloth to the end of the step that begins at state.step: lets every filter change its velocities, and
   /// goes x + h·v.
@@ -155,6 +161,24 @@ struct System {
   void correct(State& state) const {
     for (const auto& correction : corrections) correction->apply(state, step);
     for (const PinMotion& motion : pin_motions) motion.drive(time(state.step), time(state.step + 1), state.v);
+  }
+
+  // What begins and ends a step of a scheme of second order, whose velocities are those of the moment.
+
+  /// Applies half of what every correction does in a step: once before all else and once after it, which is of second
+  /// order (Strang 1968) where corrections commute.
+  void correct_half(State& state) const {
+    for (const auto& correction : corrections) correction->apply(state, step / 2);
+  }
+
+  /// Moves the cloth to where it has been computed to be at the end of the step that begins at state.step. What the
+  /// filters change about the velocities with which it goes there, (reached − x)/h, is added to state.v.
+  /// @param way scratch, n×3
+  void move(State& state, const Vertices& reached, Vertices& way) const;
+
+  /// Gives the pins that move the velocity that they have at a time [s].
+  void drive_pins(double at, Vertices& v) const {
+    for (const PinMotion& motion : pin_motions) motion.drive(at, v);
   }
 };
 

@@ -30,6 +30,7 @@ struct Timed : Base {
 struct TimedForce final : Timed<Force> {
   using Timed::Timed;
   [[nodiscard]] bool constant() const override { return inner->constant(); }
+  [[nodiscard]] bool of_velocity() const override { return inner->of_velocity(); }
   void add(const State& state, double time, Vertices& force) const override {
     const Stopwatch watch(seconds);
     inner->add(state, time, force);
@@ -64,6 +65,9 @@ struct TimedEnergy final : Timed<Energy> {
     return std::make_unique<TimedHessian>(inner->make_hessian(), seconds);
   }
   [[nodiscard]] bool internal() const override { return inner->internal(); }
+  [[nodiscard]] Eigen::Vector3d displacement(double from, double to) const override {
+    return inner->displacement(from, to);
+  }
 };
 
 struct TimedCorrection final : Timed<Correction> {

@@ -34,7 +34,14 @@ std::vector<double> default_steps(double h, double time) {
 AccuracyOptions complete(AccuracyOptions options, const Scene& scene) {
   const double h = scene.simulation.step, duration = scene.duration;
   if (options.methods.empty()) {
-    options.methods = {Method::implicit, Method::liu13, Method::quasi_newton, Method::semi_implicit};
+    options.methods = {Method::implicit,
+                       Method::liu13,
+                       Method::quasi_newton,
+                       Method::semi_implicit,
+                       Method::verlet,
+                       {Method::implicit, TimeScheme::sdirk2},
+                       {Method::liu13, TimeScheme::sdirk2},
+                       {Method::quasi_newton, TimeScheme::sdirk2}};
   }
   if (options.tolerances.empty()) options.tolerances = {1, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
   if (options.times.empty()) options.times = {duration / 20, duration / 8, duration / 4};
@@ -67,6 +74,7 @@ class SceneStudy {
  public:
   SceneStudy(const std::string& name, const std::string& file, const AccuracyOptions& asked)
       : scene_(load_scene(file, asked.overrides)) {
+    scene_.simulation.integrator.scheme = TimeScheme::backward_euler;  // of the steps whose solves are compared
     result_.name = name;
     result_.scene = file;
     result_.options = complete(asked, scene_);

@@ -18,7 +18,8 @@ inline constexpr std::int64_t reference_refinement = 4;
 
 /// What is asked. What is left empty has the defaults that complete() fills in.
 struct AccuracyOptions {
-  std::vector<Method> methods;     ///< empty: all; semi-implicit Euler takes part in the error of the time step only
+  std::vector<StepMethod>
+      methods;  ///< empty: all; those but backward Euler take part in the error of the time step only
   std::vector<double> tolerances;  ///< empty: 1, 0.1, … 1e-7 [m] or [N], as the scene's stopping rule has it
   std::vector<double> steps;       ///< empty: the scene's step and its halves [s]
   std::vector<double> times;       ///< of the motion's error; empty: 1/20, 1/8 and 1/4 of the scene's duration [s]
@@ -28,7 +29,7 @@ struct AccuracyOptions {
 
 /// A method with a tolerance.
 struct TolerancePoint {
-  Method method = Method::implicit;
+  StepMethod method = Method::implicit;
   double tolerance = 0;
   Measured measured;
   SolveError solve;
@@ -37,7 +38,7 @@ struct TolerancePoint {
 
 /// A method with a time step.
 struct StepPoint {
-  Method method = Method::implicit;
+  StepMethod method = Method::implicit;
   double step = 0;  ///< h [s]
   Measured measured;
   Distance error;    ///< at the first time

@@ -28,20 +28,20 @@ std::string cost_label(double microseconds) {
 }
 
 AnimationPanel panel(const TolerancePoint& p) {
-  return {p.measured.what, fmt::format("{}, tolerance {:g}: {}", method_name(p.method), p.tolerance,
+  return {p.measured.what, fmt::format("{}, tolerance {:g}: {}", step_method_name(p.method), p.tolerance,
                                        cost_label(p.measured.time().median))};
 }
 
 AnimationPanel panel(const StepPoint& p) {
   return {p.measured.what,
-          fmt::format("{}, h = {:g} s: {}", method_name(p.method), p.step, cost_label(p.measured.time().median))};
+          fmt::format("{}, h = {:g} s: {}", step_method_name(p.method), p.step, cost_label(p.measured.time().median))};
 }
 
 /// The method whose tolerance or step is varied: that whose errors are seen best.
-Method shown_method(const SceneAccuracy& accuracy) {
-  const std::vector<Method>& methods = accuracy.options.methods;
-  const bool has_liu13 = std::find(methods.begin(), methods.end(), Method::liu13) != methods.end();
-  return has_liu13 ? Method::liu13 : methods.front();
+StepMethod shown_method(const SceneAccuracy& accuracy) {
+  const std::vector<StepMethod>& methods = accuracy.options.methods;
+  const bool has_liu13 = std::find(methods.begin(), methods.end(), StepMethod(Method::liu13)) != methods.end();
+  return has_liu13 ? StepMethod(Method::liu13) : methods.front();
 }
 
 double nearest_tolerance(const SceneAccuracy& accuracy) {

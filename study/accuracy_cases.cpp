@@ -12,13 +12,14 @@ namespace {
 // Of the cases that differ in their step: so small that the error of the solve is not seen beside that of the step.
 constexpr double small_tolerance = 1e-9;
 
-StudyCase make_case(const std::string& file, const AccuracyOptions& options, Method method, std::string label) {
+StudyCase make_case(const std::string& file, const AccuracyOptions& options, StepMethod method, std::string label) {
   StudyCase what;
   what.label = std::move(label);
   what.scene = file;
   what.folder = std::filesystem::current_path();
   what.overrides = options.overrides;
-  what.overrides.push_back("integrator.method=" + method_name(method));
+  what.overrides.push_back("integrator.method=" + method_name(method.method));
+  if (!is_explicit(method.method)) what.overrides.push_back("integrator.scheme=" + scheme_name(method.scheme));
   return what;
 }
 
@@ -28,8 +29,9 @@ void add_tolerance(StudyCase& what, double tolerance) {
 }
 
 /// Whether a method can take steps of this length.
-bool is_stable(SimulationSettings settings, Method method, double step) {
-  settings.integrator.method = method;
+bool is_stable(SimulationSettings settings, StepMethod method, double step) {
+  settings.integrator.method = method.method;
+  settings.integrator.scheme = method.scheme;
   settings.step = step;
   return !stability_problem(settings, make_system(settings));
 }
@@ -39,10 +41,11 @@ bool is_stable(SimulationSettings settings, Method method, double step) {
 AccuracyCases accuracy_cases(const Scene& scene, const std::string& file, const AccuracyOptions& options,
                              std::vector<std::string>& notes) {
   AccuracyCases cases;
-  for (const Method method : options.methods) {
-    if (method != Method::semi_implicit) {
+  for (const StepMethod method : options.methods) {
+    if (!is_explicit(method.method) && method.scheme == TimeScheme::backward_euler) {
       for (const double tolerance : options.tolerances) {
-        StudyCase what = make_case(file, options, method, fmt::format("{}, ε = {:g}", method_name(method), tolerance));
+        StudyCase what =
+            make_case(file, options, method, fmt::format("{}, ε = {:g}", step_method_name(method), tolerance));
         add_tolerance(what, tolerance);
         what.steps = std::llround(options.times.back() / scene.simulation.step);
         what.watched_steps = scene.step_count();
@@ -55,9 +58,9 @@ AccuracyCases accuracy_cases(const Scene& scene, const std::string& file, const 
         unstable += fmt::format("{}{:g}", unstable.empty() ? "" : ", ", step);
         continue;
       }
-      StudyCase what = make_case(file, options, method, fmt::format("{}, h = {:g} s", method_name(method), step));
+      StudyCase what = make_case(file, options, method, fmt::format("{}, h = {:g} s", step_method_name(method), step));
       what.overrides.push_back("time.step=" + plain_number(step));
-      if (method != Method::semi_implicit) {
+      if (!is_explicit(method.method)) {
         what.overrides.emplace_back("integrator.stop=change");
         add_tolerance(what, small_tolerance);
       }
@@ -66,7 +69,7 @@ AccuracyCases accuracy_cases(const Scene& scene, const std::string& file, const 
     }
     if (!unstable.empty()) {
       notes.push_back(fmt::format("{} is not stable with h = {} s in {}, so it was not run with it.",
-                                  method_name(method), unstable, file));
+                                  step_method_name(method), unstable, file));
     }
   }
   return cases;

@@ -5,12 +5,12 @@
 namespace drape {
 
 struct ToleranceCase {
-  Method method;
+  StepMethod method;
   double tolerance;
   StudyCase what;
 };
 struct StepCase {
-  Method method;
+  StepMethod method;
   double step;
   StudyCase what;
 };

@@ -23,19 +23,20 @@ std::string command_of(const SceneAccuracy& scene, const std::string& methods, c
                             list(steps), list(scene.options.times), scene.options.runs);
 }
 
-std::string film(const SceneAccuracy& scene, Method method, const char* key, double value) {
-  return fmt::format("out/{}-{}-{}{}.gif", scene.name, method_name(method), key, plain_number(value));
+std::string film(const SceneAccuracy& scene, StepMethod method, const char* key, double value) {
+  return fmt::format("out/{}-{}-{}{}.gif", scene.name, step_method_name(method), key, plain_number(value));
 }
 
 std::string commands(const SceneAccuracy& scene, const TolerancePoint& point) {
-  return fmt::format("{}\n{}",
-                     command_of(scene, method_name(point.method), {point.tolerance}, {scene.options.steps.front()}),
-                     point.measured.what.film_command(film(scene, point.method, "tolerance", point.tolerance)));
+  return fmt::format(
+      "{}\n{}", command_of(scene, step_method_name(point.method), {point.tolerance}, {scene.options.steps.front()}),
+      point.measured.what.film_command(film(scene, point.method, "tolerance", point.tolerance)));
 }
 
 std::string commands(const SceneAccuracy& scene, const StepPoint& point) {
   return fmt::format(
-      "{}\n{}", command_of(scene, method_name(point.method), {scene.options.tolerances.front()}, scene.options.steps),
+      "{}\n{}",
+      command_of(scene, step_method_name(point.method), {scene.options.tolerances.front()}, scene.options.steps),
       point.measured.what.film_command(film(scene, point.method, "step", point.step)));
 }
 
@@ -51,8 +52,8 @@ html::Chart by_time(const SceneAccuracy& scene, const std::string& title, const 
                     html::Scale::logarithmic,
                     {},
                     {}};
-  for (const Method method : scene.options.methods) {
-    html::ChartSeries series = method_series(method_name(method));
+  for (const StepMethod method : scene.options.methods) {
+    html::ChartSeries series = method_series(step_method_name(method));
     for (const TolerancePoint& p : scene.points) {
       if (p.method != method) continue;
       const Quartiles time = p.measured.time();
@@ -86,8 +87,8 @@ template <class Across>
 html::Chart by_step(const SceneAccuracy& scene, const std::string& title, const std::string& x_title, Across across,
                     bool with_spread) {
   html::Chart chart{title, x_title, "error [m]", html::Scale::logarithmic, html::Scale::logarithmic, {}, {}};
-  for (const Method method : scene.options.methods) {
-    html::ChartSeries series = method_series(method_name(method));
+  for (const StepMethod method : scene.options.methods) {
+    html::ChartSeries series = method_series(step_method_name(method));
     for (const StepPoint& p : scene.steps) {
       if (p.method != method) continue;
       const Quartiles cost = cost_of_motion(p);
@@ -126,8 +127,8 @@ NamedChart apart_chart(const SceneAccuracy& scene) {
 
 std::string study_command(const SceneAccuracy& scene) {
   std::string methods;
-  for (const Method method : scene.options.methods)
-    methods.append(methods.empty() ? "" : ",").append(method_name(method));
+  for (const StepMethod method : scene.options.methods)
+    methods.append(methods.empty() ? "" : ",").append(step_method_name(method));
   return command_of(scene, methods, scene.options.tolerances, scene.options.steps);
 }
 

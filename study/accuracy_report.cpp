@@ -30,7 +30,7 @@ ResultTable tolerance_table(const SceneAccuracy& scene) {
       "motion. Times and iterations are means up to the last of the times compared.");
   for (const TolerancePoint& p : scene.points) {
     const Quartiles time = p.measured.time();
-    table.rows.push_back({method_name(p.method), plain_number(p.tolerance),
+    table.rows.push_back({step_method_name(p.method), plain_number(p.tolerance),
                           fmt::format("{:.2f}", p.measured.mean_iterations()), fmt::format("{}", p.measured.capped),
                           three_digits(time.median), three_digits(time.lower), three_digits(time.upper),
                           three_digits(quartiles(p.measured.setup).median), figure(p.solve.max), figure(p.solve.rms),
@@ -53,8 +53,8 @@ ResultTable step_table(const SceneAccuracy& scene) {
                    scene.step_reference, scene.step_gained, scene.step_apart)}};
   for (const StepPoint& p : scene.steps) {
     const Quartiles motion = cost_of_motion(p);
-    const bool iterates = p.method != Method::semi_implicit;
-    table.rows.push_back({method_name(p.method), plain_number(p.step),
+    const bool iterates = !is_explicit(p.method.method);
+    table.rows.push_back({step_method_name(p.method), plain_number(p.step),
                           iterates ? fmt::format("{:.2f}", p.measured.mean_iterations()) : "–",
                           three_digits(p.measured.time().median), three_digits(motion.median),
                           three_digits(motion.lower), three_digits(motion.upper), figure(p.error.max),
@@ -78,7 +78,7 @@ std::vector<Kind> kinds_of(const SceneAccuracy& scene) {
     }
   }
   for (const TolerancePoint& p : scene.points) {
-    Offer offer{method_name(p.method), fmt::format("ε = {:g} {}", p.tolerance, scene.tolerance_unit), p.solve.max,
+    Offer offer{step_method_name(p.method), fmt::format("ε = {:g} {}", p.tolerance, scene.tolerance_unit), p.solve.max,
                 p.measured.time()};
     kinds[0].offers.push_back(offer);
     for (std::size_t i = 0; i < p.motion.size(); ++i) {
@@ -89,7 +89,8 @@ std::vector<Kind> kinds_of(const SceneAccuracy& scene) {
   if (scene.steps.empty()) return kinds;
   Kind steps{fmt::format("of the time step at {:g} s", scene.options.times.front()), "ms per second of motion", {}};
   for (const StepPoint& p : scene.steps) {
-    steps.offers.push_back({method_name(p.method), fmt::format("h = {:g} s", p.step), p.error.max, cost_of_motion(p)});
+    steps.offers.push_back(
+        {step_method_name(p.method), fmt::format("h = {:g} s", p.step), p.error.max, cost_of_motion(p)});
   }
   kinds.push_back(std::move(steps));
   return kinds;
@@ -151,15 +152,16 @@ std::string describe_cheapest(const SceneAccuracy& scene) {
 /// "semi-implicit 0.99, implicit 0.87 (from h = 0.00125 s to 0.000625 s)"
 std::string describe_orders(const SceneAccuracy& scene) {
   std::string text, unknown;
-  for (const Method method : scene.options.methods) {
+  for (const StepMethod method : scene.options.methods) {
     const auto last = std::find_if(scene.steps.rbegin(), scene.steps.rend(),
                                    [method](const StepPoint& p) { return p.method == method; });
     if (last == scene.steps.rend() || !std::isfinite(last->order)) continue;
     if (last->error.max < scene.step_gained) {
-      unknown += fmt::format(" The errors of {} are smaller than what the reference is known to.", method_name(method));
+      unknown +=
+          fmt::format(" The errors of {} are smaller than what the reference is known to.", step_method_name(method));
       continue;
     }
-    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", method_name(method), last->order);
+    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", step_method_name(method), last->order);
   }
   return text.empty() ? text : text + ", each between its two smallest steps." + unknown;
 }

@@ -78,7 +78,7 @@ class MethodOnGrid {
     if (point_.method != "semi-implicit") {
       const System system = make_system(settings_);
       begin = thread_seconds();
-      const ConstantFactor factor(system, Precision::automatic);
+      const ConstantFactor factor(system, system.step, Precision::automatic);
       factor_.push_back(1e6 * (thread_seconds() - begin));
     }
     simulation_->restore(start_);

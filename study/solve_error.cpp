@@ -13,7 +13,7 @@ double first_gradient(const System& system, StepObjective& objective, const Stat
   const double time = static_cast<double>(state.step) * system.step;
   Vertices force = Vertices::Zero(state.x.rows(), 3), gradient = force;
   for (const auto& one : system.forces) one->add(state, time, force);
-  objective.begin(state, force);
+  objective.begin(state.x, state.v, force, system.time(state.step + 1));
   objective.evaluate(objective.y(), gradient);
   return gradient.norm();
 }
@@ -25,7 +25,7 @@ ExactSteps::ExactSteps(const SimulationSettings& settings, const std::vector<Sta
   Simulation newton(to_rounding(settings, Method::implicit));
   Simulation quasi_newton(to_rounding(settings, Method::quasi_newton));
   const System system = make_system(settings_);
-  StepObjective objective(system);
+  StepObjective objective(system, system.step);
   for (const State& state : states) {
     for (Simulation* simulation : {&newton, &quasi_newton}) {
       simulation->restore(state);

@@ -17,7 +17,6 @@
 namespace drape {
 namespace {
 
-constexpr std::array all_methods{Method::semi_implicit, Method::implicit, Method::liu13, Method::quasi_newton};
 constexpr int cells = 6;                  // along a side
 constexpr double spring_stiffness = 180;  // where the push is varied [N/m]
 constexpr double depth = 0.01;            // to which it lies in the ground [m]
@@ -51,7 +50,7 @@ std::vector<double> decades(double from, double to, int per_decade) {
   return values;
 }
 
-StabilityMap empty_map(Method method, StabilityAxis axis, const StabilityDetail& detail) {
+StabilityMap empty_map(StepMethod method, StabilityAxis axis, const StabilityDetail& detail) {
   StabilityMap map;
   map.method = method;
   map.axis = axis;
@@ -59,7 +58,7 @@ StabilityMap empty_map(Method method, StabilityAxis axis, const StabilityDetail&
   map.stiffnesses =
       axis == StabilityAxis::springs ? decades(1e-2, 1e9, detail.per_decade) : decades(1, 1e9, detail.per_decade);
   for (const double stiffness : map.stiffnesses) map.limits.push_back(stability_limit(method, axis, stiffness));
-  map.limit_name = method == Method::semi_implicit        ? "safe step"
+  map.limit_name = is_explicit(method.method)             ? "safe step"
                    : axis == StabilityAxis::explicit_push ? "step·√stiffness = 2"
                                                           : "condition 1e14";
   map.cells.resize(map.steps.size() * map.stiffnesses.size());
@@ -70,9 +69,11 @@ StabilityMap empty_map(Method method, StabilityAxis axis, const StabilityDetail&
 std::vector<StabilityBorder> measure_borders(std::size_t threads, const std::stop_token& stop, Progress& progress) {
   std::vector<StabilityBorder> borders;
   for (const double stiffness : {1e-2, 1.0, 1e2, 1e4, 1e6, 1e8}) {
-    borders.push_back({Method::semi_implicit, StabilityAxis::springs, stiffness});
+    for (const Method method : {Method::semi_implicit, Method::verlet}) {
+      borders.push_back({method, StabilityAxis::springs, stiffness});
+    }
   }
-  for (const Method method : all_methods) {
+  for (const StepMethod method : step_methods) {
     for (const double stiffness : {1e2, 1e4, 1e6, 1e8}) {
       borders.push_back({method, StabilityAxis::explicit_push, stiffness});
     }
@@ -92,14 +93,15 @@ const char* outcome_name(StabilityOutcome outcome) {
   return names[static_cast<std::size_t>(outcome)];
 }
 
-SimulationSettings stability_cloth(Method method, StabilityAxis axis, double step, double stiffness) {
+SimulationSettings stability_cloth(StepMethod method, StabilityAxis axis, double step, double stiffness) {
   const bool pushed = axis != StabilityAxis::springs;
   const Mesh mesh = make_grid(cells, cells);
   SimulationSettings settings;
   settings.cloth = make_cloth(mesh, mesh, 1, pushed ? spring_stiffness : stiffness,
                               pushed ? std::vector<int>{} : std::vector<int>{0, cells});
   settings.step = step;
-  settings.integrator.method = method;
+  settings.integrator.method = method.method;
+  settings.integrator.scheme = method.scheme;
   settings.integrator.allow_unstable = true;
   settings.integrator.tolerance = 1e-6;
   settings.effects = {Gravity{.acceleration = {0, 0, pushed ? -stiffness * depth : -9.8}}};
@@ -111,18 +113,18 @@ SimulationSettings stability_cloth(Method method, StabilityAxis axis, double ste
   return settings;
 }
 
-double stability_limit(Method method, StabilityAxis axis, double stiffness) {
+double stability_limit(StepMethod method, StabilityAxis axis, double stiffness) {
   const SimulationSettings settings = stability_cloth(method, axis, 1, stiffness);
   const System system = make_system(settings);
-  if (method == Method::semi_implicit) return safe_step(system);
+  if (is_explicit(method.method)) return safe_step(system);
   if (axis == StabilityAxis::explicit_push) return 2 / std::sqrt(stiffness);
   return std::sqrt(largest_condition / (condition_bound(system) - 1));
 }
 
-StabilityCell stability_cell(Method method, StabilityAxis axis, double step, double stiffness, int steps) {
+StabilityCell stability_cell(StepMethod method, StabilityAxis axis, double step, double stiffness, int steps) {
   const SimulationSettings settings = stability_cloth(method, axis, step, stiffness);
   StabilityCell cell{.step = step, .stiffness = stiffness};
-  if (method != Method::semi_implicit) cell.outcome = StabilityOutcome::converged;
+  if (!is_explicit(method.method)) cell.outcome = StabilityOutcome::converged;
   // What gravity and the push hold together.
   const auto potential = [&](const Energies& energies, const Vertices& x) {
     return energies.gravity + (axis == StabilityAxis::springs ? 0 : push_energy(settings.cloth, x, stiffness));
@@ -166,7 +168,7 @@ double stability_border(const std::function<bool(double factor)>& blows_up) {
   return stable;
 }
 
-StabilityBorder stability_border(Method method, StabilityAxis axis, double stiffness) {
+StabilityBorder stability_border(StepMethod method, StabilityAxis axis, double stiffness) {
   StabilityBorder border{method, axis, stiffness, stability_limit(method, axis, stiffness), 0};
   border.measured = border.predicted * stability_border([&](double factor) {
                       return stability_cell(method, axis, factor * border.predicted, stiffness, 2000).outcome ==
@@ -182,8 +184,8 @@ std::optional<StabilityStudy> study_stability(const StabilityDetail& detail, con
   study.detail = detail;
   for (const StabilityAxis axis :
        {StabilityAxis::springs, StabilityAxis::explicit_push, StabilityAxis::implicit_push}) {
-    for (const Method method : all_methods) {
-      if (method == Method::semi_implicit && axis == StabilityAxis::implicit_push) continue;
+    for (const StepMethod method : step_methods) {
+      if (is_explicit(method.method) && axis == StabilityAxis::implicit_push) continue;
       study.maps.push_back(empty_map(method, axis, detail));
     }
   }
@@ -202,6 +204,9 @@ std::optional<StabilityStudy> study_stability(const StabilityDetail& detail, con
   }
   study.borders = measure_borders(threads, stop, progress);
   if (stop.stop_requested()) return std::nullopt;
+  auto energies = measure_energies(stop, progress);
+  if (!energies) return std::nullopt;
+  study.energies = std::move(*energies);
   study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return study;
 }

@@ -8,12 +8,13 @@
 
 #include "run/progress.hpp"
 #include "sim/settings.hpp"
+#include "study/energy_over_time.hpp"
 
 namespace drape {
 
 /// What became of a cloth with one step length and one stiffness.
 enum class StabilityOutcome {
-  stable,         ///< semi-implicit Euler, which has nothing to converge
+  stable,         ///< of an explicit method, which has nothing to converge
   converged,      ///< every step met its stopping rule
   not_converged,  ///< it kept within its energy, but a step ended at its cap
   blown_up        ///< more energy than can be explained, or numbers that are not finite
@@ -36,7 +37,7 @@ enum class StabilityAxis { springs, explicit_push, implicit_push };
 
 /// A method over step lengths and stiffnesses, ascending; the cells row by row, the steps of a row together.
 struct StabilityMap {
-  Method method = Method::semi_implicit;
+  StepMethod method = Method::semi_implicit;
   StabilityAxis axis = StabilityAxis::springs;
   std::vector<double> steps, stiffnesses;
   std::vector<StabilityCell> cells;
@@ -46,7 +47,7 @@ struct StabilityMap {
 
 /// Where a method really becomes unstable, beside the step that was predicted.
 struct StabilityBorder {
-  Method method = Method::semi_implicit;
+  StepMethod method = Method::semi_implicit;
   StabilityAxis axis = StabilityAxis::springs;
   double stiffness = 0;  ///< what the axis says
   double predicted = 0;  ///< stability_limit() [s]
@@ -63,6 +64,7 @@ struct StabilityStudy {
   StabilityDetail detail;
   std::vector<StabilityMap> maps;
   std::vector<StabilityBorder> borders;
+  std::vector<EnergyCurve> energies;
   double seconds = 0;
 };
 
@@ -70,23 +72,24 @@ struct StabilityStudy {
 /// under gravity. Where it is that of a push, its springs have 180 N/m and it lies in a level ground, 1 cm deep under
 /// an acceleration that the push just carries there, and swings 0.1 mm to and fro: so the push acts on every vertex all
 /// the time, as long as the motion is stable, and step·√stiffness is all that matters.
-SimulationSettings stability_cloth(Method method, StabilityAxis axis, double step, double stiffness);
+SimulationSettings stability_cloth(StepMethod method, StabilityAxis axis, double step, double stiffness);
 
-/// The largest step that is predicted to be possible: safe_step() for semi-implicit Euler, 2/√stiffness for an explicit
-/// push with the other methods, and else what condition_bound() allows [s].
-double stability_limit(Method method, StabilityAxis axis, double stiffness);
+/// The largest step that is predicted to be possible: safe_step() for the explicit methods, 2/√stiffness for an
+/// explicit push with the other methods, and else what condition_bound() allows [s].
+double stability_limit(StepMethod method, StabilityAxis axis, double stiffness);
 
 /// Runs that cloth and says what became of it.
-StabilityCell stability_cell(Method method, StabilityAxis axis, double step, double stiffness, int steps);
+StabilityCell stability_cell(StepMethod method, StabilityAxis axis, double step, double stiffness, int steps);
 
 /// The largest factor between 0.9 and 1.5 with which there is no blow-up, by bisection to 0.002. If there is none
 /// at 1.5 either, it is that.
 double stability_border(const std::function<bool(double factor)>& blows_up);
 /// The border of a map at a stiffness.
-StabilityBorder stability_border(Method method, StabilityAxis axis, double stiffness);
+StabilityBorder stability_border(StepMethod method, StabilityAxis axis, double stiffness);
 
 /// Draws a map for every method over h and k, and over h and the stiffness of a ground's push, explicit and, for the
-/// implicit methods, implicit; and measures the border of every map that has one.
+/// implicit methods, implicit; measures the border of every map that has one, and what becomes of
+/// the energy over time.
 /// @returns nothing if it was stopped
 std::optional<StabilityStudy> study_stability(const StabilityDetail& detail, const std::stop_token& stop,
                                               Progress& progress);

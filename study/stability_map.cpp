@@ -147,20 +147,20 @@ std::vector<html::LegendEntry> cell_entries() {
 }  // namespace
 
 std::string map_title(const StabilityMap& map) {
-  return fmt::format("{}: {}", method_name(map.method), axes_title(map.axis));
+  return fmt::format("{}: {}", step_method_name(map.method), axes_title(map.axis));
 }
 
 std::string map_name(const StabilityMap& map) {
   constexpr const char* axes[] = {"springs", "explicit-push", "implicit-push"};
-  return fmt::format("{}-{}", method_name(map.method), axes[static_cast<std::size_t>(map.axis)]);
+  return fmt::format("{}-{}", step_method_name(map.method), axes[static_cast<std::size_t>(map.axis)]);
 }
 
 html::Diagram map_diagram(const StabilityMap& map) {
   const std::size_t columns = map.steps.size();
   const double below = top + cell_height * static_cast<double>(map.stiffnesses.size());
   html::Diagram diagram;
-  diagram.title = fmt::format("{}: energy error, relative to the energy exchanged, by {}.", method_name(map.method),
-                              axes_title(map.axis));
+  diagram.title = fmt::format("{}: energy error, relative to the energy exchanged, by {}.",
+                              step_method_name(map.method), axes_title(map.axis));
   diagram.y_title = stiffness_title(map.axis);
   diagram.legend = cell_entries();
   if (is_limited(map)) diagram.legend.push_back({"", limit_line("M-12 0H12"), map.limit_name});

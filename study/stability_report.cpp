@@ -30,12 +30,12 @@ ResultTable border_table(const std::vector<StabilityBorder>& borders) {
       .title = "Where a method becomes unstable",
       .columns = {"method", "what is stiff", "stiffness", "predicted [s]", "measured [s]", "measured/predicted"},
       .rows = {},
-      .notes = {"Predicted: for semi-implicit Euler 2/√λ of the stiffest that springs and pushes can be together in "
+      .notes = {"Predicted: for the explicit methods 2/√λ of the stiffest that springs and pushes can be together in "
                 "any state, and else 2/√stiffness of the push. Measured: the longest step with which 2000 steps do not "
                 "blow up."}};
   for (const StabilityBorder& b : borders) {
     const bool springs = b.axis == StabilityAxis::springs;
-    table.rows.push_back({method_name(b.method), springs ? "springs" : "explicit push",
+    table.rows.push_back({step_method_name(b.method), springs ? "springs" : "explicit push",
                           fmt::format("{:g} {}", b.stiffness, springs ? "N/m" : "1/s²"),
                           fmt::format("{:.4g}", b.predicted), fmt::format("{:.4g}", b.measured),
                           fmt::format("{:.3f}", ratio(b))});
@@ -81,9 +81,10 @@ StudyReport stability_report(const StabilityStudy& study) {
       "carries there, and swings 0.1 mm to and fro.";
   report.sections = {
       section(study, StabilityAxis::springs, "Springs", hangs),
-      section(study, StabilityAxis::explicit_push, "A push that is evaluated at the start of a step", lies),
+      section(study, StabilityAxis::explicit_push, "A push that is evaluated once in a step", lies),
       section(study, StabilityAxis::implicit_push, "A push that is part of what a step solves", lies),
-      {"The borders", {}, {border_table(study.borders)}, {}, {}}};
+      {"The borders", {}, {border_table(study.borders)}, {}, {}},
+      {"The energy over time", {describe_energies(study.energies)}, {}, {energy_chart(study.energies)}, {}}};
   report.seconds = study.seconds;
   return report;
 }

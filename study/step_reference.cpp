@@ -10,6 +10,7 @@ namespace drape {
 std::optional<StepReference> extrapolate_step(SimulationSettings settings, double time, std::int64_t steps,
                                               const std::stop_token& stop, Progress& progress) {
   const std::int64_t half = steps / 2;
+  settings.integrator.scheme = TimeScheme::sdirk2;
   settings.step = time / static_cast<double>(half);
   const auto coarse = run_reference(settings, half, {half}, stop, progress);
   if (!coarse) return std::nullopt;
@@ -20,7 +21,7 @@ std::optional<StepReference> extrapolate_step(SimulationSettings settings, doubl
   run_steps(fine, steps, std::array<StepObserver*, 1>{&counter}, stop);
   if (stop.stop_requested()) return std::nullopt;
   StepReference reference;
-  reference.x = 2 * fine.state().x - coarse->states.front().x;
+  reference.x = (4 * fine.state().x - coarse->states.front().x) / 3;
   reference.step = settings.step;
   reference.gained = distance(fine.state().x, reference.x).max;
   reference.apart = coarse->apart_after(half);

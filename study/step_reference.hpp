@@ -11,7 +11,7 @@ namespace drape {
 
 /// Where the cloth would be at a time if steps had no length.
 struct StepReference {
-  Vertices x;         ///< 2·x(h) − x(2h), in which the error of first order is gone (Richardson's extrapolation) [m]
+  Vertices x;  ///< (4·x(h) − x(2h))/3, in which SDIRK2's error of second order is gone (Richardson's extrapolation) [m]
   double step = 0;    ///< h [s]
   double gained = 0;  ///< how far x(h) is from that: far more than what its own error is [m]
   double apart = 0;   ///< how far Newton's and quasi-Newton's x(2h) are apart [m]

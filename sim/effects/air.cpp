@@ -37,6 +37,8 @@ class AirForce final : public Force {
     slip_.resize(cloth.vertex_count(), 3);
   }
 
+  [[nodiscard]] bool of_velocity() const override { return true; }
+
   void add(const State& state, double time, Vertices& force) const override {
     for (Eigen::Index i = 0; i < slip_.rows(); ++i) {
       Eigen::Vector3d wind = values_.velocity;

@@ -24,11 +24,11 @@ void describe_contact(Keys& keys, double& stiffness, Response& response, double&
 
 void ContactLaw::check(const SimulationSettings& settings, const ProblemSink& problem) const {
   if (response == Response::implicit_energy) {
-    if (settings.integrator.method == Method::semi_implicit) {
-      problem(
-          "response",
-          "semi-implicit Euler evaluates every force at the start of a step and solves for nothing, so the push can "
-          "only be \"explicit\" with it; the other methods take \"implicit\" too");
+    if (is_explicit(settings.integrator.method)) {
+      problem("response",
+              fmt::format("{} evaluates every force once in a step and solves for nothing, so the push can only be "
+                          "\"explicit\" with it; the implicit methods take \"implicit\" too",
+                          explicit_title(settings.integrator.method)));
     }
     return;
   }

@@ -32,14 +32,22 @@ struct ContactLaw {
 void describe_contact(Keys& keys, double& stiffness, Response& response, double& friction,
                       std::optional<double>& restitution, const std::string& without_restitution);
 
+/// Whether a vertex arrives in this step at a surface from which it bounces: then it is the impact that stops it, and
+/// not the push.
+inline bool arrives(const std::shared_ptr<const StepStart>& start, Eigen::Index i) {
+  return start && start->was_outside(static_cast<int>(i));
+}
+
 /// The push as a force, a = stiffness·(−gap) outwards; where no direction leads outwards there is none.
 template <class Surface>
 struct PenaltyForce final : Force {
   Surface surface;
   double stiffness;
   const Eigen::VectorXd& masses;
+  std::shared_ptr<const StepStart> start;  // null without restitution
 
-  PenaltyForce(Surface s, double k, const Eigen::VectorXd& m) : surface(std::move(s)), stiffness(k), masses(m) {}
+  PenaltyForce(Surface s, double k, const Eigen::VectorXd& m, std::shared_ptr<const StepStart> begin)
+      : surface(std::move(s)), stiffness(k), masses(m), start(std::move(begin)) {}
 
   [[nodiscard]] double stiffness_bound() const override { return stiffness; }
 
@@ -47,7 +55,7 @@ struct PenaltyForce final : Force {
     const auto now = surface.at(time);
     SurfaceContact contact;
     for (Eigen::Index i = 0; i < state.x.rows(); ++i) {
-      if (!now.find(state.x.row(i).transpose(), contact)) continue;
+      if (!now.find(state.x.row(i).transpose(), contact) || arrives(start, i)) continue;
       const double pressure = -masses[i] * stiffness * contact.gap / contact.length;
       force.row(i) += pressure * contact.outward.transpose();
     }
@@ -71,7 +79,7 @@ struct PenaltyEnergy final : Energy {
     double total = 0;
     SurfaceContact contact;
     for (Eigen::Index i = 0; i < x.rows(); ++i) {
-      if (!now.find(x.row(i).transpose(), contact) || arrives(i)) continue;
+      if (!now.find(x.row(i).transpose(), contact) || arrives(start, i)) continue;
       const double pressure = -masses[i] * stiffness * contact.gap;
       gradient.row(i) -= pressure * contact.normal().transpose();
       total -= 0.5 * pressure * contact.gap;
@@ -82,8 +90,9 @@ struct PenaltyEnergy final : Energy {
   void add_bound(StiffnessBound& bound) const override { bound.vertices += stiffness * masses; }
   [[nodiscard]] std::unique_ptr<EnergyHessian> make_hessian() const override;
   [[nodiscard]] bool internal() const override { return false; }
-
-  [[nodiscard]] bool arrives(Eigen::Index i) const { return start && start->was_outside(static_cast<int>(i)); }
+  [[nodiscard]] Eigen::Vector3d displacement(double from, double to) const override {
+    return surface.displacement(from, to);
+  }
 };
 
 /// Of the energy's Hessian m·stiffness·(nnᵀ + gap·∇n) the first term, which is positive; the second is negative where
@@ -100,7 +109,7 @@ class PenaltyHessian final : public EnergyHessian {
     const auto now = energy_.surface.at(time);
     SurfaceContact contact;
     for (Eigen::Index i = 0; i < x.rows(); ++i) {
-      if (!now.find(x.row(i).transpose(), contact) || energy_.arrives(i)) continue;
+      if (!now.find(x.row(i).transpose(), contact) || arrives(energy_.start, i)) continue;
       const Eigen::Vector3d n = contact.normal();
       const double k = energy_.masses[i] * energy_.stiffness;
       contacts_.push_back({i,
@@ -220,7 +229,7 @@ void install_contact(const Surface& surface, const ContactLaw& law, System& syst
   if (law.response == Response::implicit_energy) {
     system.energies.push_back(std::make_unique<PenaltyEnergy<Surface>>(surface, law.stiffness, masses, start));
   } else {
-    system.forces.push_back(std::make_unique<PenaltyForce<Surface>>(surface, law.stiffness, masses));
+    system.forces.push_back(std::make_unique<PenaltyForce<Surface>>(surface, law.stiffness, masses, start));
   }
   if (law.friction > 0 || law.restitution) {
     system.filters.push_back(

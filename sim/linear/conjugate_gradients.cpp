@@ -17,7 +17,9 @@ ConjugateGradients::ConjugateGradients(const System& system, const StepObjective
                                        ConstantFactor* preconditioner)
     : system_(system),
       objective_(objective),
-      own_(preconditioner == nullptr ? std::make_unique<ConstantFactor>(system, Precision::automatic) : nullptr),
+      own_(preconditioner == nullptr
+               ? std::make_unique<ConstantFactor>(system, objective.duration(), Precision::automatic)
+               : nullptr),
       preconditioner_(preconditioner == nullptr ? *own_ : *preconditioner),
       residual_(Vertices::Zero(system.cloth.vertex_count(), 3)),
       preconditioned_(residual_),

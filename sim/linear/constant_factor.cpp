@@ -19,7 +19,7 @@ struct Matrix {
   std::vector<double> values;
 };
 
-Matrix assemble(const System& system, const FreeVertices& free) {
+Matrix assemble(const System& system, double duration, const FreeVertices& free) {
   const auto [springs, vertices] = system.stiffness_bound();
   Matrix matrix{.pattern = spring_pattern(springs, free), .values = {}};
   matrix.values.assign(static_cast<std::size_t>(matrix.pattern.entries()), 0.0);
@@ -29,7 +29,7 @@ Matrix assemble(const System& system, const FreeVertices& free) {
     const auto end = rows.begin() + starts[static_cast<std::size_t>(column) + 1];
     return matrix.values[static_cast<std::size_t>(std::lower_bound(begin, end, row) - rows.begin())];
   };
-  const Eigen::VectorXd diagonal = system.inertia() + vertices;
+  const Eigen::VectorXd diagonal = system.inertia(duration) + vertices;
   for (int f = 0; f < free.count(); ++f) at(f, f) = diagonal[free.vertex(f)];
   for (const Spring& spring : springs) {
     const int i = free.number(spring.i), j = free.number(spring.j);
@@ -60,12 +60,13 @@ struct Substitution<double> {
 
 }  // namespace
 
-ConstantFactor::ConstantFactor(const System& system, Precision precision) : vertex_count_(system.cloth.vertex_count()) {
+ConstantFactor::ConstantFactor(const System& system, double duration, Precision precision)
+    : vertex_count_(system.cloth.vertex_count()) {
   const FreeVertices free(system.cloth);
   row_count_ = free.count();
   row_.assign(static_cast<std::size_t>(vertex_count_), row_count_);
   if (row_count_ == 0) return;
-  const Matrix matrix = assemble(system, free);
+  const Matrix matrix = assemble(system, duration, free);
   SparseCholesky factor(matrix.pattern, FactorKind::simplicial, false,
                         tolerated_zeros * (sizeof(double) + sizeof(float)));
   if (!factor.factorize(matrix.values.data())) {

@@ -21,8 +21,9 @@ enum class Precision { automatic, single_precision, double_precision };
 /// side in one pass over it.
 class ConstantFactor {
  public:
+  /// @param duration of an implicit step, h [s]
   /// @param precision automatic: single, unless solving two test vectors shows that it loses more than a thousandth
-  ConstantFactor(const System& system, Precision precision);
+  ConstantFactor(const System& system, double duration, Precision precision);
 
   /// x = A⁻¹ b for n×3 numbers; rows of pins are ignored in b and zero in x. Allocates nothing. [N] → [m]
   void solve(const Vertices& b, Vertices& x);

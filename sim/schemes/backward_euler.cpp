@@ -4,15 +4,16 @@ namespace drape {
 
 BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver)
     : system_(system),
-      objective_(system),
+      objective_(system, system.step),
       solver_(make_solver(objective_)),
       books_(system, objective_, solver_->accuracy()),
       point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
       free_(is_free(system)) {}
 
-StepReport BackwardEuler::advance(State& state, const Vertices& force) {
+StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   system_.begin(state);
-  objective_.begin(state, force);
+  const Vertices& force = forces.all(state, system_.time(state.step));
+  objective_.begin(state.x, state.v, force, system_.time(state.step + 1));
   books_.begin(state, point_.x);
   point_.x = objective_.y();
   point_.value = objective_.evaluate(point_.x, point_.gradient);
@@ -23,20 +24,12 @@ StepReport BackwardEuler::advance(State& state, const Vertices& force) {
     report.kept = books_.shed(point_);
     report.converged = false;
   }
-  if (free_) balance_momentum();
+  if (free_) balance_momentum(system_.cloth, objective_, point_);
   books_.end(point_);
   state.v = (point_.x - state.x) / system_.step;
   system_.move(state, &point_.x);
   system_.correct(state);
   return report;
-}
-
-void BackwardEuler::balance_momentum() {
-  const Eigen::RowVector3d shift = mean(system_.cloth, objective_.y()) - mean(system_.cloth, point_.x);
-  const double inertial = objective_.inertial_value(point_.x);
-  point_.x.rowwise() += shift;
-  point_.value += objective_.inertial_value(point_.x) - inertial;  // what it solves for is the same everywhere
-  point_.gradient += objective_.inertia() * shift;
 }
 
 }  // namespace drape

@@ -12,25 +12,20 @@ namespace drape {
 /// Backward (implicit) Euler as a minimisation: x' = argmin g, v' = (x' − x)/h, then the corrections. It gains no
 /// energy but what EnergyBooks tolerates.
 ///
-/// A cloth that nothing holds has Σ∇g = Σ m(x' − y)/h², since what it solves for pulls with opposite forces. Every
-/// exact solve makes that zero; what the rounding of a factor leaves of it is taken out by a translation, which keeps
-/// the momentum to rounding.
+/// Of a cloth that nothing holds every solve ends with balance_momentum().
 class BackwardEuler final : public Scheme {
  public:
   using MakeSolver = std::function<std::unique_ptr<Minimiser>(const StepObjective& objective)>;
 
   BackwardEuler(const System& system, const MakeSolver& make_solver);
 
-  StepReport advance(State& state, const Vertices& force) override;
+  StepReport advance(State& state, StepForces& forces) override;
   [[nodiscard]] double residual() override { return norm(point_.gradient); }
   [[nodiscard]] double error() override { return solver_->error(point_); }
   [[nodiscard]] double unbalanced() override { return point_.gradient.rowwise().norm().sum(); }
   [[nodiscard]] std::optional<Accuracy> accuracy() const override { return solver_->accuracy(); }
 
  private:
-  /// Moves the cloth as a whole to where Σ∇g = 0.
-  void balance_momentum();
-
   const System& system_;
   StepObjective objective_;
   std::unique_ptr<Minimiser> solver_;

@@ -28,6 +28,14 @@ Eigen::RowVector3d mean(const Cloth& cloth, const Vertices& v) {
 
 bool is_free(const System& system) { return system.cloth.pins.empty() && system.all_internal(); }
 
+void balance_momentum(const Cloth& cloth, const StepObjective& objective, Point& point) {
+  const Eigen::RowVector3d shift = mean(cloth, objective.y()) - mean(cloth, point.x);
+  const double inertial = objective.inertial_value(point.x);
+  point.x.rowwise() += shift;
+  point.value += objective.inertial_value(point.x) - inertial;  // what it solves for is the same everywhere
+  point.gradient += objective.inertia() * shift;
+}
+
 EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, const Accuracy& accuracy)
     : system_(system),
       objective_(objective),
@@ -57,7 +65,7 @@ bool EnergyBooks::gains(const Point& point, bool tolerant) {
   if (!too_much()) return false;
   if (start_exact_) return true;
   start_.x = state_->x;
-  system_.place_pins(*state_, start_.x);
+  system_.place_pins(system_.time(state_->step + 1), start_.x);
   start_.value = objective_.evaluate(start_.x, start_.gradient);
   start_exact_ = true;
   return too_much();

@@ -65,4 +65,9 @@ Eigen::RowVector3d mean(const Cloth& cloth, const Vertices& v);
 /// Whether nothing holds the cloth and nothing that it is solved with pushes it.
 bool is_free(const System& system);
 
+/// Moves a cloth that nothing holds as a whole to where Σ∇g = 0. There Σ∇g = Σ m(x' − y)/h², since what it solves for
+/// pulls with opposite forces. Every exact solve makes that zero; what the rounding of a factor leaves of it is taken
+/// out by a translation, which keeps the momentum to rounding.
+void balance_momentum(const Cloth& cloth, const StepObjective& objective, Point& point);
+
 }  // namespace drape

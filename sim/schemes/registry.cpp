@@ -5,7 +5,10 @@
 #include "sim/schemes/backward_euler.hpp"
 #include "sim/schemes/condition_guard.hpp"
 #include "sim/schemes/safe_step_guard.hpp"
+#include "sim/schemes/sdirk2.hpp"
+#include "sim/schemes/sdirk2_guard.hpp"
 #include "sim/schemes/semi_implicit_euler.hpp"
+#include "sim/schemes/verlet.hpp"
 #include "sim/solvers/local_global.hpp"
 #include "sim/solvers/newton.hpp"
 #include "sim/solvers/quasi_newton.hpp"
@@ -13,26 +16,35 @@
 namespace drape {
 namespace {
 
-std::unique_ptr<Scheme> make_semi_implicit(const IntegratorSettings& /*settings*/, const System& system) {
-  return std::make_unique<SemiImplicitEuler>(system);
+template <class Explicit>
+std::unique_ptr<Scheme> make_explicit(const IntegratorSettings& /*settings*/, const System& system) {
+  return std::make_unique<Explicit>(system);
 }
 
 template <class Solver>
-std::unique_ptr<Scheme> make_backward_euler(const IntegratorSettings& settings, const System& system) {
-  return std::make_unique<BackwardEuler>(
-      system, [&](const StepObjective& objective) { return std::make_unique<Solver>(system, objective, settings); });
+std::unique_ptr<Scheme> make_implicit(const IntegratorSettings& settings, const System& system) {
+  const auto make_solver = [&](const StepObjective& objective) {
+    return std::make_unique<Solver>(system, objective, settings);
+  };
+  if (settings.scheme == TimeScheme::sdirk2) return std::make_unique<Sdirk2>(system, make_solver);
+  return std::make_unique<BackwardEuler>(system, make_solver);
 }
 
-template <class Guard>
-std::unique_ptr<StabilityGuard> make_guard(const System& system) {
-  return std::make_unique<Guard>(system);
+std::unique_ptr<StabilityGuard> make_safe_step_guard(const IntegratorSettings& settings, const System& system) {
+  return std::make_unique<SafeStepGuard>(explicit_title(settings.method), system);
+}
+
+std::unique_ptr<StabilityGuard> make_implicit_guard(const IntegratorSettings& settings, const System& system) {
+  if (settings.scheme == TimeScheme::sdirk2) return std::make_unique<Sdirk2Guard>(system);
+  return std::make_unique<ConditionGuard>(system);
 }
 
 constexpr std::array methods{
-    MethodType{Method::semi_implicit, false, make_semi_implicit, make_guard<SafeStepGuard>},
-    MethodType{Method::implicit, true, make_backward_euler<Newton>, make_guard<ConditionGuard>},
-    MethodType{Method::liu13, true, make_backward_euler<LocalGlobal>, make_guard<ConditionGuard>},
-    MethodType{Method::quasi_newton, true, make_backward_euler<QuasiNewton>, make_guard<ConditionGuard>},
+    MethodType{Method::semi_implicit, make_explicit<SemiImplicitEuler>, make_safe_step_guard},
+    MethodType{Method::implicit, make_implicit<Newton>, make_implicit_guard},
+    MethodType{Method::liu13, make_implicit<LocalGlobal>, make_implicit_guard},
+    MethodType{Method::quasi_newton, make_implicit<QuasiNewton>, make_implicit_guard},
+    MethodType{Method::verlet, make_explicit<Verlet>, make_safe_step_guard},
 };
 static_assert(methods.size() == method_names.size());
 
@@ -41,7 +53,7 @@ static_assert(methods.size() == method_names.size());
 const MethodType& method_type(Method method) { return methods.at(static_cast<std::size_t>(method)); }
 
 std::optional<std::string> stability_problem(const SimulationSettings& settings, const System& system) {
-  return method_type(settings.integrator.method).make_guard(system)->problem();
+  return method_type(settings.integrator.method).make_guard(settings.integrator, system)->problem();
 }
 
 }  // namespace drape

@@ -13,11 +13,10 @@ namespace drape {
 /// What a method is made of.
 struct MethodType {
   Method method;
-  bool iterates;  ///< whether a step is minimised: it has a stopping rule, iterations and a residual
   /// Refers to the system. @throws UsageError if something acts in it that the scheme cannot evaluate, or a matrix
   /// would not fit into memory or cannot be factored to working precision
   std::unique_ptr<Scheme> (*make)(const IntegratorSettings& settings, const System& system);
-  std::unique_ptr<StabilityGuard> (*make_guard)(const System& system);
+  std::unique_ptr<StabilityGuard> (*make_guard)(const IntegratorSettings& settings, const System& system);
 };
 
 /// The only list of what each method is.

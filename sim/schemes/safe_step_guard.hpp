@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "sim/blow_up.hpp"
 #include "sim/schemes/stability_guard.hpp"
 
@@ -9,7 +11,8 @@ namespace drape {
 class SafeStepGuard final : public StabilityGuard {
  public:
   /// Finds the safe step, which takes a while for a large cloth.
-  explicit SafeStepGuard(const System& system);
+  /// @param scheme what it is called in a sentence
+  SafeStepGuard(std::string_view scheme, const System& system);
 
   [[nodiscard]] std::optional<std::string> problem() const override;
   void begin(const State& state, const EnergyNow& energy) override;
@@ -17,10 +20,9 @@ class SafeStepGuard final : public StabilityGuard {
   [[nodiscard]] std::string remedy() const override;
 
  private:
+  std::string_view scheme_;
   double step_, safe_step_;           // [s]
   std::optional<BlowUpWatch> watch_;  // where it makes sense to keep the books
-  Vertices looked_at_;                // where the cloth was when it last looked
-  double work_ = 0;                   // since then [J]
 };
 
 }  // namespace drape

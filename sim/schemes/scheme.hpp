@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "sim/solvers/accuracy.hpp"
+#include "sim/step_forces.hpp"
 #include "sim/step_report.hpp"
 #include "sim/system.hpp"
 
@@ -13,9 +14,9 @@ class Scheme {
  public:
   virtual ~Scheme() = default;
 
-  /// Moves x and v to the end of the step; leaves state.step to the caller.
-  /// @param force the sum of the system's forces at the start of the step, n×3 [N]
-  virtual StepReport advance(State& state, const Vertices& force) = 0;
+  /// Moves x and v to the end of the step; leaves state.step to the caller. The result depends on the state alone.
+  /// @param forces of the system
+  virtual StepReport advance(State& state, StepForces& forces) = 0;
 
   /// ‖∇g‖ [N] where the last step ended: the 2-norm of the forces left out of balance on all unknowns together.
   /// Zero for a method that minimises nothing. Not counted in the step: it is evaluated when asked for.

@@ -10,12 +10,9 @@ class SemiImplicitEuler final : public Scheme {
  public:
   /// @throws UsageError if the system has energies that are solved for
   explicit SemiImplicitEuler(const System& system);
-  StepReport advance(State& state, const Vertices& force) override;
+  StepReport advance(State& state, StepForces& forces) override;
 
  private:
-  /// `force` with that of the energies [N].
-  const Vertices& with_energies(const State& state, const Vertices& force);
-
   const System& system_;
   SpringNetwork springs_;
   Eigen::VectorXd pull_;  // −h/m of each vertex, 0 on pins [s/kg]

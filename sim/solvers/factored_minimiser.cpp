@@ -6,7 +6,7 @@ FactoredMinimiser::FactoredMinimiser(const System& system, const StepObjective& 
                                      const IntegratorSettings& settings, int default_max_iterations)
     : Minimiser(system, objective, settings, default_max_iterations),
       system_(system),
-      factor_(system, Precision::automatic) {}
+      factor_(system, objective.duration(), Precision::automatic) {}
 
 void FactoredMinimiser::find_newton_step(const Point& point, Vertices& direction) {
   if (!newton_) newton_ = std::make_unique<ConjugateGradients>(system_, objective(), &factor_);

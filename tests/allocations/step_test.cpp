@@ -86,7 +86,7 @@ SimulationSettings falling(Solver solver) {
 /// Every effect there is, spheres and pins that move included.
 SimulationSettings eventful(Solver solver) {
   SimulationSettings settings = falling(solver);
-  const bool implicit = solver.method != Method::semi_implicit;
+  const bool implicit = !solver.is_explicit();
   const Response response = implicit ? Response::implicit_energy : Response::explicit_force;
   settings.effects = {
       Gravity{},

@@ -27,7 +27,7 @@ inline std::vector<ContactCase> contact_cases() {
   std::vector<ContactCase> all;
   for (const NamedMethod& method : all_methods) {
     all.push_back({method, Response::explicit_force});
-    if (method.method != Method::semi_implicit) all.push_back({method, Response::implicit_energy});
+    if (!method.is_explicit()) all.push_back({method, Response::implicit_energy});
   }
   return all;
 }

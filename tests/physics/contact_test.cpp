@@ -67,8 +67,10 @@ TEST_P(Contact, BeyondTheFrictionConeItSlides) {
   for (int step = 0; step < 100; ++step) simulation.step();
   const double sine = tangent / std::hypot(1, tangent), cosine = 1 / std::hypot(1, tangent);
   const double speed = g * (sine - friction * cosine);  // after one second
-  EXPECT_NEAR((simulation.state().v.row(0) * down_along(tangent)).value(), speed, 1e-9);
-  EXPECT_NEAR(simulation.state().v.row(0).norm(), speed, 1e-9);
+  // Friction holds a vertex for the first step of a second-order scheme, on whose way it has half of its acceleration.
+  const double held = GetParam().method.second_order() ? g * sine * 0.01 / 2 : 1e-9;
+  EXPECT_NEAR((simulation.state().v.row(0) * down_along(tangent)).value(), speed, held);
+  EXPECT_NEAR(simulation.state().v.row(0).norm(), speed, held);
 }
 
 TEST_P(Contact, ASlidingVertexIsStoppedAndNotTurnedBack) {
@@ -137,17 +139,19 @@ TEST_P(Contact, AMovingSphereCarriesAlongWhatLiesOnIt) {
   EXPECT_NEAR(slippery.state().v(0, 0), 0, 1e-3);
 }
 
-// An explicit push is that of the start of a step, an implicit one that of its end.
+// An explicit push is that of the start of a step, or of its middle with a scheme of second order, an implicit one that
+// of its end.
 TEST_P(Contact, AMovingSpherePushesFromWhereItIsAtItsTime) {
   SimulationSettings s = settings(loose(RowVector3d(0, 0, 0)), 0.01);
+  const bool at_end = GetParam().response == Response::implicit_energy;
+  const double then = GetParam().method.second_order() && !at_end ? 0.015 : 0.01;
   s.effects = {Sphere{.radius = 0.5,
                       .scale = 1,
                       .stiffness = stiffness,
                       .response = GetParam().response,
-                      .keyframes = {{0, {5, 0, 0}}, {0.01, {-0.45, 0, 0}}, {0.02, {5, 0, 0}}}}};
+                      .keyframes = {{then - 0.004, {-5, 0, 0}}, {then, {-0.45, 0, 0}}, {then + 0.004, {-5, 0, 0}}}}};
   Simulation simulation(s);
   simulation.step();
-  const bool at_end = GetParam().response == Response::implicit_energy;
   EXPECT_EQ(simulation.state().v(0, 0) > 0.1, at_end);
   simulation.step();
   EXPECT_GT(simulation.state().v(0, 0), 0.1);

@@ -53,10 +53,12 @@ TEST_P(FreeMotion, FallsAsTheSumOfItsStepsSays) {
   Simulation simulation(settings);
   for (int step = 0; step < steps; ++step) simulation.step();
 
-  // v = n h a and x = x₀ + (1 + … + n) h² a, in both schemes. Each step rounds x, of about 1 m, once, and the implicit
-  // methods find v as a difference of such numbers: an error that later steps carry on.
+  // v = n h a, and x = x₀ + (1 + … + n) h² a in both schemes of Euler's and x₀ + n² h²/2 a in the others. Each step
+  // rounds x, of about 1 m, once, and the implicit methods find v as a difference of such numbers: an error that later
+  // steps carry on.
   const double rounding = 4 * steps * steps * std::numeric_limits<double>::epsilon();
-  const Vertices fallen = settings.cloth.positions.rowwise() + h * h * steps * (steps + 1) / 2 * acceleration;
+  const int more = GetParam().second_order() ? 0 : 1;
+  const Vertices fallen = settings.cloth.positions.rowwise() + h * h * steps * (steps + more) / 2 * acceleration;
   EXPECT_LT((simulation.state().x - fallen).cwiseAbs().maxCoeff(), rounding);
   const Eigen::RowVector3d velocity = steps * h * acceleration;
   EXPECT_LT((simulation.state().v.rowwise() - velocity).cwiseAbs().maxCoeff(), rounding / h);
@@ -66,7 +68,7 @@ TEST_P(FreeMotion, KeepsItsMomentum) {
   constexpr int steps = 50;
   constexpr double h = 0.02, k = 180, tolerance = 1e-3;
   SimulationSettings settings = setup(moving_cloth(k), GetParam(), h);
-  if (GetParam().method == Method::semi_implicit) settings.step = 0.001;
+  if (GetParam().is_explicit()) settings.step = 0.001;
   settings.integrator.tolerance = tolerance;
   const Cloth& cloth = settings.cloth;
   Simulation simulation(settings);
@@ -80,7 +82,7 @@ TEST_P(FreeMotion, KeepsItsMomentum) {
   // the factor, and the last change is at most as long as the tolerance, so that Σ m‖Δ‖ ≤ max(m) √n · tolerance.
   const double exact_sums = 100 * steps * std::numeric_limits<double>::epsilon();
   double solves = 0;
-  if (GetParam().method != Method::semi_implicit) {
+  if (!GetParam().is_explicit()) {
     constexpr double unit_roundoff = 0x1p-24;  // factors are in single precision
     constexpr int most_neighbours = 8;
     const double condition = 1 + 2 * most_neighbours * k * h * h / cloth.masses.minCoeff();
@@ -90,10 +92,14 @@ TEST_P(FreeMotion, KeepsItsMomentum) {
   EXPECT_LT((after - before).norm(), exact_sums + solves);
 }
 
-// Forces along the springs turn nothing: symplectic Euler moves x by a multiple of v, so Σ m x × v changes only by
+class ExplicitMotion : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(With, ExplicitMotion, testing::Values(Method::semi_implicit, Method::verlet),
+                         [](const auto& method) { return method.param == Method::verlet ? "Verlet" : "SemiImplicit"; });
+
+// Forces along the springs turn nothing: the explicit methods move x by a multiple of v, so Σ m x × v changes only by
 // Σ x × force = 0.
-TEST(SemiImplicit, KeepsItsAngularMomentum) {
-  SimulationSettings settings = setup(moving_cloth(180), Method::semi_implicit, 0.001);
+TEST_P(ExplicitMotion, KeepsItsAngularMomentum) {
+  SimulationSettings settings = setup(moving_cloth(180), GetParam(), 0.001);
   Simulation simulation(settings);
   const Eigen::RowVector3d before = angular_momentum(settings.cloth, simulation.state());
   constexpr int steps = 1000;
@@ -119,7 +125,8 @@ TEST_P(FreeMotion, IsDampedAlikeAtAnyStepLength) {
   }
 }
 
-// Semi-implicit Euler moves with the velocity that is left, the implicit methods damp the velocity they moved with.
+// Semi-implicit Euler moves with the velocity that is left, backward Euler damps the velocity it moved with, and the
+// schemes of second order do half of it before and half after.
 TEST_P(FreeMotion, IsDampedBeforeTheSemiImplicitMoveAndAfterTheImplicitOne) {
   constexpr double h = 0.1, factor = 0.2;
   SimulationSettings settings = setup(cloth_of(make_grid(2, 2), 1, 0.1, {}), GetParam(), h);
@@ -128,7 +135,7 @@ TEST_P(FreeMotion, IsDampedBeforeTheSemiImplicitMoveAndAfterTheImplicitOne) {
   Simulation simulation(settings);
   simulation.step();
   const double left = std::pow(factor, h);
-  const double way = GetParam().method == Method::semi_implicit ? h * left : h;
+  const double way = h * (GetParam().second_order() ? std::sqrt(left) : GetParam().is_explicit() ? left : 1);
   const Vertices moved = simulation.state().x - settings.cloth.positions;
   EXPECT_LT((moved.col(0).array() - way).abs().maxCoeff(), 1e-14);
   EXPECT_LT((simulation.state().v.col(0).array() - left).abs().maxCoeff(), 1e-13);

@@ -81,7 +81,10 @@ TEST_P(Restitution, AFallingSheetRisesToItsSquareOfTheHeight) {
         // The top of a parabola lies at most gh²/8 above the nearest step. What stays lies in the ground's layer.
         const double share = rebound(s, 1).highest / fall;
         if (e > 0) EXPECT_NEAR(share, e * e, g * step * step / 4 / fall) << e << ", " << step << ", " << stiffness;
-        if (e == 0) EXPECT_LT(share, g * step * step / fall) << step << ", " << stiffness;
+        // SDIRK2 may end a stage outside before it has taken the speed away, γ√2 of a step's way at most.
+        const double outside =
+            GetParam().method.scheme == TimeScheme::sdirk2 ? 0.42 * step * std::sqrt(2 * g * fall) : 0;
+        if (e == 0) EXPECT_LT(share, (outside + g * step * step) / fall) << step << ", " << stiffness;
       }
     }
   }
@@ -120,7 +123,7 @@ TEST_P(Restitution, OfOneNeitherGivesNorTakesHeight) {
 }
 
 // A sheet that lands on a corner shakes. The velocities of Euler's steps are half a step old, so that under gravity it
-// is K + V − ½·h·Σ m g·v that stays.
+// is K + V − ½·h·Σ m g·v that stays; those of the others are those of the moment.
 TEST_P(Restitution, NeverGivesEnergyToASheetThatLandsOnACorner) {
   constexpr double step = 0.005;
   for (const double e : {0.5, 1.0}) {
@@ -137,7 +140,8 @@ TEST_P(Restitution, NeverGivesEnergyToASheetThatLandsOnACorner) {
     Simulation simulation(s);
     const auto total = [&] {
       const Energies now = simulation.energies();
-      const double swing = -0.5 * step * g * s.cloth.masses.dot(simulation.state().v.col(2));
+      const double age = GetParam().method.second_order() ? 0 : step / 2;
+      const double swing = -age * g * s.cloth.masses.dot(simulation.state().v.col(2));
       return now.kinetic + now.gravity + now.elastic + swing;
     };
     const double start = total();
@@ -171,7 +175,9 @@ TEST_P(Restitution, EndsInRest) {
 // Coulomb's cone holds for impacts: along the ground at most µ times what is taken and given back across it.
 TEST_P(Restitution, FrictionOfAnImpactIsCoulombs) {
   constexpr double e = 0.6, friction = 0.25, step = 0.01;
-  const double arrival = std::sqrt(2 * g * (fall + g * step * step / 8));  // Euler's first step begins as high
+  // Euler's first step begins a little higher.
+  const double above = GetParam().method.second_order() ? 0 : g * step * step / 8;
+  const double arrival = std::sqrt(2 * g * (fall + above));
   const double lost = friction * (1 + e) * arrival;
   for (const double speed : {3.0, 0.5}) {
     Cloth cloth = loose(RowVector3d(0, 0, thickness + fall));

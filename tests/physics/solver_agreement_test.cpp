@@ -71,10 +71,10 @@ TEST_P(Agreement, NoIterationRaisesTheObjective) {
     SimulationSettings s = settings(GetParam(), method);
     System system(s.cloth, s.step);
     for (const Effect& effect : s.effects) effect.install(system);
-    StepObjective objective(system);
+    StepObjective objective(system, system.step);
     Vertices force = Vertices::Zero(start.x.rows(), 3), gradient = force;
     for (const auto& f : system.forces) f->add(start, 0, force);
-    objective.begin(start, force);
+    objective.begin(start.x, start.v, force, system.step);
     double before = objective.evaluate(objective.y(), gradient);
     for (int iterations = 1; iterations <= 40; ++iterations) {
       s.integrator.max_iterations = iterations;

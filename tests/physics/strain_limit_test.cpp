@@ -14,7 +14,7 @@ namespace {
 
 class StrainLimit : public testing::TestWithParam<NamedMethod> {
  protected:
-  static double step() { return GetParam().method == Method::semi_implicit ? 0.002 : 0.02; }
+  static double step() { return GetParam().is_explicit() ? 0.002 : 0.02; }
 };
 INSTANTIATE_TEST_SUITE_P(With, StrainLimit, testing::ValuesIn(all_methods), method_name);
 

@@ -74,6 +74,7 @@ class Writer {
     for (const Key& key : table.keys.all()) {
       if (wild() ? !key.required && random_.number() > 0.35 : !wanted(table.name, key, motion)) continue;
       const std::string text = std::visit([&](const auto& target) { return value(key, target); }, key.target);
+      if (key.name == "method") explicit_ = text == "\"semi-implicit\"" || text == "\"verlet\"";
       if (!text.empty()) text_ += fmt::format("{} = {}\n", key.name, text);
     }
   }
@@ -90,6 +91,7 @@ class Writer {
       if (key.name == "center") return motion != 2;
     }
     if (key.name == "rigidity" || (table == "effects.moving_pins" && key.name == "keyframes")) return true;
+    if (key.name == "scheme" && explicit_) return false;
     if (key.name == "samples" || key.name == "frames") return false;
     return key.required || random_.number() < 0.35;
   }
@@ -184,7 +186,8 @@ class Writer {
   Random random_;
   double wild_;  // the part of the values that are not near their defaults
   int columns_ = 1, rows_ = 1;
-  bool stiff_ = false;  // few vertices, which the springs hold far more than inertia does, stretched and thrown
+  bool explicit_ = false;  // its method
+  bool stiff_ = false;     // few vertices, which the springs hold far more than inertia does, stretched and thrown
   std::vector<int> pins_;
   double step_ = 0.01;
   std::string text_;

@@ -69,6 +69,7 @@ TEST(RunScene, WritesEveryRecordThatIsAskedFor) {
 
   const auto stats = nlohmann::json::parse(test::content(path("stats.json")));
   EXPECT_EQ(stats["method"], "liu13");
+  EXPECT_EQ(stats["scheme"], "backward-euler");
   EXPECT_EQ(stats["vertices"], 25);
   EXPECT_EQ(stats["springs"], 56);
   EXPECT_EQ(stats["steps"], 20);

@@ -57,10 +57,12 @@ HardRun load(const HardCase& hard, Solver solver, const std::vector<std::string>
   if (hard.file.empty()) {
     HardRun run{hard.make(), hard.steps};
     run.settings.integrator.method = solver.method;
+    run.settings.integrator.scheme = solver.scheme;
     run.settings.integrator.linear_solver = solver.linear_solver;
     return run;
   }
   std::vector<std::string> overrides{"integrator.method=" + drape::method_name(solver.method)};
+  if (!solver.is_explicit()) overrides.push_back("integrator.scheme=" + scheme_name(solver.scheme));
   if (solver.linear_solver == LinearSolver::cholesky) overrides.emplace_back("integrator.linear_solver=cholesky");
   overrides.insert(overrides.end(), more.begin(), more.end());
   Scene scene = load_scene(hard.file, overrides);

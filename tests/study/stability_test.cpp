@@ -12,23 +12,28 @@ namespace drape {
 namespace {
 
 struct Border {
-  Method method;
+  StepMethod method;
   StabilityAxis axis;
   double stiffness;
 };
 class StabilityBorders : public ::testing::TestWithParam<Border> {};
-INSTANTIATE_TEST_SUITE_P(Of, StabilityBorders,
-                         ::testing::Values(Border{Method::semi_implicit, StabilityAxis::springs, 1e-2},
-                                           Border{Method::semi_implicit, StabilityAxis::springs, 1e3},
-                                           Border{Method::semi_implicit, StabilityAxis::springs, 1e8},
-                                           Border{Method::semi_implicit, StabilityAxis::explicit_push, 1e2},
-                                           Border{Method::semi_implicit, StabilityAxis::explicit_push, 1e7},
-                                           Border{Method::implicit, StabilityAxis::explicit_push, 1},
-                                           Border{Method::implicit, StabilityAxis::explicit_push, 1e6},
-                                           Border{Method::liu13, StabilityAxis::explicit_push, 1e3},
-                                           Border{Method::liu13, StabilityAxis::explicit_push, 1e8},
-                                           Border{Method::quasi_newton, StabilityAxis::explicit_push, 1e4},
-                                           Border{Method::quasi_newton, StabilityAxis::explicit_push, 1e8}));
+INSTANTIATE_TEST_SUITE_P(
+    Of, StabilityBorders,
+    ::testing::Values(Border{Method::semi_implicit, StabilityAxis::springs, 1e-2},
+                      Border{Method::semi_implicit, StabilityAxis::springs, 1e3},
+                      Border{Method::semi_implicit, StabilityAxis::springs, 1e8},
+                      Border{Method::semi_implicit, StabilityAxis::explicit_push, 1e2},
+                      Border{Method::semi_implicit, StabilityAxis::explicit_push, 1e7},
+                      Border{Method::implicit, StabilityAxis::explicit_push, 1},
+                      Border{Method::implicit, StabilityAxis::explicit_push, 1e6},
+                      Border{Method::liu13, StabilityAxis::explicit_push, 1e3},
+                      Border{Method::liu13, StabilityAxis::explicit_push, 1e8},
+                      Border{Method::quasi_newton, StabilityAxis::explicit_push, 1e4},
+                      Border{Method::quasi_newton, StabilityAxis::explicit_push, 1e8},
+                      Border{Method::verlet, StabilityAxis::springs, 1e3},
+                      Border{Method::verlet, StabilityAxis::explicit_push, 1e7},
+                      Border{{Method::quasi_newton, TimeScheme::sdirk2}, StabilityAxis::explicit_push, 1e4},
+                      Border{{Method::liu13, TimeScheme::sdirk2}, StabilityAxis::explicit_push, 1e8}));
 
 TEST_P(StabilityBorders, LieWhereTheyArePredicted) {
   const auto [method, axis, stiffness] = GetParam();
@@ -51,12 +56,13 @@ TEST_P(StabilityBorders, PartTheCellsOfAMap) {
   const auto [method, axis, stiffness] = GetParam();
   const double limit = stability_limit(method, axis, stiffness);
   const auto at = [&](double factor) { return stability_cell(method, axis, factor * limit, stiffness, 100).outcome; };
-  EXPECT_EQ(at(0.95), method == Method::semi_implicit ? StabilityOutcome::stable : StabilityOutcome::converged);
+  EXPECT_EQ(at(0.95), is_explicit(method.method) ? StabilityOutcome::stable : StabilityOutcome::converged);
   EXPECT_EQ(at(1.25), StabilityOutcome::blown_up);
 }
 
 TEST(StabilityCell, OfAnImplicitPushIsBoundedFarBeyondTheExplicitLimit) {
-  for (const Method method : {Method::implicit, Method::liu13, Method::quasi_newton}) {
+  for (const StepMethod method : step_methods) {
+    if (is_explicit(method.method)) continue;
     for (const double stiffness : {1e5, 1e9}) {
       EXPECT_NE(stability_cell(method, StabilityAxis::implicit_push, 0.01, stiffness, 100).outcome,
                 StabilityOutcome::blown_up);

@@ -13,6 +13,7 @@ SimulationSettings setup(Cloth cloth, Solver solver, double step) {
   settings.cloth = std::move(cloth);
   settings.step = step;
   settings.integrator.method = solver.method;
+  settings.integrator.scheme = solver.scheme;
   settings.integrator.linear_solver = solver.linear_solver;
   settings.integrator.stop = StoppingRule::change;
   settings.integrator.tolerance = 1e-3;

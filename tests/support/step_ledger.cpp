@@ -24,10 +24,12 @@ StepLedger::StepLedger(const SimulationSettings& settings)
   for (const int pin : settings.cloth.pins) masses_[pin] = 0;
 }
 
-RealVertices StepLedger::force(const State& state) const {
+RealVertices StepLedger::force(const State& state, double part) const {
   Vertices sum = Vertices::Zero(state.x.rows(), 3);
+  State then = state;
+  then.x += part * settings_.step * state.v;
   for (const auto& force : system_.forces) {
-    force->add(state, static_cast<double>(state.step) * settings_.step, sum);
+    force->add(then, (static_cast<double>(state.step) + part) * settings_.step, sum);
   }
   for (const int pin : settings_.cloth.pins) sum.row(pin).setZero();
   return sum.cast<Real>();
@@ -72,8 +74,8 @@ RealVertices StepLedger::aim(const State& before) const {
   return y;
 }
 
-Real StepLedger::work_at_start(const State& before, const State& after) const {
-  return std::abs(force(before).cwiseProduct(after.x.cast<Real>() - before.x.cast<Real>()).sum());
+Real StepLedger::work_at(double part, const State& before, const State& after) const {
+  return std::abs(force(before, part).cwiseProduct(after.x.cast<Real>() - before.x.cast<Real>()).sum());
 }
 
 Real StepLedger::resting_energy() const {

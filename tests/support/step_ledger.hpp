@@ -53,8 +53,9 @@ class StepLedger {
   [[nodiscard]] Eigen::Matrix<Real, 1, 3> momentum(const State& state) const;
   [[nodiscard]] Real momentum_scale(const State& state) const;
 
-  /// |f·Δx|, what the forces at its start did in a step [J].
-  [[nodiscard]] Real work_at_start(const State& before, const State& after) const;
+  /// |f·Δx|, what the forces did in a step of an explicit method, which evaluates them where the cloth is after this
+  /// part of the step by its first velocity [J].
+  [[nodiscard]] Real work_at(double part, const State& before, const State& after) const;
   /// What rounding leaves of the energy of a cloth at rest, ε Σ k L² [J].
   [[nodiscard]] Real resting_energy() const;
 
@@ -64,7 +65,7 @@ class StepLedger {
     RealVertices gradient;
   };
   [[nodiscard]] Value value_of(const Vertices& x, double time) const;
-  [[nodiscard]] RealVertices force(const State& state) const;
+  [[nodiscard]] RealVertices force(const State& state, double part = 0) const;
   [[nodiscard]] RealVertices aim(const State& before) const;
   [[nodiscard]] Real tolerated(const StepBalance& b, const RealVertices& force, const RealVertices& change) const;
 

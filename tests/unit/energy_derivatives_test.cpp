@@ -156,7 +156,7 @@ TEST_P(EveryEnergy, PullsNowhereAsAWhole) {
 // M/h² p + (springs and energy) p = b, with the assembled matrix and with the products alone.
 TEST_P(EveryEnergy, EntersBothOfNewtonsLinearSolvers) {
   const System& system = term_.system();
-  const StepObjective objective(system);
+  const StepObjective objective(system, system.step);
   const Vertices x = crumpled(0.1, 1);
   Vertices b = direction(5);
   for (const int pin : term_.cloth().pins) b.row(pin).setZero();

@@ -83,6 +83,13 @@ TEST(SceneErrors, AnUnknownChoiceNamesTheNearest) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems(with("integrator", "method = \"implict\"")),
             "scene.toml:5:10: unknown method 'implict'; did you mean 'implicit'?");
+  EXPECT_EQ(folder.problems(with("integrator", "method = \"verlett\"")),
+            "scene.toml:5:10: unknown method 'verlett'; did you mean 'verlet'?");
+  EXPECT_EQ(folder.problems(with("integrator", "scheme = \"sdirk\"")),
+            "scene.toml:5:10: unknown scheme 'sdirk'; did you mean 'sdirk2'?");
+  EXPECT_EQ(folder.problems(with("integrator", "method = \"verlet\"\nscheme = \"sdirk2\"")),
+            "scene.toml:6:10: scheme: it is how time advances with an implicit method, and verlet is a scheme of its "
+            "own: leave it out, or take method = \"implicit\", \"liu13\" or \"quasi-newton\"");
   EXPECT_EQ(folder.problems(with("integrator", "stop = \"never\"")),
             "scene.toml:5:8: unknown stop 'never'; the choices are 'change', 'gradient', 'error'");
 }

@@ -23,20 +23,20 @@ TEST(ConstantFactor, SolvesToItsPrecision) {
     const Vertices b = random_vertices(cloth.vertex_count(), 1);
     Vertices x = Vertices::Constant(cloth.vertex_count(), 3, 99);
 
-    ConstantFactor doubles(system, Precision::double_precision);
+    ConstantFactor doubles(system, system.step, Precision::double_precision);
     EXPECT_FALSE(doubles.single_precision());
     doubles.solve(b, x);
     EXPECT_LT(residual(system, x, b), 1e-12);
     for (const int pin : cloth.pins) EXPECT_EQ(x.row(pin).norm(), 0);
 
     // The condition of A is a few hundred here, and numbers in single precision are right to 6e-8.
-    ConstantFactor singles(system, Precision::single_precision);
+    ConstantFactor singles(system, system.step, Precision::single_precision);
     EXPECT_TRUE(singles.single_precision());
     singles.solve(b, x);
     EXPECT_LT(residual(system, x, b), 1e-5);
     EXPECT_GT(residual(system, x, b), 1e-12) << "is this single precision?";
     for (const int pin : cloth.pins) EXPECT_EQ(x.row(pin).norm(), 0);
-    EXPECT_TRUE(ConstantFactor(system, Precision::automatic).single_precision());
+    EXPECT_TRUE(ConstantFactor(system, system.step, Precision::automatic).single_precision());
   }
 }
 
@@ -44,7 +44,7 @@ TEST(ConstantFactor, SolvesForNumbersOfAnySize) {
   const Cloth cloth = cloth_of(make_grid(8, 8), 1, 180, {0, 8});
   const System system(cloth, 0.02);
   for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
-    ConstantFactor factor(system, precision);
+    ConstantFactor factor(system, system.step, precision);
     for (const double scale : {1e-25, 1e-12, 1e12, 1e25}) {
       const Vertices b = scale * random_vertices(cloth.vertex_count(), 1);
       Vertices x(cloth.vertex_count(), 3);
@@ -61,7 +61,7 @@ TEST(ConstantFactor, IgnoresWhatPullsAtPins) {
   const Cloth cloth = cloth_of(make_grid(8, 8), 1, 180, {0, 8, 40});
   const System system(cloth, 0.02);
   for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
-    ConstantFactor factor(system, precision);
+    ConstantFactor factor(system, system.step, precision);
     Vertices b = random_vertices(cloth.vertex_count(), 1);
     for (const int pin : cloth.pins) b.row(pin).setConstant(1e6);
     Vertices x(cloth.vertex_count(), 3);
@@ -74,7 +74,7 @@ TEST(ConstantFactor, OfAClothThatIsAllPinsGivesZero) {
   const Cloth cloth = cloth_of(make_grid(3, 3), 1, 180, every(16));
   const System system(cloth, 0.02);
   for (const Precision precision : {Precision::automatic, Precision::single_precision, Precision::double_precision}) {
-    ConstantFactor factor(system, precision);
+    ConstantFactor factor(system, system.step, precision);
     Vertices x = Vertices::Constant(16, 3, 99);
     factor.solve(random_vertices(16, 1), x);
     EXPECT_EQ(x.norm(), 0);
@@ -87,7 +87,7 @@ TEST(ConstantFactor, SolvesForASingleFreeVertex) {
   const Cloth cloth = cloth_of(make_grid(3, 3), 1, 180, pins);
   const System system(cloth, 0.02);
   for (const Precision precision : {Precision::automatic, Precision::single_precision, Precision::double_precision}) {
-    ConstantFactor factor(system, precision);
+    ConstantFactor factor(system, system.step, precision);
     const Vertices b = random_vertices(16, 1);
     Vertices x(16, 3);
     factor.solve(b, x);
@@ -114,15 +114,15 @@ TEST(ConstantFactor, DoesNotChooseSinglePrecisionWhereItIsTooCoarse) {
   const System system(cloth, 0.1);
   const Vertices b = random_vertices(cloth.vertex_count(), 1);
   Vertices chosen(cloth.vertex_count(), 3), exact = chosen;
-  ConstantFactor(system, Precision::double_precision).solve(b, exact);
-  ConstantFactor(system, Precision::automatic).solve(b, chosen);
+  ConstantFactor(system, system.step, Precision::double_precision).solve(b, exact);
+  ConstantFactor(system, system.step, Precision::automatic).solve(b, chosen);
   EXPECT_LT((chosen - exact).norm(), 2e-3 * exact.norm());
 }
 
 TEST(ConstantFactor, FallsBackToDoublePrecisionBeyondTheRangeOfSingle) {
   const Cloth cloth = cloth_of(make_grid(10, 10), 1, 1e80, {0});
   const System system(cloth, 0.1);
-  ConstantFactor factor(system, Precision::automatic);
+  ConstantFactor factor(system, system.step, Precision::automatic);
   EXPECT_FALSE(factor.single_precision());
   Vertices x(cloth.vertex_count(), 3);
   factor.solve(random_vertices(cloth.vertex_count(), 1), x);
@@ -135,8 +135,8 @@ TEST(ConstantFactor, KeepsThreeDigitsHoweverStiffTheCloth) {
     const System system(cloth, 0.1);
     const Vertices b = random_vertices(cloth.vertex_count(), 1);
     Vertices chosen(cloth.vertex_count(), 3), exact = chosen;
-    ConstantFactor(system, Precision::automatic).solve(b, chosen);
-    ConstantFactor(system, Precision::double_precision).solve(b, exact);
+    ConstantFactor(system, system.step, Precision::automatic).solve(b, chosen);
+    ConstantFactor(system, system.step, Precision::double_precision).solve(b, exact);
     EXPECT_LT((chosen - exact).norm(), 1e-3 * exact.norm()) << stiffness << " N/m";
   }
 }

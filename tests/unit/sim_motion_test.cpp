@@ -65,6 +65,24 @@ TEST(Keyframes, SmoothHasNoJumpOfSpeedAndDoesNotOvershoot) {
   }
 }
 
+// The quotient of differences before a time, to its own error.
+TEST(Keyframes, VelocityIsTheirSlope) {
+  for (const Interpolation interpolation : {Interpolation::linear, Interpolation::smooth}) {
+    const Keyframes path(zigzag, interpolation);
+    const double first = zigzag.front().time, last = zigzag.back().time;
+    constexpr double d = 1e-8;
+    for (double time = first - 0.3; time < last + 0.3; time += 0.0317) {
+      const Vector3d slope = (path.at(time) - path.at(time - d)) / d;
+      EXPECT_LT((path.velocity(time) - slope).norm(), 1e-4) << "at " << time;
+    }
+    for (const Keyframe& key : zigzag) {
+      EXPECT_LT((path.velocity(key.time) - (path.at(key.time) - path.at(key.time - d)) / d).norm(), 1e-4);
+    }
+    EXPECT_EQ(path.velocity(first), Vector3d::Zero());
+    EXPECT_EQ(path.velocity(last + 1), Vector3d::Zero());
+  }
+}
+
 TEST(Keyframes, MustBeInOrder) {
   EXPECT_THROW(Keyframes({}, Interpolation::linear), std::invalid_argument);
   EXPECT_THROW(Keyframes({{1, {0, 0, 0}}, {1, {1, 1, 1}}}, Interpolation::linear), std::invalid_argument);

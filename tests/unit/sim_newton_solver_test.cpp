@@ -34,7 +34,7 @@ class NewtonEquations : public testing::TestWithParam<Case> {
   /// p of a cloth's equations H(x) p = b with steps of h.
   Vertices solve(const Cloth& cloth, double h, const Vertices& x, const Vertices& b) const {
     const System system(cloth, h);
-    const StepObjective objective(system);
+    const StepObjective objective(system, system.step);
     const auto solver = GetParam().make(system, objective);
     Vertices direction = Vertices::Constant(cloth.vertex_count(), 3, 99);
     solver->solve(cloth.positions, b, direction);  // the same object solves for other x

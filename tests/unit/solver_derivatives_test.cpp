@@ -31,8 +31,8 @@ class Derivatives : public ::testing::TestWithParam<Case> {
     Ground{.height = -0.02, .normal = {1, -2, 5}, .response = Response::implicit_energy}.install(system_);
     Vertices& x = cloth_.positions;
     x.col(2).array() -= 0.1;
-    objective_ = std::make_unique<StepObjective>(system_);
-    objective_->begin({.x = x, .v = cloth_.velocities, .step = 0}, Vertices::Zero(x.rows(), 3));
+    objective_ = std::make_unique<StepObjective>(system_, system_.step);
+    objective_->begin(x, cloth_.velocities, Vertices::Zero(x.rows(), 3), system_.step);
     direction_ = wave(x.rows(), 1.7);
     for (const int pin : cloth_.pins) direction_.row(pin).setZero();
   }

@@ -1,4 +1,4 @@
-// Semi-implicit Euler: stable up to the step it computes, refused beyond, and found out where it blows up.
+// The explicit methods: stable up to the step that is computed, refused beyond, and found out where they blow up.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -22,19 +22,21 @@ namespace {
 
 constexpr Solver semi_implicit{Method::semi_implicit};
 
-class HardScenes : public ::testing::TestWithParam<HardCase> {};
-INSTANTIATE_TEST_SUITE_P(SemiImplicit, HardScenes, ::testing::ValuesIn(hard_cases()),
-                         [](const auto& hard) { return hard.param.name; });
+class HardScenes : public ::testing::TestWithParam<std::tuple<HardCase, NamedMethod>> {};
+INSTANTIATE_TEST_SUITE_P(With, HardScenes,
+                         ::testing::Combine(::testing::ValuesIn(hard_cases()), ::testing::ValuesIn(explicit_methods)),
+                         case_and_method);
 
-/// The case with a step that semi-implicit Euler stands; nothing where its effects cannot be evaluated explicitly.
-std::optional<HardRun> safe_run(const HardCase& hard) {
+/// The case with a step that an explicit method stands; nothing where its effects cannot be evaluated explicitly.
+std::optional<HardRun> safe_run(const HardCase& hard, Solver method) {
   const auto refused = [&](const std::vector<std::string>& more) {
-    return test::usage_error([&] { static_cast<void>(load(hard, semi_implicit, more)); });
+    return test::usage_error([&] { static_cast<void>(load(hard, method, more)); });
   };
   const std::string reason = refused({"integrator.allow_unstable=true"});
-  if (reason.find("response: semi-implicit Euler evaluates every force") != std::string::npos) return std::nullopt;
+  const std::string solves_nothing = fmt::format("response: {} evaluates every force", explicit_title(method.method));
+  if (reason.find(solves_nothing) != std::string::npos) return std::nullopt;
   EXPECT_EQ(reason, "(no error)");
-  HardRun run = load(hard, semi_implicit, {"integrator.allow_unstable=true"});
+  HardRun run = load(hard, method, {"integrator.allow_unstable=true"});
   const double largest = safe_step(make_system(run.settings));
   if (run.settings.step > largest) {
     if (!hard.file.empty()) {
@@ -47,10 +49,13 @@ std::optional<HardRun> safe_run(const HardCase& hard) {
   return run;
 }
 
-// With r = hω/2 symplectic Euler keeps K + E − (h/2) v·∇E of a linear cloth, so that K + E varies by (1 + r)/(1 − r). A
-// cloth is not linear: where springs pass through zero length their force jumps, and every passage gains a little.
+// With r = hω/2 symplectic Euler keeps K + E − (h/2) v·∇E of a linear cloth, so that K + E varies by (1 + r)/(1 − r),
+// and velocity Verlet (1 − r²) K + E, so that it varies less. A cloth is not linear: where springs pass through zero
+// length their force jumps, and every passage gains a little.
 TEST_P(HardScenes, StayWithinTheirEnergyAtASafeStep) {
-  const std::optional<HardRun> given = safe_run(GetParam());
+  const auto& [hard, method] = GetParam();
+  const std::optional<HardRun> given = safe_run(hard, method);
+  const double when = method.method == Method::verlet ? 0.5 : 0;  // it evaluates the forces
   if (!given) return;
   const StepLedger ledger(given->settings);
   const FloatingPointTraps traps;
@@ -62,7 +67,7 @@ TEST_P(HardScenes, StayWithinTheirEnergyAtASafeStep) {
     const State before = simulation.state();
     simulation.step();
     ASSERT_TRUE(simulation.state().x.allFinite() && simulation.state().v.allFinite());
-    explained += ledger.work_at_start(before, simulation.state());
+    explained += ledger.work_at(when, before, simulation.state());
     const Energies now = simulation.energies();
     ASSERT_LE(now.kinetic + now.elastic, factor * explained + ledger.resting_energy()) << "step " << step;
   }
@@ -87,8 +92,8 @@ double measured_border(const SimulationSettings& settings) {
 }
 
 /// A cloth with a little of every motion.
-SimulationSettings disturbed(const Mesh& mesh, const Mesh& rest, double stiffness) {
-  SimulationSettings settings = setup(make_cloth(mesh, rest, 1, stiffness, {0}), semi_implicit, 1);
+SimulationSettings disturbed(const Mesh& mesh, const Mesh& rest, double stiffness, Solver method = semi_implicit) {
+  SimulationSettings settings = setup(make_cloth(mesh, rest, 1, stiffness, {0}), method, 1);
   settings.cloth.velocities = 1e-3 * random_vertices(settings.cloth.vertex_count(), 3);
   return settings;
 }
@@ -96,9 +101,11 @@ SimulationSettings disturbed(const Mesh& mesh, const Mesh& rest, double stiffnes
 TEST(SafeStep, IsNearTheTrueBorder) {
   for (const int cells : {3, 8, 20}) {
     const Mesh mesh = make_grid(cells, cells);
-    const double border = measured_border(disturbed(mesh, mesh, 180));
-    EXPECT_GE(border, 0.98) << cells;
-    EXPECT_LE(border, 1.2) << cells;
+    for (const NamedMethod& method : explicit_methods) {
+      const double border = measured_border(disturbed(mesh, mesh, 180, method));
+      EXPECT_GE(border, 0.98) << cells << ", " << method.name;
+      EXPECT_LE(border, 1.2) << cells << ", " << method.name;
+    }
   }
 }
 
@@ -126,17 +133,20 @@ TEST(SafeStep, CountsWhatIsPushedBesideTheSprings) {
 }
 
 /// A cloth that hangs under gravity, with a step beyond the safe one.
-SimulationSettings unstable(double factor) {
-  SimulationSettings settings = setup(test::grid_cloth(8), semi_implicit, 1);
+SimulationSettings unstable(double factor, Solver method = semi_implicit) {
+  SimulationSettings settings = setup(test::grid_cloth(8), method, 1);
   settings.effects = {Gravity{}};
   settings.step = factor * safe_step(make_system(settings));
   settings.integrator.allow_unstable = true;
   return settings;
 }
 
-TEST(BlowUp, IsFoundAtTheStepInWhichTheEnergyIsNoLongerExplained) {
+class BlowUpOf : public ::testing::TestWithParam<NamedMethod> {};
+INSTANTIATE_TEST_SUITE_P(With, BlowUpOf, ::testing::ValuesIn(explicit_methods), method_name);
+
+TEST_P(BlowUpOf, IsFoundAtTheStepInWhichTheEnergyIsNoLongerExplained) {
   for (const double factor : {1.2, 1.5, 3.0}) {
-    const SimulationSettings settings = unstable(factor);
+    const SimulationSettings settings = unstable(factor, GetParam());
     const StepLedger ledger(settings);
     Simulation simulation(settings);
     Real explained = 0;
@@ -148,7 +158,7 @@ TEST(BlowUp, IsFoundAtTheStepInWhichTheEnergyIsNoLongerExplained) {
       } catch (const DivergedError&) {
         ended = true;
       }
-      explained += ledger.work_at_start(before, simulation.state());
+      explained += ledger.work_at(0, before, simulation.state());
       const Energies now = simulation.energies();
       EXPECT_EQ(ended, now.kinetic + now.elastic > BlowUpWatch::limit_of_unstable_steps * explained) << "step " << step;
     }

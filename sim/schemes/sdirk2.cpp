@@ -1,0 +1,83 @@
+#include "sim/schemes/sdirk2.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace drape {
+namespace {
+namespace tableau {
+
+const double gamma = 1 - std::sqrt(0.5);
+const double rest = (1 - gamma) / gamma;  // what is left of the step after stage 1, in stages
+const double delta = 1 - 1 / (2 * gamma);
+
+}  // namespace tableau
+}  // namespace
+
+Sdirk2::Sdirk2(const System& system, const MakeSolver& make_solver)
+    : system_(system),
+      objective_(system, tableau::gamma * system.step),
+      solver_(make_solver(objective_)),
+      point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
+      pushes_(system),
+      free_(is_free(system)) {}
+
+StepReport Sdirk2::advance(State& state, StepForces& forces) {
+  const double start = system_.time(state.step), end = system_.time(state.step + 1);
+  const double first = start + tableau::gamma * system_.step;
+  StepReport report;
+  system_.begin(state);
+  system_.correct_half(state);
+  find_forces(state, forces);
+  stage_ = state;
+  pushes_.begin(state.x, start);
+  solve(first, report);
+  pushes_.add(stage_.x, first, 1 - tableau::gamma);
+  if (forces.any_of_velocity()) find_second_forces(first, forces);
+  stage_.x = state.x + tableau::rest * (stage_.x - state.x);
+  stage_.v = state.v + tableau::rest * (stage_.v - state.v);
+  solve(end, report);
+  pushes_.add(stage_.x, end, tableau::gamma);
+  pushes_.limit(start, end, stage_.v);
+  state.v = stage_.v;
+  system_.move(state, stage_.x, way_);
+  system_.correct_half(state);
+  system_.drive_pins(end, state.v);
+  return report;
+}
+
+void Sdirk2::find_forces(const State& state, StepForces& forces) {
+  const double start = system_.time(state.step), half = system_.step / 2;
+  stage_ = state;
+  kernels().add_multiple(static_cast<std::size_t>(state.x.size()), half, state.v.data(), stage_.x.data());
+  system_.place_pins(start + half, stage_.x);
+  force_ = forces.of_place(stage_, start + half);
+  if (!forces.any_of_velocity()) return;
+  forces.of_velocity(state, start, of_start_);
+  force_ += of_start_;
+}
+
+void Sdirk2::find_second_forces(double time, StepForces& forces) {
+  system_.drive_pins(time, stage_.v);
+  forces.of_velocity(stage_, time, of_stage_);
+  force_ -= of_start_;
+  // v₂ has (1 − γ)h of the first stage's forces, and γh of these are to come.
+  of_stage_ = tableau::delta * of_start_ + (1 - tableau::delta) * of_stage_;
+  forces.note(of_stage_);
+  force_ += (of_stage_ - (1 - tableau::gamma) * of_start_) / tableau::gamma;
+}
+
+void Sdirk2::solve(double end, StepReport& report) {
+  objective_.begin(stage_.x, stage_.v, force_, end);
+  point_.x = objective_.y();
+  point_.value = objective_.evaluate(point_.x, point_.gradient);
+  const StepReport stage = solver_->minimise(point_, [] { return true; });
+  if (free_) balance_momentum(system_.cloth, objective_, point_);
+  stage_.v = (point_.x - stage_.x) / objective_.duration();
+  stage_.x = point_.x;
+  report.iterations += stage.iterations;
+  report.converged = report.converged && stage.converged;
+  report.rise = std::max(report.rise, stage.rise);
+}
+
+}  // namespace drape

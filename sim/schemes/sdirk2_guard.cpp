@@ -1,0 +1,25 @@
+#include "sim/schemes/sdirk2_guard.hpp"
+
+namespace drape {
+
+Sdirk2Guard::Sdirk2Guard(const System& system) : condition_(system) {
+  constexpr int interval = 16;  // a look costs about as much as an iteration
+  const bool forces_only = system.pin_motions.empty() && system.filters.empty() && system.all_internal();
+  if (forces_only) watch_.emplace(system, limit, interval);
+}
+
+void Sdirk2Guard::begin(const State& state, const EnergyNow& energy) {
+  if (watch_) watch_->begin(state, energy());
+}
+
+std::optional<double> Sdirk2Guard::look(const State& state, const Vertices& push, bool constant,
+                                        const EnergyNow& energy) {
+  return watch_ ? watch_->look(state, push, constant, energy) : std::nullopt;
+}
+
+std::string Sdirk2Guard::remedy() const {
+  return "; sdirk2 does not promise that a step gains none where it is solved loosely or the cloth is crumpled: take a "
+         "smaller tolerance and more max_iterations, a shorter [time] step, or scheme = \"backward-euler\", which does";
+}
+
+}  // namespace drape

@@ -1,0 +1,54 @@
+#include "sim/schemes/verlet.hpp"
+
+#include "sim/kernels/vertices.hpp"
+#include "sim/schemes/explicit_step.hpp"
+
+namespace drape {
+
+Verlet::Verlet(const System& system)
+    : system_(system),
+      springs_(system.springs, system.cloth.vertex_count()),
+      pull_(explicit_pull(system, "velocity Verlet")) {}
+
+StepReport Verlet::advance(State& state, StepForces& forces) {
+  const double half = system_.step / 2;
+  const double middle = system_.time(state.step) + half, end = system_.time(state.step + 1);
+  const auto drift = [&] {
+    kernels().add_multiple(static_cast<std::size_t>(state.x.size()), half, state.v.data(), state.x.data());
+  };
+  const bool of_velocity = forces.any_of_velocity();
+  const bool at_once = !of_velocity && system_.filters.empty() && system_.pin_motions.empty();
+  system_.begin(state);
+  system_.correct_half(state);
+  if (!system_.filters.empty()) start_x_ = state.x;
+  if (of_velocity) start_v_ = state.v;
+  drift();
+  system_.place_pins(middle, state.x);
+  const Vertices& push = forces.of_place(state, middle);
+  const Vertices& force = with_energies(system_, state.x, middle, push, force_);
+  springs_.kick_and_drift(pull_, force, at_once ? half : 0, state.v, state.x);
+  if (!at_once) {
+    if (of_velocity) add_of_velocity(state, middle, forces);
+    drift();
+    system_.place_pins(end, state.x);
+    if (!system_.filters.empty()) {
+      std::swap(state.x, start_x_);
+      system_.move(state, start_x_, way_);
+    }
+  }
+  system_.correct_half(state);
+  system_.drive_pins(end, state.v);
+  return {};
+}
+
+void Verlet::add_of_velocity(State& state, double time, StepForces& forces) {
+  std::swap(state.v, start_v_);
+  forces.of_velocity(state, time, force_);
+  state.v = start_v_ - pull_.asDiagonal() * force_;
+  forces.of_velocity(state, time, more_force_);
+  force_ = (force_ + more_force_) / 2;
+  state.v = start_v_ - pull_.asDiagonal() * force_;
+  forces.note(force_);
+}
+
+}  // namespace drape

@@ -1,0 +1,51 @@
+#include "sim/step_forces.hpp"
+
+#include <algorithm>
+
+namespace drape {
+
+StepForces::StepForces(const System& system, const State& start)
+    : system_(system), constant_(Vertices::Zero(start.x.rows(), 3)), push_(&constant_) {
+  for (const auto& force : system.forces) {
+    if (force->constant()) force->add(start, 0, constant_);
+  }
+  force_ = constant_;
+}
+
+template <class Wanted>
+const Vertices& StepForces::sum(const State& state, double time, const Wanted& wanted) {
+  push_ = &constant_;
+  for (const auto& force : system_.forces) {
+    if (force->constant() || !wanted(*force)) continue;
+    if (push_ == &constant_) force_ = constant_;
+    push_ = &force_;
+    force->add(state, time, force_);
+  }
+  return *push_;
+}
+
+const Vertices& StepForces::all(const State& state, double time) {
+  return sum(state, time, [](const Force&) { return true; });
+}
+
+const Vertices& StepForces::of_place(const State& state, double time) {
+  return sum(state, time, [](const Force& force) { return !force.of_velocity(); });
+}
+
+bool StepForces::any_of_velocity() const {
+  return std::any_of(system_.forces.begin(), system_.forces.end(), [](const auto& f) { return f->of_velocity(); });
+}
+
+void StepForces::of_velocity(const State& state, double time, Vertices& force) const {
+  force.setZero(state.x.rows(), 3);
+  for (const auto& f : system_.forces) {
+    if (f->of_velocity()) f->add(state, time, force);
+  }
+}
+
+void StepForces::note(const Vertices& of_velocity) {
+  force_ = *push_ + of_velocity;
+  push_ = &force_;
+}
+
+}  // namespace drape

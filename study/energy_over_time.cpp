@@ -1,0 +1,101 @@
+#include "study/energy_over_time.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/effects/gravity.hpp"
+#include "sim/simulation.hpp"
+
+namespace drape {
+namespace {
+
+constexpr double duration = 8, between = 0.1;  // of the points of a curve [s]
+
+SimulationSettings swinging_cloth(StepMethod method, double step) {
+  const Mesh mesh = make_grid(20, 20);
+  SimulationSettings settings;
+  settings.cloth = make_cloth(mesh, mesh, 1, 180, {0, 20});
+  settings.step = step;
+  settings.integrator.method = method.method;
+  settings.integrator.scheme = method.scheme;
+  settings.integrator.stop = StoppingRule::change;
+  settings.integrator.tolerance = 1e-6;
+  settings.integrator.max_iterations = 5000;
+  settings.effects.add(Gravity{});
+  return settings;
+}
+
+std::string name_of(const EnergyCurve& curve) {
+  return fmt::format("{}, h = {:g} s", step_method_name(curve.method), curve.step);
+}
+
+}  // namespace
+
+std::optional<std::vector<EnergyCurve>> measure_energies(const std::stop_token& stop, Progress& progress) {
+  constexpr StepMethod sdirk2(Method::quasi_newton, TimeScheme::sdirk2);
+  std::vector<EnergyCurve> curves{{.method = Method::verlet, .step = 0.001},
+                                  {.method = sdirk2, .step = 0.0025},
+                                  {.method = sdirk2, .step = 0.02},
+                                  {.method = Method::quasi_newton, .step = 0.0025},
+                                  {.method = Method::quasi_newton, .step = 0.02}};
+  progress.begin("measuring energies over time", "motions", static_cast<std::int64_t>(curves.size()));
+  for (EnergyCurve& curve : curves) {
+    Simulation simulation(swinging_cloth(curve.method, curve.step));
+    const double first = simulation.energies().total();
+    double moved = 0;
+    const auto every = std::llround(between / curve.step);
+    for (std::int64_t step = 0; step <= std::llround(duration / curve.step); ++step) {
+      if (stop.stop_requested()) return std::nullopt;
+      if (step > 0) simulation.step();
+      const Energies now = simulation.energies();
+      moved = std::max(moved, -now.gravity);  // it starts at height 0
+      if (step % every != 0) continue;
+      curve.times.push_back(simulation.time());
+      curve.energies.push_back(now.total() - first);
+    }
+    for (double& energy : curve.energies) energy /= moved;
+    ++progress.done;
+  }
+  return curves;
+}
+
+NamedChart energy_chart(const std::vector<EnergyCurve>& curves) {
+  html::Chart chart{"The energy of a cloth that swings without damping, against what gravity has moved.",
+                    "time [s]",
+                    "energy gained, relative to what gravity moved",
+                    html::Scale::linear,
+                    html::Scale::linear,
+                    {},
+                    {}};
+  for (const EnergyCurve& curve : curves) {
+    html::ChartSeries series = method_series(step_method_name(curve.method));
+    series.name = name_of(curve);
+    series.markers = false;
+    // The scheme has the colour here, and the long step is dashed.
+    if (curve.method.scheme == TimeScheme::sdirk2) series.style = 5;
+    series.other = curve.step > 0.01;
+    for (std::size_t i = 0; i < curve.times.size(); ++i) {
+      series.points.push_back({curve.times[i],
+                               curve.energies[i],
+                               fmt::format("{:.1f} s: {:.2g}", curve.times[i], curve.energies[i]),
+                               {},
+                               {}});
+    }
+    chart.series.push_back(std::move(series));
+  }
+  return {"energy-over-time", std::move(chart)};
+}
+
+std::string describe_energies(const std::vector<EnergyCurve>& curves) {
+  std::string text = "After eight seconds ";
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const double end = curves[i].energies.back();
+    text += fmt::format("{}{} has {} {:.2g} % of what gravity moved", i == 0 ? "" : ", ", name_of(curves[i]),
+                        end < 0 ? "lost" : "gained", 100 * std::abs(end));
+  }
+  return text + ".";
+}
+
+}  // namespace drape
