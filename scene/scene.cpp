@@ -43,7 +43,7 @@ class Checks {
 
   void stopping_rule() const {
     const IntegratorSettings& integrator = scene_.simulation.integrator;
-    if (integrator.stop != StoppingRule::error || method_type(integrator.method).iterates) return;
+    if (integrator.stop != StoppingRule::error || !is_explicit(integrator.method)) return;
     add("integrator", "stop",
         fmt::format("stop: {} computes a step without solving for it, so there is no error of a solve to stop at; take "
                     "an implicit method, or leave the key out",
