@@ -117,7 +117,7 @@ class SceneCheck {
   void check_precision() const {
     if (settings_.motion_tolerance > 0 && settings_.motion_tolerance < 2 * golden_.quanta.compared) {
       throw UsageError(
-          fmt::format("{} keeps positions to {:g} m, which cannot tell a motion_tolerance of {:g} m; bless "
+          fmt::format("{} keeps positions to {:.2g} m, which cannot tell a motion_tolerance of {:g} m; bless "
                       "the scene with that tolerance, or let it be 0 for the same bits",
                       result_.golden.string(), golden_.quanta.compared, settings_.motion_tolerance));
     }

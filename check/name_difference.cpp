@@ -20,7 +20,7 @@ constexpr double explained = 0.25;    // of the squared difference may be left f
 constexpr int farthest_shift = 6;     // looked for [pixels]
 constexpr double steep = 24;          // between neighbours: an edge [of 255]
 constexpr double one_place = 0.1;     // of the picture's area, at most
-constexpr double least_share = 0.02;  // of the pixels that another brightness changes
+constexpr double least_share = 0.02;  // of the channels that another brightness changes
 
 Plane luminance(const Image& image) {
   Plane plane(image.width, image.height);
@@ -86,14 +86,24 @@ std::string name_shift(const Plane& expected, const Plane& actual) {
          (sideways && upright ? " and " : "") + (upright ? along(shift[1], "down", "up") : "");
 }
 
-/// One factor for all pixels that changed.
-std::string name_brightness(const Plane& expected, const Plane& actual) {
-  const Plane changed = (expected != actual).cast<double>();
-  if (changed.mean() < least_share) return {};
-  const double factor = (changed * expected * actual).sum() / (changed * expected.square()).sum();
-  const double all = (actual - expected).square().sum();
-  const double left = (changed * (actual - factor * expected)).square().sum();
-  if (!(left < explained * all) || !std::isfinite(factor)) return {};
+/// One factor for all channels of all pixels that changed.
+std::string name_brightness(const Image& expected, const Image& actual) {
+  double changed = 0, product = 0, square = 0, all = 0;
+  const auto visit = [&](auto&& add) {
+    for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
+      if (expected.pixels[i] != actual.pixels[i]) add(double{1} * expected.pixels[i], double{1} * actual.pixels[i]);
+    }
+  };
+  visit([&](double a, double b) {
+    changed += 1;
+    product += a * b;
+    square += a * a;
+    all += (b - a) * (b - a);
+  });
+  const double factor = product / square;
+  double left = 0;
+  visit([&](double a, double b) { left += (b - factor * a) * (b - factor * a); });
+  if (changed < least_share * static_cast<double>(expected.pixels.size()) || !(left < explained * all)) return {};
   return fmt::format("a brightness {:.2g} % {}", 100 * std::abs(factor - 1), factor > 1 ? "higher" : "lower");
 }
 
@@ -148,7 +158,7 @@ std::string name_difference(const Image& expected, const Image& actual) {
   if (expected == actual) return {};
   const Plane a = luminance(expected), b = luminance(actual);
   for (const std::string& name :
-       {name_place(a, b), name_shift(a, b), name_brightness(a, b), name_colors(expected, actual)}) {
+       {name_place(a, b), name_shift(a, b), name_brightness(expected, actual), name_colors(expected, actual)}) {
     if (!name.empty()) return name;
   }
   return name_edges(a, b);

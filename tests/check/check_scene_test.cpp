@@ -257,7 +257,7 @@ TEST_F(CheckScene, SaysWhenItsPrecisionIsTooLow) {
   finer.motion_tolerance = 1e-8;
   const auto message =
       test::usage_error([&] { check_scene(scene(), "swing", finer, {.update = UpdateMode::none}, {}, progress_); });
-  EXPECT_NE(message.find("keeps positions to 5.96e-08 m"), std::string::npos) << message;
+  EXPECT_NE(message.find("keeps positions to 6e-08 m"), std::string::npos) << message;
 }
 
 }  // namespace
