@@ -49,8 +49,8 @@ TEST_F(CheckPage, ShowsFailedScenesFirst) {
     EXPECT_NE(std::find(commands.begin(), commands.end(), line), commands.end()) << line;
   }
   // What is not judged is hatched, and where the golden comes from is said first.
-  EXPECT_GT(browser_->run("return document.querySelectorAll('#scene-0 .ignored').length"), 0);
-  EXPECT_EQ(browser_->run("return document.querySelector('#scene-0 .findings li').textContent")
+  EXPECT_GT(browser_->run("return document.querySelectorAll('main .ignored').length"), 0);
+  EXPECT_EQ(browser_->run("return document.querySelector('main .findings li').textContent")
                 .get<std::string>()
                 .find("The golden was recorded with another renderer"),
             0u);
