@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "check/compare_motion.hpp"
-#include "check/draw_windows.hpp"
+#include "check/draw_frames.hpp"
 #include "check/picture.hpp"
 #include "core/read_file.hpp"
 #include "output/gif_encoder.hpp"
@@ -19,9 +19,10 @@
 namespace drape {
 namespace {
 
-constexpr int gap = 4;                                // between two pictures [pixels]
-constexpr int neighbours = 2;                         // compared frames on both sides of the first bad one
-constexpr double picture_rate = 2, motion_rate = 10;  // [1/s]
+constexpr int gap = 4;                               // between two pictures [pixels]
+constexpr int neighbours = 2;                        // compared frames on both sides of the first bad one
+constexpr std::size_t most_windows = 6;              // of a changed motion
+constexpr double picture_rate = 2, motion_rate = 3;  // [1/s]
 constexpr std::uint8_t gap_gray = 128;
 
 struct Pair {
@@ -49,16 +50,17 @@ std::vector<Pair> picture_pairs(const std::vector<FrameResult>& frames, int firs
   return pairs;
 }
 
-std::vector<Pair> motion_pairs(const Scene& scene, const Golden& golden, const GoldenWindow& window,
-                               const Eigen::Vector2i& size, GlBackend backend) {
-  DrawWindows drawing(scene, size, golden.view, backend);
-  const std::vector<Vertices> actual = rerun_window(scene.simulation, window);
+/// @param first the first window that is shown
+std::vector<Pair> motion_pairs(const Scene& scene, const Golden& golden, std::size_t first, const Eigen::Vector2i& size,
+                               GlBackend backend) {
+  DrawFrames drawing(scene, size, golden.view, backend);
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < actual.size(); ++i) {
-    const double time = static_cast<double>(window.start.step + static_cast<std::int64_t>(i)) * golden.step;
-    const int frame = window.frame.value_or(0);
-    const Vertices& expected = i == 0 ? window.start.x : window.steps[i - 1].x;
-    pairs.push_back({drawing.draw(frame, time, expected), drawing.draw(frame, time, actual[i])});
+  for (std::size_t i = first; i < std::min(first + most_windows, golden.windows.size() - 1); ++i) {
+    for (const WindowPositions& at : rerun_window(scene.simulation, golden, i)) {
+      if (i > 0 && at.step == golden.windows[i].start.step) continue;  // where nothing differs
+      const double time = static_cast<double>(at.step) * golden.step;
+      pairs.push_back({drawing.draw(0, time, at.golden), drawing.draw(0, time, at.actual)});
+    }
   }
   return pairs;
 }
@@ -82,18 +84,18 @@ Image side_by_side(const Pair& pair, double factor) {
 
 }  // namespace
 
-std::string difference_animation(const Scene& scene, const Golden& golden, const std::vector<GoldenWindow>& windows,
-                                 const SceneResult& result, GlBackend backend, const std::filesystem::path& folder) {
+std::string difference_animation(const Scene& scene, const Golden& golden, const SceneResult& result, GlBackend backend,
+                                 const std::filesystem::path& folder) {
   const Comparison& shown = result.windows.first_bad_frame || !result.end_to_end ? result.windows : *result.end_to_end;
   if (!shown.first_bad_frame) return {};
   const auto changed = std::find_if(shown.windows.begin(), shown.windows.end(), [](const WindowResult& window) {
-    return window.verdict == MotionVerdict::changed && window.last_step > window.first_step;
+    return window.verdict == MotionVerdict::changed;
   });
   const bool moved = changed != shown.windows.end();
   const Eigen::Vector2i size(result.size[0], result.size[1]);
   const auto at = static_cast<std::size_t>(changed - shown.windows.begin());
-  const std::vector<Pair> pairs = moved ? motion_pairs(scene, golden, windows[at], size, backend)
-                                        : picture_pairs(shown.frames, *shown.first_bad_frame);
+  const std::vector<Pair> pairs =
+      moved ? motion_pairs(scene, golden, at, size, backend) : picture_pairs(shown.frames, *shown.first_bad_frame);
   if (pairs.empty()) return {};
 
   const std::filesystem::path file = folder / result.name / "difference.gif";

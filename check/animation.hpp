@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "check/golden.hpp"
 #include "check/report.hpp"
@@ -12,12 +11,12 @@
 namespace drape {
 
 /// A GIF that shows expected, actual and difference side by side and repeats: of a changed motion the steps of the
-/// first window that changed, drawn alike, else the compared frames around the first picture that changed.
-/// @param windows of the golden, those that were compared
+/// first windows that changed whose positions are compared, drawn alike, else the compared frames around the first
+/// picture that changed.
 /// @param folder  where it is written, as NAME/difference.gif
 /// @returns the file's bytes; empty if there is nothing to show
 /// @throws OutputError
-std::string difference_animation(const Scene& scene, const Golden& golden, const std::vector<GoldenWindow>& windows,
-                                 const SceneResult& result, GlBackend backend, const std::filesystem::path& folder);
+std::string difference_animation(const Scene& scene, const Golden& golden, const SceneResult& result, GlBackend backend,
+                                 const std::filesystem::path& folder);
 
 }  // namespace drape

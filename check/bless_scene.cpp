@@ -1,5 +1,5 @@
 #include "check/check_scene.hpp"
-#include "check/draw_windows.hpp"
+#include "check/draw_frames.hpp"
 #include "check/golden_folder.hpp"
 #include "check/machine.hpp"
 #include "check/record_motion.hpp"
@@ -7,19 +7,28 @@
 
 namespace drape {
 
+std::optional<Recording> record_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
+                                      const std::stop_token& stop, Progress& progress) {
+  const std::optional<RecordPlan> plan = plan_recording(scene, settings, stop, progress);
+  if (!plan) return std::nullopt;
+  std::optional<Golden> golden = record_motion(scene, settings, *plan, stop, progress);
+  if (!golden) return std::nullopt;
+  DrawFrames drawing(scene, golden->size, golden->view, backend);
+  std::vector<Png> pictures = drawing.draw(golden->frames, stop, progress);
+  if (stop.stop_requested()) return std::nullopt;
+  golden->date = utc_now();
+  golden->machine = this_machine(drawing.renderer());
+  return Recording{std::move(*golden), std::move(pictures)};
+}
+
 std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
                                     const std::stop_token& stop, Progress& progress) {
   has_golden(golden_folder(scene.file));  // or it throws
   require_texture(scene);
-  std::optional<Golden> golden = record_motion(scene, settings, plan_windows(scene, settings), stop, progress);
-  if (!golden) return std::nullopt;
-  DrawWindows drawing(scene, golden->size, golden->view, backend);
-  const std::vector<Png> pictures = drawing.draw(golden->windows, stop, progress);
-  if (stop.stop_requested()) return std::nullopt;
-  golden->date = utc_now();
-  golden->machine = this_machine(drawing.renderer());
-  Blessing blessing{.folder = golden_folder(scene.file), .frames = static_cast<int>(pictures.size())};
-  blessing.size = write_golden(blessing.folder, *golden, pictures);
+  const std::optional<Recording> recording = record_scene(scene, settings, backend, stop, progress);
+  if (!recording) return std::nullopt;
+  Blessing blessing{.folder = golden_folder(scene.file), .frames = static_cast<int>(recording->pictures.size())};
+  blessing.size = write_golden(blessing.folder, recording->golden, recording->pictures);
   return blessing;
 }
 

@@ -1,7 +1,6 @@
 #include "check/check_scene.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,11 +8,14 @@
 #include <thread>
 
 #include "check/animation.hpp"
+#include "check/candidate.hpp"
 #include "check/compare_motion.hpp"
-#include "check/draw_windows.hpp"
+#include "check/draw_frames.hpp"
 #include "check/golden_folder.hpp"
 #include "check/golden_mismatch.hpp"
 #include "check/machine.hpp"
+#include "check/name_difference.hpp"
+#include "check/picture.hpp"
 #include "check/record_motion.hpp"
 #include "core/error.hpp"
 #include "run/outputs.hpp"
@@ -25,29 +27,6 @@ namespace fs = std::filesystem;
 
 std::size_t thread_count(const CheckOptions& options) {
   return options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-}
-
-/// The windows of the wanted frames, and the motion's start.
-std::vector<GoldenWindow> windows_of(const Golden& golden, const std::vector<int>& frames, const fs::path& folder) {
-  if (frames.empty()) return golden.windows;
-  std::vector<int> known;
-  for (const GoldenWindow& window : golden.windows) {
-    if (window.frame) known.push_back(*window.frame);
-  }
-  for (const int frame : frames) {
-    if (std::find(known.begin(), known.end(), frame) == known.end()) {
-      throw UsageError(
-          fmt::format("--frames: {} has no frame {}, only {}", folder.string(), frame, fmt::join(known, ", ")));
-    }
-  }
-  std::vector<GoldenWindow> windows;
-  for (const GoldenWindow& window : golden.windows) {
-    const bool wanted = window.frame && std::find(frames.begin(), frames.end(), *window.frame) != frames.end();
-    if (!wanted && window.start.step > 0) continue;
-    windows.push_back(window);
-    if (!wanted) windows.back().frame.reset();
-  }
-  return windows;
 }
 
 /// What is known of a scene before its check.
@@ -75,13 +54,13 @@ class SceneCheck {
         result_(unchecked(scene, name, settings)) {}
 
   SceneResult run() {
+    if (!options_.artefacts.empty()) remove_candidate(options_.artefacts, result_.name);
     if (!has_golden(result_.golden)) {
       miss();
     } else if (options_.update == UpdateMode::all) {
       update("recorded anew");
     } else {
       compare();
-      if (result_.verdict == SceneVerdict::changed && options_.update == UpdateMode::changed) update("recorded anew");
     }
     return std::move(result_);
   }
@@ -109,9 +88,10 @@ class SceneCheck {
   void compare() {
     golden_ = read_golden(result_.golden);
     check_precision();
-    windows_ = windows_of(golden_, options_.frames, result_.golden);
+    frames_ = chosen_frames(golden_, options_.frames, result_.golden);
     result_.recorded_at = golden_.date;
     result_.recorded_on = golden_.machine;
+    result_.ignored = covered_part(settings_.ignore, golden_.size);
     result_.scene_changed = golden_.scene_digest != scene_.digest;
 
     const std::string another_motion = motion_mismatch(scene_, golden_);
@@ -135,17 +115,17 @@ class SceneCheck {
   }
 
   void check_precision() const {
-    if (settings_.motion_tolerance > 0 && settings_.motion_tolerance < 2 * golden_.quantum) {
+    if (settings_.motion_tolerance > 0 && settings_.motion_tolerance < 2 * golden_.quanta.compared) {
       throw UsageError(
-          fmt::format("{} keeps positions to {:g} m, which cannot tell a motion_tolerance of {:g} m; bless "
+          fmt::format("{} keeps positions to {:.2g} m, which cannot tell a motion_tolerance of {:g} m; bless "
                       "the scene with that tolerance, or let it be 0 for the same bits",
-                      result_.golden.string(), golden_.quantum, settings_.motion_tolerance));
+                      result_.golden.string(), golden_.quanta.compared, settings_.motion_tolerance));
     }
   }
 
   void compare_window_motion() {
-    progress_.begin("checking", "windows", static_cast<std::int64_t>(windows_.size()));
-    result_.windows.windows = compare_windows(scene_.simulation, windows_, settings_.motion_tolerance,
+    progress_.begin("checking", "windows", static_cast<std::int64_t>(golden_.windows.size() - 1));
+    result_.windows.windows = compare_windows(scene_.simulation, golden_, settings_.motion_tolerance,
                                               thread_count(options_), stop_, [this] { ++progress_.done; });
     for (const WindowResult& window : result_.windows.windows) {
       result_.windows.motion = std::max(result_.windows.motion, window.verdict);
@@ -159,21 +139,23 @@ class SceneCheck {
   [[nodiscard]] View current_view() {
     const Simulation simulation(scene_.simulation);
     if (same_camera(scene_.camera, golden_.camera) &&
-        same_but_for_rounding(view_of_windows(scene_.camera, golden_.size, golden_.windows, simulation),
-                              golden_.window_view)) {
+        same_but_for_rounding(view_of_frames(scene_.camera, golden_.size, golden_.frames, simulation),
+                              golden_.frames_view)) {
       return golden_.view;
     }
     if (!needs_motion(scene_.camera)) return fixed_view(scene_.camera);
-    const auto recorded = record_motion(scene_, settings_, {}, stop_, progress_);
+    const auto recorded =
+        record_motion(scene_, settings_, {.frames = {}, .window_steps = golden_.window_steps, .quanta = golden_.quanta},
+                      stop_, progress_);
     return recorded ? recorded->view : golden_.view;
   }
 
   void compare_golden_pictures() {
     const View view = current_view();
     if (stop_.stop_requested()) return;
-    DrawWindows drawing(scene_, golden_.size, view, options_.backend);
+    DrawFrames drawing(scene_, golden_.size, view, options_.backend);
     result_.renderer = drawing.renderer();
-    result_.windows.frames = drawing.compare(windows_, windows_, result_.golden, settings_.limits, stop_, progress_);
+    result_.windows.frames = drawing.compare(frames_, result_.golden, settings_, stop_, progress_);
     worst_picture(result_.windows);
   }
 
@@ -181,6 +163,7 @@ class SceneCheck {
     int changed = 0;
     const FrameResult* worst = nullptr;
     for (const FrameResult& frame : comparison.frames) {
+      if (!frame.judged) continue;
       comparison.picture = std::max(comparison.picture, frame.difference.verdict);
       if (frame.difference.verdict != PictureVerdict::changed) continue;
       ++changed;
@@ -189,44 +172,40 @@ class SceneCheck {
     if (worst == nullptr) return;
     const PictureDifference& d = worst->difference;
     result_.findings.push_back(fmt::format(
-        "{} of {} pictures changed{}: frame {} by up to {} of 255 in {:.3g} % of the pixels, FLIP error up to {:.3f}",
+        "{} of {} pictures changed{}: frame {} by up to {} of 255 in {:.3g} % of the pixels, FLIP error up to {:.3f}{}",
         changed, comparison.frames.size(), &comparison == &result_.windows ? "" : " end to end", worst->frame,
-        d.largest_channel, 100 * d.fraction, d.max_flip));
+        d.largest_channel, 100 * d.fraction, d.max_flip, worst->kind.empty() ? "" : "; it is " + worst->kind));
   }
 
   void compare_end_to_end() {
-    const std::vector<WindowPlan> plan = plan_of(windows_);
-    const auto recorded = record_motion(scene_, settings_, plan, stop_, progress_);
+    const auto recorded = record_motion(scene_, settings_, plan_of(golden_), stop_, progress_);
     if (!recorded) return;
     Comparison& whole = result_.end_to_end.emplace();
-    whole.windows = compare_starts(windows_, recorded->windows, golden_.step, settings_.motion_tolerance);
+    whole.windows = compare_whole(scene_.simulation, golden_, *recorded, settings_.motion_tolerance);
     for (const WindowResult& window : whole.windows) whole.motion = std::max(whole.motion, window.verdict);
     if (whole.motion == MotionVerdict::changed) {
       result_.findings.push_back("end to end, " + describe_motion(whole.windows));
     }
-    DrawWindows drawing(scene_, golden_.size, recorded->view, options_.backend);
-    whole.frames = drawing.compare(windows_, recorded->windows, result_.golden, settings_.limits, stop_, progress_);
+    DrawFrames drawing(scene_, golden_.size, recorded->view, options_.backend);
+    std::vector<GoldenFrame> frames = chosen_frames(*recorded, options_.frames, result_.golden);
+    for (std::size_t i = 0; i < frames.size(); ++i) frames[i].pixels = frames_[i].pixels;
+    whole.frames = drawing.compare(frames, result_.golden, settings_, stop_, progress_);
     worst_picture(whole);
     find_first_bad(whole);
   }
 
-  [[nodiscard]] static std::vector<WindowPlan> plan_of(const std::vector<GoldenWindow>& windows) {
-    std::vector<WindowPlan> plan;
-    for (const GoldenWindow& window : windows) {
-      plan.push_back({window.frame, window.time, window.start.step, window.start.step});
-    }
-    return plan;
-  }
-
-  static void find_first_bad(Comparison& comparison) {
+  void find_first_bad(Comparison& comparison) const {
     const auto offer = [&](int frame) {
       comparison.first_bad_frame = std::min(comparison.first_bad_frame.value_or(frame), frame);
     };
     for (const WindowResult& window : comparison.windows) {
-      if (window.verdict == MotionVerdict::changed) offer(window.frame.value_or(0));
+      if (window.verdict != MotionVerdict::changed) continue;
+      const double begin = golden_.step * static_cast<double>(window.first_step);
+      const auto after = std::find_if(frames_.begin(), frames_.end(), [&](const auto& f) { return f.time >= begin; });
+      offer(after != frames_.end() ? after->frame : frames_.back().frame);
     }
     for (const FrameResult& frame : comparison.frames) {
-      if (frame.difference.verdict == PictureVerdict::changed) offer(frame.frame);
+      if (frame.judged && frame.difference.verdict == PictureVerdict::changed) offer(frame.frame);
     }
   }
 
@@ -250,13 +229,31 @@ class SceneCheck {
         result_.windows.picture == PictureVerdict::changed) {
       result_.findings.push_back("the motion did not change");
     }
+    result_.elsewhere = name_other_machine(golden_.machine, this_machine(result_.renderer));
+    if (changed && !result_.elsewhere.empty()) {
+      result_.findings.push_back("the golden was recorded " + result_.elsewhere);
+    }
     if (changed && result_.scene_changed) {
       result_.findings.push_back("the scene file has changed since the golden was recorded");
     }
-    if (changed && !options_.artefacts.empty() && !stop_.stop_requested()) {
-      result_.animation =
-          difference_animation(scene_, golden_, windows_, result_, options_.backend, options_.artefacts);
+    if (!changed || options_.artefacts.empty()) return;
+    if (!stop_.stop_requested()) {
+      result_.animation = difference_animation(scene_, golden_, result_, options_.backend, options_.artefacts);
     }
+    if (!stop_.stop_requested()) keep_candidate();
+  }
+
+  /// What bless would record now. Where it cannot, because the motion diverges, there is nothing to accept.
+  void keep_candidate() {
+    std::optional<Recording> recording;
+    try {
+      recording = record_scene(scene_, settings_, options_.backend, stop_, progress_);
+    } catch (const DivergedError& diverged) {
+      result_.findings.push_back(fmt::format("there is nothing to accept: {}", diverged.what()));
+    }
+    if (!recording) return;
+    write_candidate(options_.artefacts, result_.name, scene_, recording->golden, recording->pictures);
+    result_.has_candidate = true;
   }
 
   const Scene& scene_;
@@ -265,7 +262,7 @@ class SceneCheck {
   const std::stop_token& stop_;
   Progress& progress_;
   Golden golden_;
-  std::vector<GoldenWindow> windows_;  // those of the golden that are compared
+  std::vector<GoldenFrame> frames_;  // those of the golden that are compared
   SceneResult result_;
 };
 

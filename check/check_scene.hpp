@@ -17,7 +17,6 @@ namespace drape {
 /// When a check writes goldens.
 enum class UpdateMode {
   all,      ///< always
-  changed,  ///< where there is none, and where the motion or a picture changed
   missing,  ///< where there is none; the check fails all the same
   none
 };
@@ -28,8 +27,9 @@ struct CheckOptions {
   GlBackend backend = GlBackend::automatic;
   bool end_to_end = false;  ///< run the whole motion and draw it as well
   UpdateMode update = UpdateMode::missing;
-  std::size_t threads = 0;               ///< that compute windows; 0: as many as the processor has
-  std::filesystem::path artefacts = {};  ///< folder for the animation of a failed scene; empty: it is not made
+  std::size_t threads = 0;  ///< that compute windows; 0: as many as the processor has
+  /// The report's folder, for the animation of a failed scene and what it would be accepted as; empty: neither is made.
+  std::filesystem::path artefacts = {};
 };
 
 /// What bless did.
@@ -38,6 +38,18 @@ struct Blessing {
   int frames = 0;
   std::uintmax_t size = 0;  ///< [bytes]
 };
+
+/// A golden that is not written yet.
+struct Recording {
+  Golden golden;
+  std::vector<Png> pictures;  ///< of its frames
+};
+
+/// Runs a scene and draws the compared frames.
+/// @returns nothing if it was stopped
+/// @throws DivergedError, UsageError, OutputError
+std::optional<Recording> record_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
+                                      const std::stop_token& stop, Progress& progress);
 
 /// Records a scene's golden in the place of an older one.
 /// @param settings  Scene::check with what the command line says

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 
 #include "core/parallel.hpp"
@@ -16,139 +17,191 @@ namespace {
 // Of energies that belong to the same bits: what is left is the order of a sum, if anybody changes that.
 constexpr double energy_rounding = 1e-12;
 
-/// Collects how far the steps of a window are from their golden places.
+double seconds(const GoldenWindow& window, double step) {
+  return step * static_cast<double>(std::max<std::size_t>(window.steps.size(), 1));
+}
+
+bool same_state(const State& a, const State& b) {
+  const auto same = [](const Vertices& p, const Vertices& q) {
+    return p.rows() == q.rows() &&
+           std::memcmp(p.data(), q.data(), sizeof(double) * static_cast<std::size_t>(p.size())) == 0;
+  };
+  return same(a.x, b.x) && same(a.v, b.v);
+}
+
+/// Compares a window, step by step.
 class Collector {
  public:
-  Collector(WindowResult& result, double tolerance) : result_(result), tolerance_(tolerance) {}
-
-  void add(std::int64_t step, bool same_bits, const Vertices& actual, const Vertices& golden) {
-    Eigen::Index vertex = 0;
-    const double distance = std::sqrt((actual - golden).rowwise().squaredNorm().maxCoeff(&vertex));
-    if (same_bits) {
-      result_.deviations.push_back(0);
-      const double rounded_by = std::max(tolerance_, 10 * least_quantum) + 1e-15 * actual.cwiseAbs().maxCoeff();
-      if (!(distance <= rounded_by)) {
-        fail(fmt::format("the golden is damaged: at step {} its bits are those of the motion, its positions are {} off",
-                         step, readable_length(distance)));
-      }
-      return;
-    }
-    const Deviation deviation{.step = step, .vertex = static_cast<int>(vertex), .distance = distance};
-    result_.deviations.push_back(distance);
-    if (!result_.largest || distance > result_.largest->distance) result_.largest = deviation;
-    const bool within = tolerance_ > 0 && distance <= tolerance_;
-    if (!within && !result_.first) result_.first = deviation;
-    result_.verdict = std::max(result_.verdict, within ? MotionVerdict::within_tolerance : MotionVerdict::changed);
+  Collector(const Golden& golden, std::size_t window, double tolerance)
+      : golden_(golden), window_(golden.windows[window]), next_(golden.windows[window + 1]), tolerance_(tolerance) {
+    result.first_step = window_.start.step;
+    result.last_step = window_.last_step();
   }
 
-  /// The state that a window begins with. A velocity counts as the way it leads within some time.
-  void add_start(const State& actual, const State& golden, double seconds) {
-    const bool same_bits = state_bits(actual) == state_bits(golden);
-    add(actual.step, same_bits, actual.x, golden.x);
-    if (same_bits) return;
+  /// The state that the motion itself begins with.
+  void begin(const State& initial) {
+    if (same_state(initial, window_.start)) return add_same(initial.step);
+    note_other_bits(initial.step);
+    add_positions(initial.step, initial.x, window_.start.x);
+    add_velocities(initial, window_.start, seconds(window_, golden_.step));
+  }
+
+  void add_step(std::int64_t step, std::uint32_t hash, const std::vector<double>& bodies,
+                const Simulation& simulation) {
+    const GoldenStep& golden = window_.steps[static_cast<std::size_t>(step - window_.start.step - 1)];
+    if (hash == golden.hash) return;
+    note_other_bits(step);
+    if (bodies.size() != golden.bodies.size()) {
+      return fail(fmt::format("at step {} there are other pins or other things to touch", step));
+    }
+    std::size_t worst = 0;
+    const auto distance = [&](std::size_t i) { return std::abs(bodies[i] - golden.bodies[i]); };
+    for (std::size_t i = 1; i < bodies.size(); ++i) worst = distance(i) > distance(worst) ? i : worst;
+    if (bodies.empty() || distance(worst) <= tolerance_ + golden_.quanta.compared) return;
+    fail(fmt::format("at step {} {} is {} from its golden place", step, body_name(simulation, worst),
+                     readable_length(distance(worst))));
+  }
+
+  void add_middle(const Vertices& x) {
+    if (window_.middle.size() > 0) add_either(window_.middle_step(), x, window_.middle);
+  }
+
+  /// @param state where the window ends, before it is rounded
+  void end(const State& state, const Energies& energies) {
+    if (window_.steps.empty()) return;
+    add_either(state.step, state.x, next_.start.x);
+    if (result.other_bits) return add_velocities(state, next_.start, golden_.step);
+    add_energies(energies);
+  }
+
+  /// Only the first problem is told.
+  void fail(std::string problem) {
+    if (result.problem.empty()) result.problem = std::move(problem);
+    result.verdict = MotionVerdict::changed;
+  }
+
+  WindowResult result;
+
+ private:
+  void note_other_bits(std::int64_t step) {
+    if (!result.other_bits) result.other_bits = step;
+    result.verdict =
+        std::max(result.verdict, tolerance_ > 0 ? MotionVerdict::within_tolerance : MotionVerdict::changed);
+  }
+
+  void add_same(std::int64_t step) { result.deviations.push_back({.step = step, .vertex = 0, .distance = 0}); }
+
+  void add_either(std::int64_t step, const Vertices& actual, const Vertices& golden) {
+    if (result.other_bits) {
+      add_positions(step, actual, golden);
+    } else {
+      add_same(step);
+    }
+  }
+
+  void add_positions(std::int64_t step, const Vertices& actual, const Vertices& golden) {
+    Eigen::Index vertex = 0;
+    const double distance = std::sqrt((actual - golden).rowwise().squaredNorm().maxCoeff(&vertex));
+    const Deviation deviation{.step = step, .vertex = static_cast<int>(vertex), .distance = distance};
+    result.deviations.push_back(deviation);
+    if (!result.largest || distance > result.largest->distance) result.largest = deviation;
+    const bool within = tolerance_ > 0 && distance <= tolerance_;
+    if (!within && !result.first) result.first = deviation;
+    if (!within) result.verdict = MotionVerdict::changed;
+  }
+
+  void add_velocities(const State& actual, const State& golden, double seconds) {
     Eigen::Index vertex = 0;
     const double speed = std::sqrt((actual.v - golden.v).rowwise().squaredNorm().maxCoeff(&vertex));
     if (speed == 0 || (tolerance_ > 0 && speed * seconds <= tolerance_)) return;
     fail(fmt::format("the velocity at step {} changed by {:.3g} m/s at vertex {}", actual.step, speed, vertex));
   }
 
-  void add_energies(std::int64_t step, bool same_bits, const Energies& actual, const Energies& golden) {
+  void add_energies(const Energies& actual) {
+    const Energies& golden = window_.energies;
     const double scale = std::max({std::abs(golden.kinetic), std::abs(golden.gravity), std::abs(golden.elastic)});
-    if (!same_bits || !result_.problem.empty()) return;
     const double difference =
         std::max({std::abs(actual.kinetic - golden.kinetic), std::abs(actual.gravity - golden.gravity),
                   std::abs(actual.elastic - golden.elastic)});
     if (difference <= energy_rounding * scale) return;
     fail(fmt::format("the energies of step {} changed, the motion did not: {:.9g} J in total, {:.9g} J in the golden",
-                     step, actual.total(), golden.total()));
+                     window_.last_step(), actual.total(), golden.total()));
   }
 
-  /// Only the first problem is told.
-  void fail(std::string problem) {
-    if (result_.problem.empty()) result_.problem = std::move(problem);
-    result_.verdict = MotionVerdict::changed;
-  }
-
- private:
-  WindowResult& result_;
+  const Golden& golden_;
+  const GoldenWindow& window_;
+  const GoldenWindow& next_;
   double tolerance_;
 };
 
-std::int64_t last_step(const GoldenWindow& window) {
-  return window.start.step + static_cast<std::int64_t>(window.steps.size());
-}
-
-WindowResult empty_result(const GoldenWindow& window) {
-  WindowResult result;
-  result.frame = window.frame;
-  result.first_step = window.start.step;
-  result.last_step = last_step(window);
-  return result;
-}
-
-/// How long the motion of a window takes, and no less than a step [s].
-double seconds(const GoldenWindow& window, double step) {
-  return step * static_cast<double>(std::max<std::size_t>(window.steps.size(), 1));
-}
-
-WindowResult compare_window(Simulation& simulation, const State& initial, const GoldenWindow& window,
+WindowResult compare_window(Simulation& simulation, const State& initial, const Golden& golden, std::size_t index,
                             double tolerance) {
-  WindowResult result = empty_result(window);
-  Collector collector(result, tolerance);
-  const State& start = window.start.step == 0 ? initial : window.start;
-  collector.add_start(start, window.start, seconds(window, simulation.settings().step));
-  simulation.restore(start);
+  const GoldenWindow& window = golden.windows[index];
+  Collector collector(golden, index, tolerance);
+  if (index == 0) collector.begin(initial);
+  simulation.restore(index == 0 ? initial : window.start);
   try {
-    auto golden = window.steps.begin();
-    run_steps(simulation, result.last_step, {}, [&](const StepReport&) {
+    run_steps(simulation, window.last_step(), {}, [&](const StepReport&) {
       const State& state = simulation.state();
-      const bool same = state_bits(state) == golden->bits;
-      collector.add(state.step, same, state.x, golden->x);
-      collector.add_energies(state.step, same, simulation.energies(), golden->energies);
-      ++golden;
+      collector.add_step(state.step, step_hash(simulation), body_numbers(simulation), simulation);
+      if (state.step == window.middle_step()) collector.add_middle(state.x);
     });
+    collector.end(simulation.state(), simulation.energies());
   } catch (const DivergedError& diverged) {
     collector.fail(diverged.what());
   }
-  return result;
+  return std::move(collector.result);
 }
 
 }  // namespace
 
-std::vector<WindowResult> compare_windows(const SimulationSettings& settings, const std::vector<GoldenWindow>& windows,
-                                          double tolerance, std::size_t threads, const std::stop_token& stop,
+std::vector<WindowResult> compare_windows(const SimulationSettings& settings, const Golden& golden, double tolerance,
+                                          std::size_t threads, const std::stop_token& stop,
                                           const std::function<void()>& done) {
-  std::vector<WindowResult> results(windows.size());
+  std::vector<WindowResult> results(golden.windows.size() - 1);
   std::vector<std::unique_ptr<Simulation>> simulations(threads);
   std::vector<State> initial(threads);
-  for_each_in_parallel(threads, windows.size(), stop, [&](std::size_t worker, std::size_t i) {
+  for_each_in_parallel(threads, results.size(), stop, [&](std::size_t worker, std::size_t i) {
     if (!simulations[worker]) {
       simulations[worker] = std::make_unique<Simulation>(settings);
       initial[worker] = simulations[worker]->state();
     }
-    results[i] = compare_window(*simulations[worker], initial[worker], windows[i], tolerance);
+    results[i] = compare_window(*simulations[worker], initial[worker], golden, i, tolerance);
     done();
   });
   return results;
 }
 
-std::vector<WindowResult> compare_starts(const std::vector<GoldenWindow>& golden,
-                                         const std::vector<GoldenWindow>& actual, double step, double tolerance) {
+std::vector<WindowResult> compare_whole(const SimulationSettings& settings, const Golden& golden, const Golden& actual,
+                                        double tolerance) {
+  const Simulation simulation(settings);  // for the names of its bodies
   std::vector<WindowResult> results;
-  for (std::size_t i = 0; i < std::min(golden.size(), actual.size()); ++i) {
-    WindowResult& result = results.emplace_back(empty_result(golden[i]));
-    result.last_step = result.first_step;
-    Collector(result, tolerance).add_start(actual[i].start, golden[i].start, step);
+  for (std::size_t i = 0; i + 1 < golden.windows.size(); ++i) {
+    Collector collector(golden, i, tolerance);
+    const GoldenWindow& window = actual.windows[i];
+    if (i == 0) collector.begin(window.start);
+    for (std::size_t k = 0; k < window.steps.size(); ++k) {
+      const auto step = window.start.step + static_cast<std::int64_t>(k) + 1;
+      collector.add_step(step, window.steps[k].hash, window.steps[k].bodies, simulation);
+      if (step == window.middle_step()) collector.add_middle(window.middle);
+    }
+    collector.end(actual.windows[i + 1].start, window.energies);
+    results.push_back(std::move(collector.result));
   }
   return results;
 }
 
-std::vector<Vertices> rerun_window(const SimulationSettings& settings, const GoldenWindow& window) {
+std::vector<WindowPositions> rerun_window(const SimulationSettings& settings, const Golden& golden, std::size_t index) {
+  const GoldenWindow& window = golden.windows[index];
   Simulation simulation(settings);
-  simulation.restore(window.start);
-  std::vector<Vertices> positions{window.start.x};
+  if (index > 0) simulation.restore(window.start);
+  std::vector<WindowPositions> positions{{window.start.step, window.start.x, simulation.state().x}};
   try {
-    run_steps(simulation, last_step(window), {}, [&](const StepReport&) { positions.push_back(simulation.state().x); });
+    run_steps(simulation, window.last_step(), {}, [&](const StepReport&) {
+      const State& now = simulation.state();
+      if (now.step == window.middle_step()) positions.push_back({now.step, window.middle, now.x});
+      if (now.step == window.last_step()) positions.push_back({now.step, golden.windows[index + 1].start.x, now.x});
+    });
   } catch (const DivergedError&) {
     // What there is up to here is shown.
   }
@@ -166,9 +219,13 @@ std::string describe_motion(const std::vector<WindowResult>& windows) {
     }
   }
   if (first == nullptr) return {};
-  if (!first->first || largest == nullptr) return first->problem;
+  if (!first->first || largest == nullptr) {
+    return first->problem.empty() ? fmt::format("the bits of the motion changed at step {}", *first->other_bits)
+                                  : first->problem;
+  }
   std::string text = fmt::format("the motion changed at step {} by {} at vertex {}", first->first->step,
                                  readable_length(first->first->distance), first->first->vertex);
+  if (*first->other_bits < first->first->step) text += fmt::format(" (its bits from step {} on)", *first->other_bits);
   if (largest->step != first->first->step) {
     text += fmt::format(", and by up to {} at vertex {} at step {}", readable_length(largest->distance),
                         largest->vertex, largest->step);

@@ -1,14 +1,15 @@
 #include "check/golden.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
 #include <stdexcept>
 
 #include "check/golden_file.hpp"
 #include "check/manifest.hpp"
 #include "check/motion_file.hpp"
+#include "core/error.hpp"
 #include "core/hash.hpp"
 
 namespace drape {
@@ -16,65 +17,99 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uintmax_t most_manifest = std::uintmax_t{64} << 20;
+constexpr std::size_t most_pins = 64;  // whose places are kept for every step
 
-/// How many words motion.bin can have beside a manifest.
-std::uint64_t most_words(const Manifest& manifest) {
-  std::uint64_t steps = 0;
-  for (const WindowSummary& window : manifest.windows) {
-    steps += static_cast<std::uint64_t>(window.last_step - window.first_step);
+/// The numbers that say where a body is.
+std::vector<double> numbers_of(const Collider& collider) {
+  if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
+    return {sphere->center[0], sphere->center[1], sphere->center[2], sphere->radius};
   }
-  return most_motion_words(manifest.windows.size(), static_cast<std::uint64_t>(manifest.golden.vertex_count), steps);
+  const auto& ground = std::get<GroundShape>(collider);
+  return {ground.normal[0], ground.normal[1], ground.normal[2], ground.height, ground.thickness};
 }
 
-/// A hair more than the words have bytes: what zlib cannot make smaller, it keeps as it is.
-std::uintmax_t most_bytes(std::uint64_t words) { return 8 * words + words / 64 + 1024; }
-
-bool fits_vertices(const GoldenWindow& window, int count) {
-  const auto fits = [&](const Vertices& x) { return x.rows() == count; };
-  return fits(window.start.x) && (!window.shown || fits(*window.shown)) &&
-         std::all_of(window.steps.begin(), window.steps.end(), [&](const GoldenStep& step) { return fits(step.x); });
+std::vector<int> some_pins(const std::vector<int>& pins) {
+  std::vector<int> some;
+  const std::size_t count = std::min(pins.size(), most_pins);
+  for (std::size_t i = 0; i < count; ++i) some.push_back(pins[i * pins.size() / count]);
+  return some;
 }
 
-/// Whether all windows that pass through a step have the same state there.
-bool windows_agree(const std::vector<GoldenWindow>& windows) {
-  std::map<std::int64_t, std::uint64_t> known;
-  const auto agrees = [&](std::int64_t step, std::uint64_t bits) {
-    return known.emplace(step, bits).first->second == bits;
-  };
-  bool good = true;
-  for (const GoldenWindow& window : windows) {
-    std::int64_t step = window.start.step;
-    good = good && agrees(step, state_bits(window.start));
-    for (const GoldenStep& next : window.steps) good = good && agrees(++step, next.bits);
-  }
-  return good;
-}
-
-/// The windows of motion.bin must fit together with the manifest and each other.
-void check_windows(const Golden& golden, const std::vector<WindowSummary>& summaries, const fs::path& file) {
-  const std::vector<GoldenWindow>& windows = golden.windows;
-  if (windows.empty()) fail_to_read(file, "holds no motion");
-  bool good = windows.size() == summaries.size();
-  for (std::size_t i = 0; good && i < windows.size(); ++i) {
-    good = fits_vertices(windows[i], golden.vertex_count) && summary_of(windows[i]) == summaries[i];
-  }
-  if (!good) fail_to_read(file, "does not belong to the manifest beside it");
-  const auto ascending = [](const GoldenWindow& a, const GoldenWindow& b) {
-    return a.start.step <= b.start.step && a.time <= b.time && b.frame && (!a.frame || *a.frame < *b.frame);
-  };
-  for (std::size_t i = 1; i < windows.size(); ++i) good = good && ascending(windows[i - 1], windows[i]);
-  if (!good) fail_to_read(file, "holds windows that are not in order");
-  if (!windows_agree(windows))
-    fail_to_read(file, "contradicts itself: two windows have another state at the same step");
+void add(Hash& hash, const Vertices& values) {
+  hash.add(values.data(), sizeof(double) * static_cast<std::size_t>(values.size()));
 }
 
 }  // namespace
 
-std::uint64_t state_bits(const State& state) {
+std::uint32_t step_hash(const Simulation& simulation) {
   Hash hash;
-  hash.add(state.x.data(), sizeof(double) * static_cast<std::size_t>(state.x.size()));
-  hash.add(state.v.data(), sizeof(double) * static_cast<std::size_t>(state.v.size()));
-  return hash.value();
+  add(hash, simulation.state().x);
+  add(hash, simulation.state().v);
+  for (const Collider& collider : simulation.colliders(simulation.time())) {
+    const std::vector<double> numbers = numbers_of(collider);
+    hash.add(numbers.data(), sizeof(double) * numbers.size());
+  }
+  const std::vector<int>& pins = simulation.cloth().pins;
+  hash.add(pins.data(), sizeof(int) * pins.size());
+  return static_cast<std::uint32_t>(hash.value() ^ hash.value() >> 32);
+}
+
+std::vector<double> body_numbers(const Simulation& simulation) {
+  std::vector<double> all;
+  for (const Collider& collider : simulation.colliders(simulation.time())) {
+    const std::vector<double> numbers = numbers_of(collider);
+    all.insert(all.end(), numbers.begin(), numbers.end());
+  }
+  for (const int pin : some_pins(simulation.cloth().pins)) {
+    for (int axis = 0; axis < 3; ++axis) all.push_back(simulation.state().x(pin, axis));
+  }
+  return all;
+}
+
+const char* body_kind(const Collider& collider) {
+  return std::holds_alternative<SphereShape>(collider) ? "sphere" : "ground";
+}
+
+std::string body_name(const Simulation& simulation, std::size_t index) {
+  std::size_t number = 0;
+  for (const Collider& collider : simulation.colliders(simulation.time())) {
+    ++number;
+    const std::size_t count = numbers_of(collider).size();
+    if (index < count) return fmt::format("{} {}", body_kind(collider), number);
+    index -= count;
+  }
+  const std::vector<int> pins = some_pins(simulation.cloth().pins);
+  return index / 3 < pins.size() ? fmt::format("pin {}", pins[index / 3]) : "a body";
+}
+
+std::string pixel_hash(const Image& picture) {
+  Hash hash;
+  hash.add(picture.pixels.data(), picture.pixels.size());
+  return hash.text();
+}
+
+std::vector<std::int64_t> window_starts(std::int64_t step_count, std::int64_t window_steps) {
+  std::vector<std::int64_t> starts{0};
+  for (std::int64_t step = window_steps; step < step_count; step += window_steps) starts.push_back(step);
+  starts.push_back(step_count);
+  return starts;
+}
+
+std::vector<GoldenFrame> chosen_frames(const Golden& golden, const std::vector<int>& wanted, const fs::path& folder) {
+  if (wanted.empty()) return golden.frames;
+  std::vector<GoldenFrame> frames;
+  for (const int number : wanted) {
+    const auto found = std::find_if(golden.frames.begin(), golden.frames.end(),
+                                    [&](const GoldenFrame& frame) { return frame.frame == number; });
+    if (found == golden.frames.end()) {
+      std::vector<int> known;
+      for (const GoldenFrame& frame : golden.frames) known.push_back(frame.frame);
+      throw UsageError(
+          fmt::format("--frames: {} has no frame {}, only {}", folder.string(), number, fmt::join(known, ", ")));
+    }
+    frames.push_back(*found);
+  }
+  return frames;
 }
 
 fs::path golden_folder(const fs::path& scene_file) {
@@ -94,14 +129,15 @@ Golden read_golden(const fs::path& folder) {
   } catch (const std::invalid_argument& error) {
     fail_to_read(manifest_file, error.what());
   }
-  Golden& golden = manifest.golden;
   try {
-    const std::uint64_t words = most_words(manifest);
-    golden.windows = unpack_motion(read_golden_file(motion_file, most_bytes(words)), golden.quantum, words);
+    const std::string bytes = read_golden_file(motion_file, most_motion_bytes(manifest.golden));
+    Hash hash;
+    hash.add(bytes);
+    if (hash.text() != manifest.motion_hash) throw std::invalid_argument("is not as it was recorded");
+    unpack_motion(bytes, manifest.golden);
   } catch (const std::invalid_argument& error) {
     fail_to_read(motion_file, error.what());
   }
-  check_windows(golden, manifest.windows, motion_file);
   return std::move(manifest.golden);
 }
 

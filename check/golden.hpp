@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -8,6 +7,8 @@
 #include <vector>
 
 #include "check/report.hpp"
+#include "check/rounding.hpp"
+#include "render/image.hpp"
 #include "render/settings.hpp"
 #include "render/view.hpp"
 #include "sim/simulation.hpp"
@@ -16,24 +17,30 @@ namespace drape {
 
 /// What a step of the golden motion ended in.
 struct GoldenStep {
-  std::uint64_t bits = 0;  ///< hash of the state, see state_bits()
-  Vertices x;              ///< rounded to the golden's quantum [m]
-  Energies energies;       ///< [J]
+  std::uint32_t hash = 0;      ///< of every bit, see step_hash()
+  std::vector<double> bodies;  ///< what moves the cloth and where it is, see body_numbers(), to Quanta::compared
 };
 
-/// A piece of the golden motion: an exact state and the steps from there on.
+/// A piece of the golden motion: a state and the steps from there on. It ends where the next one begins, but for the
+/// rounding of that.
 struct GoldenWindow {
-  std::optional<int> frame;       ///< the compared frame that the picture shows; absent: it has no picture
-  double time = 0;                ///< of the frame [s]
-  State start;                    ///< exact, at or just before the frame
-  std::optional<Vertices> shown;  ///< the exact positions in the picture, where the frame falls between two steps
-  std::vector<GoldenStep> steps;  ///< after start.step + 1, + 2, …
+  State start;                    ///< rounded as Quanta says; that of the first one as the simulation makes it
+  std::vector<GoldenStep> steps;  ///< after start.step + 1, + 2, …; none in the last window, which is the motion's end
+  Vertices middle;                ///< positions after half of the steps, to Quanta::compared; empty below two steps [m]
+  Energies energies;              ///< where it ends [J]
 
-  [[nodiscard]] const Vertices& picture_positions() const { return shown ? *shown : start.x; }
+  [[nodiscard]] std::int64_t last_step() const { return start.step + static_cast<std::int64_t>(steps.size()); }
+  [[nodiscard]] std::int64_t middle_step() const { return start.step + static_cast<std::int64_t>(steps.size() / 2); }
 };
 
-/// The finest rounding of positions, where the bits are to be the same [m].
-constexpr double least_quantum = 1e-10;
+/// A frame of the film whose picture is compared.
+struct GoldenFrame {
+  int frame = 0;            ///< its number
+  double time = 0;          ///< of the scene [s]
+  std::string why;          ///< it was chosen: "first contact with the sphere"
+  Vertices x;               ///< positions that the picture shows, rounded as Quanta says [m]
+  std::string pixels = {};  ///< hash of the picture, see pixel_hash(); set when it is written
+};
 
 /// Everything that a scene is compared with.
 struct Golden {
@@ -43,20 +50,47 @@ struct Golden {
   Eigen::Vector2i size{0, 0};   ///< of the pictures [pixels]
   double step = 0;              ///< h [s]
   std::int64_t step_count = 0;  ///< of the whole motion
+  std::int64_t window_steps = 1;
   int vertex_count = 0;
-  double seconds_per_frame = 0;       ///< of the scene's time
-  double quantum = 1e-7;              ///< of GoldenStep::x, at least least_quantum [m]
+  int row = 1;         ///< how far apart the numbers of vertices are that lie side by side, where rows of a grid do
+  int body_count = 0;  ///< of GoldenStep::bodies, at most
+  double seconds_per_frame = 0;  ///< of the scene's time
+  Quanta quanta;
   Camera camera;                      ///< what the scene said
   View view;                          ///< and where it stood: the whole motion need not be run to know
-  View window_view;                   ///< where it would stand if the windows' starts were the whole motion
-  std::vector<GoldenWindow> windows;  ///< ascending
+  View frames_view;                   ///< where it would stand if the compared frames were the whole motion
+  std::vector<GoldenWindow> windows;  ///< they tile the motion; the last one is its end
+  std::vector<GoldenFrame> frames;    ///< ascending
 };
 
 /// Whether two cameras are the same to the last bit.
 bool same_camera(const Camera& a, const Camera& b);
 
-/// A hash of all bits of a state's positions and velocities.
-std::uint64_t state_bits(const State& state);
+/// A short hash of every bit of a simulation's positions and velocities, of where everything is that the cloth can
+/// touch, and of which vertices are pinned.
+std::uint32_t step_hash(const Simulation& simulation);
+
+/// Where everything is that the cloth can touch, and where its pins are (of many some, spread over them): numbers of
+/// which each may be as far from the golden one as a vertex.
+std::vector<double> body_numbers(const Simulation& simulation);
+
+/// "sphere", "ground".
+const char* body_kind(const Collider& collider);
+
+/// What body_numbers()[index] belongs to: "sphere 1", "ground 2", "pin 20".
+std::string body_name(const Simulation& simulation, std::size_t index);
+
+/// A hash of a picture's pixels, as 16 hexadecimal digits: the same however the PNG file packs them.
+std::string pixel_hash(const Image& picture);
+
+/// Where a motion of so many steps is cut: the first steps of its windows, and its last one.
+std::vector<std::int64_t> window_starts(std::int64_t step_count, std::int64_t window_steps);
+
+/// Those of a golden's frames that are wanted; empty: all.
+/// @param folder of the golden, for the message
+/// @throws UsageError if it has no such frame
+std::vector<GoldenFrame> chosen_frames(const Golden& golden, const std::vector<int>& wanted,
+                                       const std::filesystem::path& folder);
 
 /// The folder of a scene's golden, beside it: scenes/5.golden for scenes/5.toml.
 std::filesystem::path golden_folder(const std::filesystem::path& scene_file);
@@ -64,9 +98,9 @@ std::filesystem::path golden_folder(const std::filesystem::path& scene_file);
 /// The golden picture of a frame in such a folder: frames/0040.png.
 std::filesystem::path golden_picture(const std::filesystem::path& folder, int frame);
 
-/// Reads manifest.json and motion.bin, of which nothing is trusted: what comes back is finite, complete, and
-/// consistent.
-/// @throws UsageError naming the file if one is missing, damaged, or of a newer version of drape
+/// Reads manifest.json and motion.bin, of which nothing is trusted: what comes back is finite, complete, and what was
+/// written.
+/// @throws UsageError naming the file if one is missing, is not as it was recorded, or of another version of drape
 Golden read_golden(const std::filesystem::path& folder);
 
 }  // namespace drape

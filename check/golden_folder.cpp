@@ -14,8 +14,10 @@
 
 #include "check/manifest.hpp"
 #include "check/motion_file.hpp"
+#include "check/picture.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/hash.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;
@@ -140,13 +142,16 @@ void give_name(const fs::path& complete, const fs::path& folder) {
 }
 
 std::uintmax_t write_files(const fs::path& folder, const Golden& golden, const std::vector<Png>& pictures) {
-  std::uintmax_t size = write_file_atomically(folder / "manifest.json", manifest_text(golden));
-  size += write_file_atomically(folder / "motion.bin", pack_motion(golden.windows, golden.quantum));
-  auto picture = pictures.begin();
-  for (const GoldenWindow& window : golden.windows) {
-    if (window.frame) size += write_file_atomically(golden_picture(folder, *window.frame), *picture++);
+  const std::string motion = pack_motion(golden);
+  Hash hash;
+  hash.add(motion);
+  Golden sealed = golden;
+  std::uintmax_t size = write_file_atomically(folder / "motion.bin", motion);
+  for (std::size_t i = 0; i < golden.frames.size(); ++i) {
+    sealed.frames[i].pixels = pixel_hash(decode_png(pictures[i], golden.size));
+    size += write_file_atomically(golden_picture(folder, golden.frames[i].frame), pictures[i]);
   }
-  return size;
+  return size + write_file_atomically(folder / "manifest.json", manifest_text(sealed, hash.text()));
 }
 
 /// Hidden, beside a folder, and of this process alone.
@@ -188,12 +193,6 @@ std::uintmax_t write_golden(const fs::path& folder, const Golden& golden, const 
     if (exists) keep_permissions(target, partial);
     give_name(partial, target);
     return size;
-  } catch (const std::domain_error&) {
-    fs::remove_all(partial, error);
-    throw UsageError(
-        fmt::format("{}: the motion goes too far from the origin to be kept to {:g} m; move the scene "
-                    "there, or raise [check] motion_tolerance",
-                    folder.string(), golden.quantum));
   } catch (const fs::filesystem_error& problem) {
     fs::remove_all(partial, error);
     fail_to_write(folder, problem.code());

@@ -16,9 +16,9 @@ bool has_golden(const std::filesystem::path& folder);
 /// Writes a whole golden. What was there before is replaced in one go, so that at any moment there is one or the other.
 /// Files and folders in it that are not drape's are kept, and so are permissions; of a link to a folder, that folder is
 /// replaced.
-/// @param pictures one for each window with a frame, in their order
+/// @param pictures one for each frame, in their order
 /// @returns the size of what was written [bytes]
-/// @throws UsageError as has_golden(), or if the motion goes too far from the origin to be stored
+/// @throws UsageError as has_golden()
 /// @throws OutputError
 std::uintmax_t write_golden(const std::filesystem::path& folder, const Golden& golden,
                             const std::vector<Png>& pictures);

@@ -37,9 +37,7 @@ std::string picture_mismatch(const Scene& scene, const CheckSettings& settings, 
                        golden.seconds_per_frame);
   }
   std::vector<int> recorded;
-  for (const GoldenWindow& window : golden.windows) {
-    if (window.frame) recorded.push_back(*window.frame);
-  }
+  for (const GoldenFrame& frame : golden.frames) recorded.push_back(frame.frame);
   if (!some_frames && !settings.frames.empty() && settings.frames != recorded) {
     return fmt::format("the frames {} are to be compared, the golden has {}", fmt::join(settings.frames, ", "),
                        fmt::join(recorded, ", "));

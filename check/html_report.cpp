@@ -98,7 +98,8 @@ Markup overview(const std::vector<const SceneResult*>& scenes) {
 Markup introduction(const CheckReport& report) {
   return html::paragraph(html::element("time", {{"datetime", report.date}}, report.date) +
                          fmt::format(", {:.1f} s", report.seconds)) +
-         (report.command.empty() ? Markup() : html::command("This check", report.command));
+         (report.command.empty() ? Markup() : html::command("This check", report.command)) +
+         (report.accept_command.empty() ? Markup() : html::command("Accept all of it", report.accept_command));
 }
 
 std::vector<std::pair<std::string, Markup>> foot(const CheckReport& report) {

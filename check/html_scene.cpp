@@ -23,9 +23,11 @@ std::string plural(std::int64_t count, const std::string& one) {
 /// What differs in a frame, in words.
 std::string describe(const FrameResult& frame) {
   const PictureDifference& d = frame.difference;
-  const std::string moment = fmt::format("Frame {}, {:.2f} s: ", frame.frame, frame.time);
+  const std::string why = frame.why.empty() ? "" : " (" + frame.why + ")";
+  const std::string moment = fmt::format("Frame {}, {:.2f} s{}: ", frame.frame, frame.time, why);
+  const std::string unjudged = frame.judged ? "" : "It is not judged. ";
   if (d.verdict == PictureVerdict::exact) return moment + "the same bytes.";
-  return moment +
+  return moment + (frame.kind.empty() ? "" : frame.kind + ". ") + unjudged +
          fmt::format("{} ({:.3g}%) differ, by at most {} of 255; FLIP error at most {:.3f}, {:.4f} on average.",
                      plural(d.pixels, "pixel"), 100 * d.fraction, d.largest_channel, d.max_flip, d.mean_flip);
 }
@@ -36,7 +38,9 @@ Markup viewer(const SceneResult& scene, const Comparison& comparison, const std:
   for (const FrameResult& frame : comparison.frames) {
     html::ComparedPictures moment;
     moment.name = fmt::format("{}", frame.frame);
-    moment.tone = tone_of(frame.difference.verdict);
+    moment.tone = frame.judged ? tone_of(frame.difference.verdict) : Tone::neutral;
+    moment.ignored = scene.settings.ignore;
+    if (!frame.judged) moment.ignored = {{0, 0, scene.size[0], scene.size[1]}};
     moment.expected = frame.expected;
     moment.actual = frame.actual;
     moment.difference = frame.amplified;
@@ -44,6 +48,13 @@ Markup viewer(const SceneResult& scene, const Comparison& comparison, const std:
     moment.caption = describe(frame);
     moment.size = scene.size;
     if (frame.difference.verdict != PictureVerdict::exact) moment.worst = frame.difference.worst_pixel;
+    // A picture belongs to its motion: where that is another one, both are accepted together.
+    const bool alone =
+        scene.has_candidate && &comparison == &scene.windows && comparison.motion != MotionVerdict::changed;
+    if (alone && frame.difference.verdict == PictureVerdict::changed) {
+      moment.action =
+          html::command("Accept this picture", fmt::format("{} --frames {}", scene.accept_command, frame.frame));
+    }
     if (comparison.first_bad_frame == frame.frame) shown = moments.size();
     moments.push_back(std::move(moment));
   }
@@ -53,16 +64,15 @@ Markup viewer(const SceneResult& scene, const Comparison& comparison, const std:
 Markup motion_chart(const SceneResult& scene, const Comparison& comparison) {
   html::ChartSeries series;
   for (const WindowResult& window : comparison.windows) {
-    for (std::size_t i = 0; i < window.deviations.size(); ++i) {
-      const std::int64_t step = window.first_step + static_cast<std::int64_t>(i);
-      series.points.push_back({static_cast<double>(step),
-                               window.deviations[i],
-                               fmt::format("step {}: {}", step, readable_length(window.deviations[i])),
+    for (const Deviation& deviation : window.deviations) {
+      series.points.push_back({static_cast<double>(deviation.step),
+                               deviation.distance,
+                               fmt::format("step {}: {}", deviation.step, readable_length(deviation.distance)),
                                {}});
     }
     series.points.push_back({NAN, NAN, {}, {}});  // every window starts anew from a golden state
   }
-  html::Chart chart{"Largest vertex deviation from the golden motion, per step",
+  html::Chart chart{"Largest vertex deviation from the golden motion, half-way and at the end of every window",
                     "step",
                     "deviation [m]",
                     html::Scale::linear,
@@ -91,12 +101,18 @@ Markup picture_chart(const SceneResult& scene, const Comparison& comparison) {
 }
 
 Markup windows_table(const Comparison& comparison) {
-  html::Table table{
-      "Windows of motion, each run from a golden state",
-      {{"Steps"}, {"Verdict"}, {"Largest deviation", true}, {"Vertex", true}, {"At step", true}, {"Remark"}},
-      {}};
+  html::Table table{"Windows of motion, each run from a golden state",
+                    {{"Steps"},
+                     {"Verdict"},
+                     {"Other bits from step", true},
+                     {"Largest deviation", true},
+                     {"Vertex", true},
+                     {"At step", true},
+                     {"Remark"}},
+                    {}};
   for (const WindowResult& w : comparison.windows) {
     table.rows.push_back({fmt::format("{}–{}", w.first_step, w.last_step), verdict_badge(w.verdict),
+                          w.other_bits ? fmt::format("{}", *w.other_bits) : "–",
                           readable_length(w.largest ? w.largest->distance : 0),
                           w.largest ? fmt::format("{}", w.largest->vertex) : "–",
                           w.largest ? fmt::format("{}", w.largest->step) : "–", w.problem});
@@ -108,6 +124,7 @@ Markup frames_table(const Comparison& comparison) {
   html::Table table{"Compared frames",
                     {{"Frame", true},
                      {"Time [s]", true},
+                     {"Why it is compared"},
                      {"Verdict"},
                      {"Pixels that differ", true},
                      {"Share", true},
@@ -117,10 +134,10 @@ Markup frames_table(const Comparison& comparison) {
                     {}};
   for (const FrameResult& frame : comparison.frames) {
     const PictureDifference& d = frame.difference;
-    table.rows.push_back({fmt::format("{}", frame.frame), fmt::format("{:.2f}", frame.time), verdict_badge(d.verdict),
-                          fmt::format("{}", d.pixels), fmt::format("{:.3g}%", 100 * d.fraction),
-                          fmt::format("{}", d.largest_channel), fmt::format("{:.4f}", d.mean_flip),
-                          fmt::format("{:.3f}", d.max_flip)});
+    table.rows.push_back({fmt::format("{}", frame.frame), fmt::format("{:.2f}", frame.time), frame.why,
+                          verdict_badge(d.verdict), fmt::format("{}", d.pixels),
+                          fmt::format("{:.3g}%", 100 * d.fraction), fmt::format("{}", d.largest_channel),
+                          fmt::format("{:.4f}", d.mean_flip), fmt::format("{:.3f}", d.max_flip)});
   }
   return html::table(table);
 }
@@ -194,13 +211,20 @@ double largest_flip(const Comparison& comparison) {
 
 Markup scene_content(const SceneResult& scene, const std::string& id) {
   std::vector<html::Finding> findings;
+  if (!scene.elsewhere.empty()) {
+    findings.push_back({Tone::caution, "The golden was recorded " + scene.elsewhere + "."});
+  }
   for (const std::string& sentence : scene.findings) {
-    findings.push_back({findings.empty() ? tone_of(scene.verdict) : Tone::neutral, sentence});
+    if (!scene.elsewhere.empty() && sentence.find(scene.elsewhere) != std::string::npos) continue;
+    findings.push_back({&sentence == &scene.findings.front() ? tone_of(scene.verdict) : Tone::neutral, sentence});
+  }
+  if (const std::string ignored = describe_ignored(scene); !ignored.empty()) {
+    findings.push_back({Tone::neutral, ignored + "."});
   }
   Markup content;
   if (!findings.empty()) content += html::findings(findings);
   if (!scene.rerun_command.empty()) content += html::command("Run this check again", scene.rerun_command);
-  if (!scene.bless_command.empty()) content += html::command("Accept what it is now", scene.bless_command);
+  if (!scene.accept_command.empty()) content += html::command("Accept what it is now", scene.accept_command);
   content += viewer(scene, scene.windows, id);
   if (!scene.animation.empty()) {
     content += html::figure(

@@ -15,22 +15,33 @@ Json to_json(const std::optional<Deviation>& deviation) {
 }
 
 Json to_json(const WindowResult& window) {
-  return {{"frame", window.frame ? Json(*window.frame) : Json(nullptr)},
-          {"first_step", window.first_step},
+  Json deviations = Json::array();
+  for (const Deviation& deviation : window.deviations) deviations.push_back(to_json(deviation));
+  return {{"first_step", window.first_step},
           {"last_step", window.last_step},
           {"verdict", verdict_name(window.verdict)},
+          {"other_bits", window.other_bits ? Json(*window.other_bits) : Json(nullptr)},
           {"first", to_json(window.first)},
           {"largest", to_json(window.largest)},
-          {"deviations", window.deviations},
+          {"deviations", std::move(deviations)},
           {"problem", window.problem}};
 }
 
 /// `prefix` tells the files of an end-to-end comparison from the others.
 Json to_json(const SceneResult& scene, const FrameResult& frame, const std::string& prefix) {
   const PictureDifference& d = frame.difference;
-  Json json{{"frame", frame.frame},     {"time", frame.time},     {"verdict", verdict_name(d.verdict)},
-            {"pixels", d.pixels},       {"fraction", d.fraction}, {"largest_channel", d.largest_channel},
-            {"mean_flip", d.mean_flip}, {"max_flip", d.max_flip}, {"worst_pixel", d.worst_pixel}};
+  Json json{{"frame", frame.frame},
+            {"time", frame.time},
+            {"why", frame.why},
+            {"verdict", verdict_name(d.verdict)},
+            {"pixels", d.pixels},
+            {"fraction", d.fraction},
+            {"largest_channel", d.largest_channel},
+            {"mean_flip", d.mean_flip},
+            {"max_flip", d.max_flip},
+            {"worst_pixel", d.worst_pixel},
+            {"kind", frame.kind},
+            {"judged", frame.judged}};
   if (d.verdict == PictureVerdict::exact) return json;
   for (const char* kind : {"expected", "actual", "difference", "flip"}) {
     json["files"][kind] = frame_file(scene, frame.frame, prefix + kind).string();
@@ -61,11 +72,13 @@ Json to_json(const SceneResult& scene) {
               {"pixels", scene.settings.limits.pixels},
               {"flip", scene.settings.limits.flip}}},
             {"size", scene.size},
+            {"ignored", scene.ignored},
+            {"recorded_elsewhere", scene.elsewhere},
             {"scene_changed", scene.scene_changed},
             {"recorded_at", scene.recorded_at},
             {"recorded_on", to_json(scene.recorded_on)},
             {"rerun", scene.rerun_command},
-            {"bless", scene.bless_command},
+            {"accept", scene.accept_command},
             {"seconds", scene.seconds},
             {"windows", to_json(scene, scene.windows, "")}};
   if (scene.end_to_end) json["end_to_end"] = to_json(scene, *scene.end_to_end, "end_to_end.");

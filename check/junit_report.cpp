@@ -39,7 +39,7 @@ Case picture_case(const SceneResult& scene, const Comparison& comparison, const 
   Case test{&scene, name, {}, verdict_name(comparison.picture)};
   if (comparison.picture != PictureVerdict::changed) return test;
   for (const FrameResult& frame : comparison.frames) {
-    if (frame.difference.verdict != PictureVerdict::changed) continue;
+    if (!frame.judged || frame.difference.verdict != PictureVerdict::changed) continue;
     test.failure += fmt::format("{}frame {}: {:.3g} % of the pixels, FLIP error up to {:.3f}",
                                 test.failure.empty() ? "changed: " : "; ", frame.frame, 100 * frame.difference.fraction,
                                 frame.difference.max_flip);
@@ -73,7 +73,7 @@ void write(tinyxml2::XMLPrinter& xml, const Case& test) {
     xml.OpenElement(test.is_error() ? "error" : "failure");
     xml.PushAttribute("message", printable(test.failure).c_str());
     xml.PushText(printable(sentences(*test.scene) + "rerun: " + test.scene->rerun_command +
-                           "\naccept: " + test.scene->bless_command)
+                           "\naccept: " + test.scene->accept_command)
                      .c_str());
     xml.CloseElement();
   } else if (!test.output.empty()) {

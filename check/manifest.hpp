@@ -1,40 +1,28 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "check/golden.hpp"
 
 namespace drape {
 
-/// What manifest.json says about a window of motion: in a form that a reviewer can compare, and enough to see whether
-/// the motion.bin beside it is the one that was recorded with it.
-struct WindowSummary {
-  std::optional<int> frame;  ///< as GoldenWindow
-  double time = 0;           ///< of the frame [s]
-  std::int64_t first_step = 0, last_step = 0;
-  std::optional<std::array<double, 3>> energies;  ///< kinetic, gravity, elastic, after the last step [J]; absent: none
-
-  bool operator==(const WindowSummary&) const = default;
-};
-
-WindowSummary summary_of(const GoldenWindow& window);
-
 /// manifest.json, read.
 struct Manifest {
-  Golden golden;  ///< all but its windows
-  std::vector<WindowSummary> windows;
+  Golden golden;            ///< all but its windows, and the positions in its frames
+  std::string motion_hash;  ///< of the bytes of the motion.bin that was recorded with it
 };
 
 /// The bytes of manifest.json.
-std::string manifest_text(const Golden& golden);
+std::string manifest_text(const Golden& golden, const std::string& motion_hash);
 
-/// The inverse. Every value is there, of its type and in a range that makes sense.
+/// The inverse. The text is as it was written, which a checksum tells, and every value is there, of its type and in a
+/// range that makes sense.
 /// @throws std::invalid_argument saying what is wrong with the bytes
 Manifest read_manifest(std::string_view bytes);
+
+/// A manifest of any values, with the checksum that belongs to them.
+/// @throws std::invalid_argument if the text is no JSON object
+std::string sealed_manifest(std::string_view text);
 
 }  // namespace drape

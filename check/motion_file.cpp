@@ -1,241 +1,216 @@
 #include "check/motion_file.hpp"
 
-#include <zlib.h>
-
+#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <stdexcept>
+
+#include "check/words.hpp"
 
 namespace drape {
 namespace {
 
-constexpr std::string_view magic = "drape motion 1\n";
-
-using Words = std::vector<std::uint64_t>;
-
-/// Small numbers of either sign as small ones without: 0, −1, 1, −2, …
-std::uint64_t zigzag(std::int64_t n) {
-  return (static_cast<std::uint64_t>(n) << 1) ^ static_cast<std::uint64_t>(n >> 63);
-}
-std::int64_t unzigzag(std::uint64_t n) { return static_cast<std::int64_t>(n >> 1) ^ -static_cast<std::int64_t>(n & 1); }
-
-// Positions in quanta. Differences of them are taken modulo 2⁶⁴, where nothing can overflow and every one can be
-// undone.
-using Whole = Eigen::Matrix<std::uint64_t, Eigen::Dynamic, 3>;
-
+constexpr std::string_view magic = "drape motion 2\n";
 constexpr double most_quanta = 9e18;  // what a signed word holds, and a little less
 
-bool can_be_stored(const Vertices& x, double quantum) { return ((x / quantum).array().abs() < most_quanta).all(); }
-
-Whole rounded(const Vertices& x, double quantum) {
-  const auto nearest = [](double quanta) { return static_cast<std::uint64_t>(std::llrint(quanta)); };
-  return (x / quantum).unaryExpr(nearest);
+std::int64_t multiple(double value, double quantum) {
+  const double quanta = std::nearbyint(value / quantum);
+  return std::abs(quanta) < most_quanta ? static_cast<std::int64_t>(quanta) : 0;
 }
 
-Vertices places_of(const Whole& quanta, double quantum) {
-  return quanta.unaryExpr([](std::uint64_t n) { return static_cast<double>(static_cast<std::int64_t>(n)); }) * quantum;
+bool is_multiple(double value, double quantum) {
+  return quantum > 0 && static_cast<double>(multiple(value, quantum)) * quantum == value &&
+         !(value == 0 && std::signbit(value));
 }
 
-/// Foretells the rounded positions of a step from those of the two before it, as if no force acted.
-class Prediction {
+std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+/// Foretells a number of a field from those of vertices before it: of that beside it, and where a row lies beside this
+/// one, of the two there. Whatever the vertices are, it is some number.
+double foretold(const Vertices& values, Eigen::Index i, Eigen::Index axis, Eigen::Index row) {
+  if (i == 0) return 0;
+  const double before = values(i - 1, axis);
+  if (row < 2 || i <= row) return before;
+  return before + (values(i - row, axis) - values(i - row - 1, axis));
+}
+
+class FieldWriter {
  public:
-  Prediction(const State& start, double quantum) : last_(rounded(start.x, quantum)), before_(last_) {}
+  FieldWriter(WordWriter& writer, int row) : writer_(writer), row_(row) {}
 
-  [[nodiscard]] Whole next() const { return std::uint64_t{2} * last_ - before_; }
-  void add(const Whole& actual) {
-    before_ = last_;
-    last_ = actual;
-  }
-
- private:
-  Whole last_, before_;
-};
-
-class Writer {
- public:
-  void whole(std::int64_t n) { words_.push_back(zigzag(n)); }
-  void bits(std::uint64_t n) { words_.push_back(n); }
-  void number(double value) { words_.push_back(std::bit_cast<std::uint64_t>(value)); }
-  void numbers(const Vertices& values) {
-    for (Eigen::Index i = 0; i < values.size(); ++i) number(values.data()[i]);
-  }
-  void wholes(const Whole& values) {
-    for (Eigen::Index i = 0; i < values.size(); ++i) whole(static_cast<std::int64_t>(values.data()[i]));
-  }
-  [[nodiscard]] const Words& words() const { return words_; }
-
- private:
-  Words words_;
-};
-
-class Reader {
- public:
-  explicit Reader(Words words) : words_(std::move(words)) {}
-
-  std::uint64_t bits() {
-    if (next_ == words_.size()) throw std::invalid_argument("it is cut off");
-    return words_[next_++];
-  }
-  std::int64_t whole() { return unzigzag(bits()); }
-  std::int64_t whole(std::int64_t least, std::int64_t most) {
-    const std::int64_t n = whole();
-    if (n < least || n > most) throw std::invalid_argument("it holds a number that makes no sense");
-    return n;
-  }
-  double number() {
-    const auto value = std::bit_cast<double>(bits());
-    if (!std::isfinite(value)) throw std::invalid_argument("it holds a number that is not finite");
-    return value;
-  }
-  /// A number of things that take at least `words` words each.
-  std::int64_t count(std::int64_t words) {
-    const std::int64_t n = whole();
-    if (n < 0 || n > static_cast<std::int64_t>(words_.size() - next_) / words) {
-      throw std::invalid_argument("it is cut off");
+  void write(const Vertices& values, double quantum) {
+    std::vector<bool> exact;
+    for (Eigen::Index i = 0; i < values.rows(); ++i) {
+      exact.push_back(!is_multiple(values(i, 0), quantum) || !is_multiple(values(i, 1), quantum) ||
+                      !is_multiple(values(i, 2), quantum));
     }
-    return n;
+    for (std::size_t i = 0; i < exact.size(); i += 64) {
+      std::uint64_t word = 0;
+      for (std::size_t k = i; k < std::min(i + 64, exact.size()); ++k) word |= std::uint64_t{exact[k]} << (k - i);
+      writer_.bits(word);
+    }
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      for (Eigen::Index i = 0; i < values.rows(); ++i) {
+        const double value = values(i, axis), guess = foretold(values, i, axis, row_);
+        // Differences are taken modulo 2⁶⁴, where every one can be undone.
+        const std::uint64_t difference = exact[static_cast<std::size_t>(i)]
+                                             ? bits_of(value) - bits_of(guess)
+                                             : static_cast<std::uint64_t>(multiple(value, quantum)) -
+                                                   static_cast<std::uint64_t>(multiple(guess, quantum));
+        writer_.whole(static_cast<std::int64_t>(difference));
+      }
+    }
   }
-  Vertices numbers(Eigen::Index vertices) {
-    Vertices values(vertices, 3);
-    for (Eigen::Index i = 0; i < values.size(); ++i) values.data()[i] = number();
+
+ private:
+  WordWriter& writer_;
+  Eigen::Index row_;
+};
+
+class FieldReader {
+ public:
+  FieldReader(WordReader& reader, int row, Eigen::Index vertices) : reader_(reader), row_(row), vertices_(vertices) {}
+
+  Vertices read(double quantum) {
+    reader_.need(3 * static_cast<std::uint64_t>(vertices_));
+    Vertices values(vertices_, 3);
+    std::vector<std::uint64_t> exact;
+    for (Eigen::Index i = 0; i < vertices_; i += 64) exact.push_back(reader_.bits());
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      for (Eigen::Index i = 0; i < vertices_; ++i) {
+        const double guess = foretold(values, i, axis, row_);
+        const auto difference = static_cast<std::uint64_t>(reader_.whole());
+        const auto at = static_cast<std::size_t>(i);
+        if ((exact[at / 64] >> (at % 64) & 1) != 0) {
+          values(i, axis) = finite(std::bit_cast<double>(bits_of(guess) + difference));
+        } else {
+          if (quantum == 0) throw std::invalid_argument("holds rounded numbers where there are none");
+          const std::uint64_t n = static_cast<std::uint64_t>(multiple(guess, quantum)) + difference;
+          values(i, axis) = finite(static_cast<double>(static_cast<std::int64_t>(n)) * quantum);
+        }
+      }
+    }
     return values;
   }
-  Vertices places(Eigen::Index vertices, double quantum) {
-    Vertices x = numbers(vertices);
-    if (!can_be_stored(x, quantum)) throw std::invalid_argument("it holds a position that is too far away");
-    return x;
-  }
-  Whole wholes(Eigen::Index vertices) {
-    Whole values(vertices, 3);
-    for (Eigen::Index i = 0; i < values.size(); ++i) values.data()[i] = static_cast<std::uint64_t>(whole());
-    return values;
-  }
-  [[nodiscard]] bool at_end() const { return next_ == words_.size(); }
 
  private:
-  Words words_;
-  std::size_t next_ = 0;
+  WordReader& reader_;
+  Eigen::Index row_, vertices_;
 };
 
-/// Byte 7 of every word, then byte 6 of every word, …
-std::string in_planes(const Words& words) {
-  std::string bytes;
-  bytes.reserve(8 * words.size());
-  for (int shift = 56; shift >= 0; shift -= 8) {
-    for (const std::uint64_t word : words) bytes += static_cast<char>(word >> shift & 255);
+/// Foretells the numbers of a step from the two before it, as if each went on steadily.
+class SteadyBodies {
+ public:
+  std::vector<std::uint64_t> next(std::size_t count) {
+    if (last_.size() != count) last_.assign(count, 0);
+    if (before_.size() != count) before_ = last_;
+    std::vector<std::uint64_t> numbers(count);
+    for (std::size_t i = 0; i < count; ++i) numbers[i] = 2 * last_[i] - before_[i];
+    return numbers;
   }
-  return bytes;
+  void add(std::vector<std::uint64_t> actual) { before_ = std::exchange(last_, std::move(actual)); }
+
+ private:
+  std::vector<std::uint64_t> last_, before_;  // in quanta, modulo 2⁶⁴
+};
+
+void write_bodies(WordWriter& writer, const std::vector<double>& bodies, double quantum, SteadyBodies& steady) {
+  const std::vector<std::uint64_t> guess = steady.next(bodies.size());
+  std::vector<std::uint64_t> actual;
+  for (const double number : bodies) actual.push_back(static_cast<std::uint64_t>(multiple(number, quantum)));
+  std::int64_t different = 0;
+  for (std::size_t i = 0; i < actual.size(); ++i) different += actual[i] != guess[i] ? 1 : 0;
+  writer.whole(static_cast<std::int64_t>(actual.size()));
+  writer.whole(different);
+  for (std::size_t i = 0; i < actual.size(); ++i) {
+    if (actual[i] == guess[i]) continue;
+    writer.whole(static_cast<std::int64_t>(i));
+    writer.whole(static_cast<std::int64_t>(actual[i] - guess[i]));
+  }
+  steady.add(std::move(actual));
 }
 
-Words from_planes(std::string_view bytes) {
-  Words words(bytes.size() / 8, 0);
-  for (std::size_t i = 0; i < 8 * words.size(); ++i) {
-    std::uint64_t& word = words[i % words.size()];
-    word = word << 8 | static_cast<unsigned char>(bytes[i]);
+std::vector<double> read_bodies(WordReader& reader, const Golden& golden, SteadyBodies& steady) {
+  const auto count = static_cast<std::size_t>(reader.whole(0, golden.body_count));
+  std::vector<std::uint64_t> numbers = steady.next(count);
+  for (auto different = reader.whole(0, static_cast<std::int64_t>(count)); different > 0; --different) {
+    const auto i = static_cast<std::size_t>(reader.whole(0, static_cast<std::int64_t>(count) - 1));
+    numbers[i] += static_cast<std::uint64_t>(reader.whole());
   }
-  return words;
+  std::vector<double> bodies;
+  for (const std::uint64_t n : numbers)
+    bodies.push_back(static_cast<double>(static_cast<std::int64_t>(n)) * golden.quanta.compared);
+  steady.add(std::move(numbers));
+  return bodies;
 }
 
-void write_window(Writer& writer, const GoldenWindow& window, double quantum) {
-  writer.whole(window.frame.value_or(-1));
-  writer.number(window.time);
-  writer.whole(window.start.step);
-  writer.whole(window.start.x.rows());
-  writer.numbers(window.start.x);
-  writer.numbers(window.start.v);
-  writer.whole(window.shown ? 1 : 0);
-  if (window.shown) writer.numbers(*window.shown);
-  writer.whole(static_cast<std::int64_t>(window.steps.size()));
-  if (!can_be_stored(window.start.x, quantum)) throw std::domain_error("a position is too far away to be stored");
-  Prediction prediction(window.start, quantum);
-  for (const GoldenStep& step : window.steps) {
-    writer.bits(step.bits);
-    for (const double energy : {step.energies.kinetic, step.energies.gravity, step.energies.elastic}) {
-      writer.number(energy);
-    }
-    if (!can_be_stored(step.x, quantum)) throw std::domain_error("a position is too far away to be stored");
-    const Whole x = rounded(step.x, quantum);
-    writer.wholes(x - prediction.next());
-    prediction.add(x);
-  }
-}
-
-GoldenWindow read_window(Reader& reader, double quantum) {
-  GoldenWindow window;
-  const std::int64_t frame = reader.whole(-1, std::numeric_limits<int>::max());
-  if (frame >= 0) window.frame = static_cast<int>(frame);
-  window.time = reader.number();
-  window.start.step = reader.whole(0, std::numeric_limits<std::int64_t>::max() / 2);
-  const std::int64_t vertices = reader.count(6);
-  window.start.x = reader.places(vertices, quantum);
-  window.start.v = reader.numbers(vertices);
-  if (reader.whole(0, 1) != 0) window.shown = reader.places(vertices, quantum);
-  const std::int64_t steps = reader.count(3 * vertices + 4);
-  Prediction prediction(window.start, quantum);
-  for (std::int64_t i = 0; i < steps; ++i) {
-    GoldenStep& step = window.steps.emplace_back();
-    step.bits = reader.bits();
-    step.energies = {.kinetic = reader.number(), .gravity = reader.number(), .elastic = reader.number()};
-    const Whole x = prediction.next() + reader.wholes(vertices);
-    prediction.add(x);
-    step.x = places_of(x, quantum);
-    if (!can_be_stored(step.x, quantum)) throw std::invalid_argument("it holds a position that is too far away");
-  }
-  return window;
+/// How many words a golden's motion takes at most.
+std::uint64_t most_words(const Golden& golden) {
+  const auto vertices = static_cast<std::uint64_t>(golden.vertex_count);
+  const auto steps = static_cast<std::uint64_t>(golden.step_count);
+  const std::uint64_t windows = steps / static_cast<std::uint64_t>(golden.window_steps) + 2;
+  const std::uint64_t field = 3 * vertices + vertices / 64 + 1;
+  return windows * (3 * field + 3) + golden.frames.size() * field +
+         steps * (3 + 2 * static_cast<std::uint64_t>(golden.body_count));
 }
 
 }  // namespace
 
-std::string pack_motion(const std::vector<GoldenWindow>& windows, double quantum) {
-  Writer writer;
-  writer.whole(static_cast<std::int64_t>(windows.size()));
-  for (const GoldenWindow& window : windows) write_window(writer, window, quantum);
-
-  const std::string planes = in_planes(writer.words());
-  uLongf size = compressBound(planes.size());
-  std::string packed(size, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(planes.data()),
-                planes.size(), Z_BEST_COMPRESSION) != Z_OK) {
-    throw std::bad_alloc();
+std::string pack_motion(const Golden& golden) {
+  WordWriter writer;
+  FieldWriter fields(writer, golden.row);
+  const Quanta& quanta = golden.quanta;
+  for (const GoldenWindow& window : golden.windows) {
+    const Quanta of = &window == &golden.windows.back() ? quanta.at_end() : quanta;
+    fields.write(window.start.x, of.position);
+    fields.write(window.start.v, of.velocity);
+    if (window.middle.size() > 0) fields.write(window.middle, quanta.compared);
+    for (const double energy : {window.energies.kinetic, window.energies.gravity, window.energies.elastic}) {
+      writer.number(energy);
+    }
   }
-  packed.resize(size);
-  return std::string(magic) + std::to_string(planes.size()) + "\n" + packed;
+  SteadyBodies steady;
+  for (const GoldenWindow& window : golden.windows) {
+    for (const GoldenStep& step : window.steps) writer.bits(step.hash);
+    for (const GoldenStep& step : window.steps) write_bodies(writer, step.bodies, quanta.compared, steady);
+  }
+  for (const GoldenFrame& frame : golden.frames) fields.write(frame.x, quanta.position);
+  return std::string(magic) + pack_words(writer.words());
 }
 
-std::uint64_t most_motion_words(std::uint64_t windows, std::uint64_t vertices, std::uint64_t steps) {
-  return 1 + windows * (6 + 9 * vertices) + steps * (4 + 3 * vertices);
+std::uint64_t most_motion_bytes(const Golden& golden) {
+  // A hair more than the words have: what zlib cannot make smaller, it keeps as it is.
+  const std::uint64_t words = most_words(golden);
+  return 8 * words + words / 64 + 1024;
 }
 
-std::vector<GoldenWindow> unpack_motion(std::string_view bytes, double quantum, std::uint64_t most_words) {
-  if (!bytes.starts_with(magic)) throw std::invalid_argument("it is no golden motion of this version of drape");
-  bytes.remove_prefix(magic.size());
-  const std::size_t line = bytes.find('\n');
-  std::size_t size = 0;
-  for (const char c : bytes.substr(0, line)) {
-    if (c < '0' || c > '9' || size > (std::size_t{1} << 40)) throw std::invalid_argument("its size cannot be read");
-    size = 10 * size + static_cast<std::size_t>(c - '0');
+void unpack_motion(std::string_view bytes, Golden& golden) {
+  if (!bytes.starts_with(magic)) throw std::invalid_argument("is no golden motion of this version of drape");
+  WordReader reader(unpack_words(bytes.substr(magic.size()), most_words(golden)));
+  FieldReader fields(reader, golden.row, golden.vertex_count);
+  const Quanta& quanta = golden.quanta;
+  reader.need(static_cast<std::uint64_t>(golden.step_count));
+  const std::vector<std::int64_t> starts = window_starts(golden.step_count, golden.window_steps);
+  golden.windows.clear();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    GoldenWindow& window = golden.windows.emplace_back();
+    const std::int64_t steps = i + 1 < starts.size() ? starts[i + 1] - starts[i] : 0;
+    window.start.step = starts[i];
+    const Quanta of = i + 1 == starts.size() ? quanta.at_end() : quanta;
+    window.start.x = fields.read(of.position);
+    window.start.v = fields.read(of.velocity);
+    if (steps > 1) window.middle = fields.read(quanta.compared);
+    window.energies = {.kinetic = reader.number(), .gravity = reader.number(), .elastic = reader.number()};
+    window.steps.resize(static_cast<std::size_t>(steps));
   }
-  // zlib packs a byte into no less than a thousandth of one: nothing larger is reserved for a damaged file.
-  if (line == std::string_view::npos || size % 8 != 0 || size / 1100 > bytes.size()) {
-    throw std::invalid_argument("it is cut off");
+  SteadyBodies steady;
+  for (GoldenWindow& window : golden.windows) {
+    for (GoldenStep& step : window.steps) step.hash = static_cast<std::uint32_t>(reader.bits());
+    for (GoldenStep& step : window.steps) step.bodies = read_bodies(reader, golden, steady);
   }
-  if (size / 8 > most_words) throw std::invalid_argument("it holds more than belongs to the manifest beside it");
-  bytes.remove_prefix(line + 1);
-  std::string planes(size, '\0');
-  uLongf unpacked = size;
-  uLong used = bytes.size();
-  if (uncompress2(reinterpret_cast<Bytef*>(planes.data()), &unpacked, reinterpret_cast<const Bytef*>(bytes.data()),
-                  &used) != Z_OK ||
-      unpacked != size || used != bytes.size()) {
-    throw std::invalid_argument("it is damaged");
-  }
-  Reader reader(from_planes(planes));
-  std::vector<GoldenWindow> windows;
-  for (std::int64_t count = reader.count(8); count > 0; --count) windows.push_back(read_window(reader, quantum));
-  if (!reader.at_end()) throw std::invalid_argument("there is something after its end");
-  return windows;
+  for (GoldenFrame& frame : golden.frames) frame.x = fields.read(quanta.position);
+  if (!reader.at_end()) throw std::invalid_argument("has something after its end");
 }
 
 }  // namespace drape

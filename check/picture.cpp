@@ -28,12 +28,26 @@ std::pair<std::uint32_t, std::uint32_t> png_size(std::string_view bytes) {
   return {number(16), number(20)};
 }
 
+/// Calls visit(column, row) for every pixel of a picture that a rectangle covers.
+template <class Visit>
+void for_each_covered(const std::vector<PixelRectangle>& rectangles, const Eigen::Vector2i& size, const Visit& visit) {
+  for (const auto& [left, top, width, height] : rectangles) {
+    for (int y = top; y < std::min(top + height, size.y()); ++y) {
+      for (int x = left; x < std::min(left + width, size.x()); ++x) visit(x, y);
+    }
+  }
+}
+
 }  // namespace
 
-PictureComparison compare_pictures(const Image& expected, const Image& actual, const PictureLimits& limits) {
-  if (expected.width != actual.width || expected.height != actual.height) {
+PictureComparison compare_pictures(const Image& expected, const Image& drawn, const PictureLimits& limits,
+                                   const std::vector<PixelRectangle>& ignored) {
+  if (expected.width != drawn.width || expected.height != drawn.height) {
     throw std::invalid_argument("compare_pictures() needs two pictures of the same size");
   }
+  Image actual = drawn;
+  for_each_covered(ignored, {drawn.width, drawn.height},
+                   [&](int x, int y) { std::copy_n(expected.at(x, y), 3, actual.at(x, y)); });
   PictureComparison result;
   if (expected == actual) return result;
 
@@ -60,6 +74,12 @@ PictureComparison compare_pictures(const Image& expected, const Image& actual, c
   const bool within = d.largest_channel <= limits.channel && d.fraction <= limits.pixels && d.max_flip <= limits.flip;
   d.verdict = within ? PictureVerdict::noise : PictureVerdict::changed;
   return result;
+}
+
+double covered_part(const std::vector<PixelRectangle>& rectangles, const Eigen::Vector2i& size) {
+  std::vector<bool> covered(static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()));
+  for_each_covered(rectangles, size, [&](int x, int y) { covered[static_cast<std::size_t>(y * size.x() + x)] = true; });
+  return static_cast<double>(std::count(covered.begin(), covered.end(), true)) / static_cast<double>(covered.size());
 }
 
 Image amplified_difference(const Image& expected, const Image& actual, double factor) {

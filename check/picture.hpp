@@ -18,8 +18,13 @@ struct PictureComparison {
 };
 
 /// Compares two pictures of the same size.
+/// @param ignored where they count as the same
 /// @throws std::invalid_argument if they have different sizes
-PictureComparison compare_pictures(const Image& expected, const Image& actual, const PictureLimits& limits);
+PictureComparison compare_pictures(const Image& expected, const Image& actual, const PictureLimits& limits,
+                                   const std::vector<PixelRectangle>& ignored = {});
+
+/// How much of a picture rectangles cover, 0 to 1.
+double covered_part(const std::vector<PixelRectangle>& rectangles, const Eigen::Vector2i& size);
 
 /// The absolute difference of each channel times a factor, at most 255.
 Image amplified_difference(const Image& expected, const Image& actual, double factor);

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
+#include "check/chained_motion.hpp"
+#include "check/survey_motion.hpp"
 #include "core/error.hpp"
 #include "run/frame_sampler.hpp"
 #include "run/run_steps.hpp"
@@ -13,67 +16,73 @@
 namespace drape {
 namespace {
 
-constexpr int default_frames = 8;
-constexpr double rounding = 1e-9;  // of times that are products of decimal fractions, in steps
-
 FilmExtent whole_film(const Scene& scene) {
   return FilmExtent(scene.video, scene.simulation.step, scene.step_count(), std::nullopt);
 }
 
-/// The last step that is not after a frame.
-std::int64_t step_of(const FilmExtent& film, int frame) {
-  return static_cast<std::int64_t>(std::floor(film.time(frame) / film.step + rounding));
-}
-
-/// Spread from the first frame to the last one after which a whole window fits.
-std::vector<int> spread_frames(const FilmExtent& film, int window) {
-  int last = film.frames.last;
-  while (last > 0 && step_of(film, last) + window > film.steps) --last;
-  std::vector<int> frames;
-  for (int i = 0; i < default_frames; ++i) {
-    const auto frame = static_cast<int>(std::lround(static_cast<double>(last) * i / (default_frames - 1)));
-    if (frames.empty() || frame > frames.back()) frames.push_back(frame);
-  }
-  return frames;
-}
-
-/// Keeps what a plan asks for while the motion passes by.
+/// Keeps the windows of a motion while it passes by.
 class Recorder final : public StepObserver {
  public:
-  explicit Recorder(const std::vector<WindowPlan>& plan) : plan_(plan) {}
+  Recorder(const std::vector<std::int64_t>& starts, const Quanta& quanta) : starts_(starts), quanta_(quanta) {}
 
-  void begin(const Simulation& simulation) override { see(simulation); }
-  void after_step(const Simulation& simulation, const StepReport&, double) override { see(simulation); }
+  void begin(const Simulation& simulation) override {
+    GoldenWindow& window = windows.emplace_back();
+    window.start = simulation.state();
+    window.energies = simulation.energies();
+  }
+
+  void after_step(const Simulation& simulation, const StepReport&, double) override {
+    GoldenWindow& window = windows.back();
+    GoldenStep& step = window.steps.emplace_back();
+    step.hash = step_hash(simulation);
+    step.bodies = rounded(body_numbers(simulation), quanta_.compared);
+    body_count = std::max(body_count, static_cast<int>(step.bodies.size()));
+    const std::int64_t end = starts_[windows.size()], now = simulation.state().step;
+    if (now == window.start.step + (end - window.start.step) / 2) {
+      window.middle = rounded(simulation.state().x, quanta_.compared);
+    }
+    if (now == end) window.energies = simulation.energies();
+  }
 
   std::vector<GoldenWindow> windows;
+  int body_count = 0;
 
  private:
-  void see(const Simulation& simulation) {
-    const State& state = simulation.state();
-    for (std::size_t i = 0; i < windows.size(); ++i) extend(windows[i], plan_[i], simulation);
-    while (windows.size() < plan_.size() && plan_[windows.size()].first == state.step) {
-      const WindowPlan& plan = plan_[windows.size()];
-      GoldenWindow& window = windows.emplace_back();
-      window.frame = plan.frame;
-      window.time = plan.time;
-      window.start = state;
-    }
-  }
-
-  static void extend(GoldenWindow& window, const WindowPlan& plan, const Simulation& simulation) {
-    const State& state = simulation.state();
-    const double h = simulation.settings().step;
-    if (plan.frame && state.step == plan.first + 1 && plan.time > (static_cast<double>(plan.first) + rounding) * h) {
-      window.shown = positions_at(plan.time, simulation, window.start.x);
-    }
-    if (state.step > plan.last) return;
-    window.steps.push_back({state_bits(state), state.x, simulation.energies()});
-  }
-
-  const std::vector<WindowPlan>& plan_;
+  const std::vector<std::int64_t>& starts_;
+  Quanta quanta_;
 };
 
 double aspect(const Eigen::Vector2i& size) { return static_cast<double>(size.x()) / size.y(); }
+
+/// The distance of vertices in the row beside, of a mesh that is a grid: the commonest one that is not 1.
+int row_of(const Cloth& cloth) {
+  std::map<int, int> count;
+  for (const Spring& spring : cloth.springs) ++count[spring.j - spring.i];
+  count.erase(1);
+  const auto commonest =
+      std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return commonest == count.end() ? 1 : commonest->first;
+}
+
+/// All of a golden that is known before its motion.
+Golden described(const Scene& scene, const CheckSettings& settings, const RecordPlan& plan) {
+  Golden golden;
+  golden.scene_digest = scene.digest;
+  golden.size = picture_size(scene, settings);
+  golden.step = scene.simulation.step;
+  golden.step_count = scene.step_count();
+  golden.window_steps = plan.window_steps;
+  golden.vertex_count = scene.simulation.cloth.vertex_count();
+  golden.row = row_of(scene.simulation.cloth);
+  golden.camera = scene.camera;
+  golden.seconds_per_frame = whole_film(scene).seconds_per_frame;
+  golden.quanta = plan.quanta;
+  for (const ChosenFrame& chosen : plan.frames) {
+    golden.frames.push_back(
+        {.frame = chosen.frame, .time = whole_film(scene).time(chosen.frame), .why = chosen.why, .x = {}});
+  }
+  return golden;
+}
 
 }  // namespace
 
@@ -81,75 +90,70 @@ Eigen::Vector2i picture_size(const Scene& scene, const CheckSettings& settings) 
   return settings.size.value_or(scene.video.size);
 }
 
-std::vector<WindowPlan> plan_windows(const Scene& scene, const CheckSettings& settings) {
+std::optional<RecordPlan> plan_recording(const Scene& scene, const CheckSettings& settings, const std::stop_token& stop,
+                                         Progress& progress) {
   const FilmExtent film = whole_film(scene);
-  std::vector<int> frames = settings.frames;
-  if (frames.empty()) frames = spread_frames(film, settings.window);
-  std::vector<WindowPlan> plan;
-  const auto add = [&](std::optional<int> frame, double time, std::int64_t first) {
-    plan.push_back({frame, time, first, std::min(first + settings.window, film.steps)});
-  };
-  if (frames.front() > 0) add(std::nullopt, 0, 0);
-  for (const int frame : frames) {
+  RecordPlan plan;
+  plan.window_steps = std::max<std::int64_t>(1, std::llround(std::min(settings.window_time / film.step, 1e9)));
+  plan.quanta = quanta_for(scene.simulation, settings.motion_tolerance);
+  for (const int frame : settings.frames) {
     if (frame > film.frames.last) {
       throw UsageError(fmt::format("{}: frame {} is to be compared, the film ends with frame {}", scene.file.string(),
                                    frame, film.frames.last));
     }
-    const FilmExtent extent(scene.video, film.step, film.steps, FrameRange{frame, frame});
-    add(frame, extent.time(frame), step_of(extent, frame));
+    plan.frames.push_back({frame, "named by the scene"});
   }
+  if (!plan.frames.empty()) return plan;
+  const std::optional<FilmFacts> facts = survey_motion(scene, plan.window_steps, plan.quanta, stop, progress);
+  if (!facts) return std::nullopt;
+  plan.frames = choose_frames(*facts);
   return plan;
 }
 
-View view_of_windows(const Camera& camera, const Eigen::Vector2i& size, const std::vector<GoldenWindow>& windows,
-                     const Simulation& simulation) {
+RecordPlan plan_of(const Golden& golden) {
+  RecordPlan plan{.frames = {}, .window_steps = golden.window_steps, .quanta = golden.quanta};
+  for (const GoldenFrame& frame : golden.frames) plan.frames.push_back({frame.frame, frame.why});
+  return plan;
+}
+
+View view_of_frames(const Camera& camera, const Eigen::Vector2i& size, const std::vector<GoldenFrame>& frames,
+                    const Simulation& simulation) {
   if (!needs_motion(camera)) return fixed_view(camera);
   Framing framing(camera, aspect(size));
-  for (const GoldenWindow& window : windows) {
-    framing.add(window.picture_positions());
-    for (const Collider& collider : simulation.colliders(window.time)) framing.add(collider);
+  for (const GoldenFrame& frame : frames) {
+    framing.add(frame.x);
+    for (const Collider& collider : simulation.colliders(frame.time)) framing.add(collider);
   }
   return framing.view();
 }
 
-std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& settings,
-                                    const std::vector<WindowPlan>& plan, const std::stop_token& stop,
-                                    Progress& progress) {
-  Golden golden;
-  golden.scene_digest = scene.digest;
-  golden.size = picture_size(scene, settings);
-  golden.step = scene.simulation.step;
-  golden.step_count = scene.step_count();
-  golden.vertex_count = scene.simulation.cloth.vertex_count();
-  golden.camera = scene.camera;
+std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& settings, const RecordPlan& plan,
+                                    const std::stop_token& stop, Progress& progress) {
+  Golden golden = described(scene, settings, plan);
   const FilmExtent film = whole_film(scene);
-  golden.seconds_per_frame = film.seconds_per_frame;
-  // A tenth of what is tolerated, so that the rounding decides nothing.
-  golden.quantum = std::max(0.1 * settings.motion_tolerance, least_quantum);
-
   Framing framing(scene.camera, aspect(golden.size));
+  auto wanted = golden.frames.begin();
   FrameSampler sampler(film, [&](const Frame& frame) {
     framing.add(frame.positions);
     for (const Collider& collider : frame.colliders) framing.add(collider);
+    if (wanted == golden.frames.end() || wanted->frame != frame.index) return;
+    wanted++->x = rounded(frame.positions, plan.quanta.position);
   });
-  Recorder recorder(plan);
+  const std::vector<std::int64_t> starts = window_starts(film.steps, plan.window_steps);
+  Recorder recorder(starts, plan.quanta);
   StepCounter counter(progress);
-  const bool framed = needs_motion(scene.camera);
-  std::int64_t steps = framed ? film.steps : 0;
-  for (const WindowPlan& window : plan) {
-    // A picture between two steps needs the second of them.
-    steps = std::max(steps, std::min(film.steps, std::max(window.last, window.first + 1)));
-  }
-  progress.begin("simulating", "steps", steps);
-  std::vector<StepObserver*> observers{&recorder, &counter};
-  if (framed) observers.push_back(&sampler);
+  progress.begin("simulating", "steps", film.steps);
+  const std::array<StepObserver*, 3> observers{&recorder, &counter, &sampler};
   Simulation simulation(scene.simulation);
-  run_steps(simulation, steps, observers, stop);
+  run_chained(simulation, starts, plan.quanta, observers, stop);
   if (stop.stop_requested()) return std::nullopt;
 
-  golden.view = framed ? framing.view() : fixed_view(scene.camera);
+  golden.view = needs_motion(scene.camera) ? framing.view() : fixed_view(scene.camera);
   golden.windows = std::move(recorder.windows);
-  if (!plan.empty()) golden.window_view = view_of_windows(scene.camera, golden.size, golden.windows, simulation);
+  golden.body_count = recorder.body_count;
+  if (!golden.frames.empty()) {
+    golden.frames_view = view_of_frames(scene.camera, golden.size, golden.frames, simulation);
+  }
   return golden;
 }
 

@@ -1,40 +1,45 @@
 #pragma once
 
+#include <optional>
 #include <stop_token>
+#include <vector>
 
+#include "check/choose_frames.hpp"
 #include "check/golden.hpp"
 #include "run/progress.hpp"
 #include "scene/scene.hpp"
 
 namespace drape {
 
-/// A piece of a scene's motion that is to be recorded.
-struct WindowPlan {
-  std::optional<int> frame;          ///< the compared frame; absent: none, the start of the motion
-  double time = 0;                   ///< of the frame [s]
-  std::int64_t first = 0, last = 0;  ///< steps
+/// How a scene's motion is to be recorded.
+struct RecordPlan {
+  std::vector<ChosenFrame> frames;  ///< whose pictures are compared, ascending
+  std::int64_t window_steps = 1;
+  Quanta quanta;
 };
 
-/// Which frames of a scene's film are compared, and which steps of its motion: settings.window steps from each of the
-/// frames on, as far as the motion goes, and as many from its start.
-/// @throws UsageError if the film has no such frame
-std::vector<WindowPlan> plan_windows(const Scene& scene, const CheckSettings& settings);
-
-/// Runs a scene's motion, as far as the plan needs it or as the camera has to see it, and keeps the windows of the
-/// plan.
-/// @returns all of a golden but its pictures, its date and its machine
-/// @throws DivergedError
+/// As the scene's table [check] says. Without frames in it, those in which something happens are chosen, for which the
+/// motion is run.
+/// @throws UsageError if the film has no such frame; DivergedError
 /// @returns nothing if it was stopped
-std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& settings,
-                                    const std::vector<WindowPlan>& plan, const std::stop_token& stop,
-                                    Progress& progress);
+std::optional<RecordPlan> plan_recording(const Scene& scene, const CheckSettings& settings, const std::stop_token& stop,
+                                         Progress& progress);
+
+/// The plan by which a golden was recorded.
+RecordPlan plan_of(const Golden& golden);
+
+/// Runs a scene's motion, and places the camera.
+/// @returns all of a golden but its pictures, its date and its machine; nothing if it was stopped
+/// @throws DivergedError
+std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& settings, const RecordPlan& plan,
+                                    const std::stop_token& stop, Progress& progress);
 
 /// The size of a scene's golden pictures [pixels].
 Eigen::Vector2i picture_size(const Scene& scene, const CheckSettings& settings);
 
-/// Where the camera would stand if the windows' starts were the whole motion: the same as long as neither the camera,
+/// Where the camera would stand if the compared frames were the whole motion: the same as long as neither the camera,
 /// nor what there is to see, nor the way in which the camera is placed changes.
-View view_of_windows(const Camera& camera, const Eigen::Vector2i& size, const std::vector<GoldenWindow>& windows,
-                     const Simulation& simulation);
+View view_of_frames(const Camera& camera, const Eigen::Vector2i& size, const std::vector<GoldenFrame>& frames,
+                    const Simulation& simulation);
 
 }  // namespace drape

@@ -1,6 +1,7 @@
 #include "check/report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -28,6 +29,19 @@ ExitCode CheckReport::exit_code() const {
   ExitCode worst = ExitCode::ok;
   for (const SceneResult& scene : scenes) worst = std::max(worst, exit_code_of(scene));
   return worst;
+}
+
+std::string describe_ignored(const SceneResult& scene) {
+  std::vector<int> frames;
+  for (const FrameResult& frame : scene.windows.frames) {
+    if (!frame.judged) frames.push_back(frame.frame);
+  }
+  const std::string part = scene.ignored > 0 ? fmt::format("{:.3g} % of the picture", 100 * scene.ignored) : "";
+  const std::string whole =
+      frames.empty() ? "" : fmt::format("frame{} {}", frames.size() == 1 ? "" : "s", fmt::join(frames, ", "));
+  if (part.empty() && whole.empty()) return {};
+  const bool several = frames.size() > 1 || (!part.empty() && !whole.empty());
+  return part + (part.empty() || whole.empty() ? "" : " and ") + whole + (several ? " are ignored" : " is ignored");
 }
 
 const char* verdict_name(MotionVerdict verdict) {

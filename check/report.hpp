@@ -50,13 +50,16 @@ struct PictureDifference {
 
 /// One compared frame.
 struct FrameResult {
-  int frame = 0;    ///< number of the film's frame
-  double time = 0;  ///< of the scene [s]
+  int frame = 0;       ///< number of the film's frame
+  double time = 0;     ///< of the scene [s]
+  std::string why;     ///< it is compared: "first contact with the sphere"
+  bool judged = true;  ///< or it is shown only, see CheckSettings::ignore_frames
   PictureDifference difference;
-  Png expected;   ///< the golden picture
-  Png actual;     ///< this and the next two are empty if the pictures are the same bytes
-  Png amplified;  ///< the absolute difference, brightened so that the largest is white
-  Png flip_map;   ///< the FLIP error of every pixel in the colours of the map "magma", black 0 to pale yellow 1
+  std::string kind;  ///< what kind of difference it is, see name_difference(); empty: none, or no kind of its own
+  Png expected;      ///< the golden picture
+  Png actual;        ///< this and the next two are empty if the pictures are the same bytes
+  Png amplified;     ///< the absolute difference, brightened so that the largest is white
+  Png flip_map;      ///< the FLIP error of every pixel in the colours of the map "magma", black 0 to pale yellow 1
 };
 
 /// A vertex that is not where it was.
@@ -66,17 +69,16 @@ struct Deviation {
   double distance = 0;  ///< [m]
 };
 
-/// A few steps of motion, computed from a golden state.
+/// A piece of motion, computed from a golden state.
 struct WindowResult {
-  std::optional<int> frame;  ///< the compared frame at which it begins; absent: the start of a motion whose frame 0 is
-                             ///< not compared
   std::int64_t first_step = 0, last_step = 0;
   MotionVerdict verdict = MotionVerdict::same_bits;
-  std::vector<double> deviations;    ///< the largest distance of any vertex from its golden place, at every step from
-                                     ///< first_step to last_step [m]; shorter if the motion diverged
-  std::optional<Deviation> first;    ///< the worst vertex at the first step at which one is beyond the tolerance
-  std::optional<Deviation> largest;  ///< of all steps; absent if there is none
-  std::string problem;               ///< a sentence if there is something else to say: that it diverged
+  std::optional<std::int64_t> other_bits;  ///< the first step that did not end in the same bits; absent: all did
+  std::vector<Deviation> deviations;  ///< the worst vertex of every step whose positions are compared; fewer if the
+                                      ///< motion diverged
+  std::optional<Deviation> first;     ///< the first of them that is beyond the tolerance
+  std::optional<Deviation> largest;   ///< of all; absent if there is none
+  std::string problem;  ///< a sentence if there is something else to say: that it diverged, or that a body moved
 };
 
 /// Motion and pictures of a scene beside its golden ones.
@@ -111,21 +113,26 @@ struct SceneResult {
   std::optional<Comparison> end_to_end;  ///< the whole motion run again and drawn, if that was asked for
 
   CheckSettings settings;      ///< with what the command line says
+  double ignored = 0;          ///< the part of every picture that is not judged, 0 to 1
+  std::string elsewhere;       ///< what was another where the golden was recorded, see name_other_machine()
   bool scene_changed = false;  ///< the scene file has changed since it was recorded
   std::string recorded_at;     ///< "2026-01-31T12:00:00Z"; empty without a golden
   Machine recorded_on;
-  std::string renderer;       ///< what drew the pictures now
-  std::array<int, 2> size{};  ///< of the pictures [pixels]
-  std::string animation;      ///< a GIF's bytes: expected, actual and difference side by side, looping around the
-                              ///< first bad frame; empty if there is none
-  std::string rerun_command, bless_command;
-  double seconds = 0;  ///< that the check took
+  std::string renderer;        ///< what drew the pictures now
+  std::array<int, 2> size{};   ///< of the pictures [pixels]
+  std::string animation;       ///< a GIF's bytes: expected, actual and difference side by side, looping around the
+                               ///< first bad frame; empty if there is none
+  bool has_candidate = false;  ///< what it is now is kept beside the report, and can be accepted
+  std::string rerun_command;
+  std::string accept_command;  ///< makes what it is now the golden: drape accept, or drape bless without a candidate
+  double seconds = 0;          ///< that the check took
 };
 
 /// A run of `drape check`.
 struct CheckReport {
-  std::string command;  ///< as it was typed
-  std::string date;     ///< "2026-01-31T12:00:00Z"
+  std::string command;         ///< as it was typed
+  std::string accept_command;  ///< makes everything that changed golden; empty: there is nothing
+  std::string date;            ///< "2026-01-31T12:00:00Z"
   Machine machine;
   std::vector<SceneResult> scenes;  ///< in the order of the command line
   double seconds = 0;
@@ -135,6 +142,9 @@ struct CheckReport {
   /// Of the scene that is worst off, where an error is worse than a change.
   [[nodiscard]] ExitCode exit_code() const;
 };
+
+/// "2.1 % of the picture and frame 40 are ignored"; empty if nothing is.
+std::string describe_ignored(const SceneResult& scene);
 
 /// "same bits", "within tolerance", "changed".
 const char* verdict_name(MotionVerdict verdict);

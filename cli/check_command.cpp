@@ -42,7 +42,10 @@ struct CheckArguments {
 };
 
 UpdateMode parse_update(const std::string& name) {
-  static const std::vector<std::string> names{"all", "changed", "missing", "none"};  // as the enumeration
+  static const std::vector<std::string> names{"all", "missing", "none"};  // as the enumeration
+  if (name == "changed") {
+    throw UsageError("--update changed is no more: look at the report of a check, then accept it with drape accept");
+  }
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<UpdateMode>(found - names.begin());
   throw UsageError(fmt::format("--update: unknown '{}'{}", name, did_you_mean(name, names, "the choices are")));
@@ -71,6 +74,8 @@ std::string command_options(const CheckArguments& arguments) {
   return text;
 }
 
+std::string accept_command(const CheckArguments& arguments) { return "drape accept " + shell_word(arguments.report); }
+
 /// One line about a scene.
 std::string describe(const SceneResult& scene) {
   const std::string file = scene.file.string();
@@ -81,6 +86,7 @@ std::string describe(const SceneResult& scene) {
       fmt::format("{}: passed: motion {}, {} {}", file, verdict_name(scene.windows.motion), scene.windows.frames.size(),
                   scene.windows.frames.size() == 1 ? "picture" : "pictures");
   text += fmt::format(" {}", verdict_name(scene.windows.picture));
+  if (const std::string ignored = describe_ignored(scene); !ignored.empty()) text += fmt::format(" ({})", ignored);
   if (scene.end_to_end) {
     text += fmt::format("; end to end {}, {}", verdict_name(scene.end_to_end->motion),
                         verdict_name(scene.end_to_end->picture));
@@ -151,7 +157,11 @@ bool check_all(const std::vector<Scene>& scenes, const CheckArguments& arguments
     if (run_watched(common.quiet, check)) return true;
     const std::string file = shell_word(scene.file.string());
     result.rerun_command = "drape check " + file + command_options(arguments);
-    result.bless_command = "drape bless " + file;
+    // What was checked with other values than the file's is not what the file gives.
+    result.has_candidate = result.has_candidate && arguments.overrides.empty();
+    result.accept_command =
+        result.has_candidate ? accept_command(arguments) + " " + shell_word(result.name) : "drape bless " + file;
+    if (result.has_candidate) report.accept_command = accept_command(arguments);
     tell(result, common, verdicts);
     if (!result.renderer.empty()) report.machine.renderer = result.renderer;
     report.scenes.push_back(std::move(result));
@@ -210,9 +220,8 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
       ->allow_extra_args(false);
   sub->add_option("--frames", arguments->frames, "A,B,C: compare only these of the golden frames");
   sub->add_flag("--end-to-end", arguments->end_to_end, "Run the whole motion and draw it, too");
-  sub->add_option(
-         "--update", arguments->update,
-         "all, changed, missing or none: which goldens to write; missing is the default, and fails all the same")
+  sub->add_option("--update", arguments->update,
+                  "all, missing or none: which goldens to write; missing is the default, and fails all the same")
       ->type_name("WHICH");
   add_backend_option(*sub, arguments->backend);
   sub->add_option("--report", arguments->report, "Folder for the reports (HTML, JSON, JUnit); default out/check");

@@ -32,10 +32,17 @@ std::string percent(int place, int size) { return fmt::format("{:.3f}%", 100 * (
 /// @param index of the moment in its viewer
 Markup moment_panel(const ComparedPictures& m, std::size_t index, bool shown) {
   std::string style = fmt::format("--split: 50%; --width: {}; --height: {}", m.size[0], m.size[1]);
-  Markup ring;
+  Markup ring;  // and what else is drawn over every picture
   if (m.worst) {
     style += fmt::format("; --x: {}; --y: {}", percent((*m.worst)[0], m.size[0]), percent((*m.worst)[1], m.size[1]));
     ring = element("span", {{"class", "ring"}, {"aria-hidden", "true"}});
+  }
+  for (const auto& [left, top, width, height] : m.ignored) {
+    ring += element("span", {{"class", "ignored"},
+                             {"style", fmt::format("left: {:.3f}%; top: {:.3f}%; width: {:.3f}%; height: {:.3f}%",
+                                                   100. * left / m.size[0], 100. * top / m.size[1],
+                                                   100. * width / m.size[0], 100. * height / m.size[1])},
+                             {"aria-hidden", "true"}});
   }
   const Markup slider = element("input", {{"type", "range"},
                                           {"class", "split"},
@@ -54,7 +61,7 @@ Markup moment_panel(const ComparedPictures& m, std::size_t index, bool shown) {
           view("error-map", "FLIP error", m.error_map, m.name, ring) + (pair ? slider : Markup()));
   return element("div",
                  {{"class", "moment"}, {"data-moment", std::to_string(index)}, {"hidden?", shown ? "" : "hidden"}},
-                 element("p", {{"class", "caption"}}, m.caption) + stage);
+                 element("p", {{"class", "caption"}}, m.caption) + stage + m.action);
 }
 
 }  // namespace

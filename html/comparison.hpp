@@ -15,7 +15,9 @@ struct ComparedPictures {
   Tone tone = Tone::neutral;
   std::string expected, actual, difference, error_map;
   Markup caption;                           ///< in words: what differs
+  Markup action;                            ///< below the pictures: what can be done about it
   std::array<int, 2> size{1, 1};            ///< [pixels]
+  std::vector<std::array<int, 4>> ignored;  ///< parts that are not judged, hatched: left, top, width, height [pixels]
   std::optional<std::array<int, 2>> worst;  ///< the pixel to look at: column and row, from the top left
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -13,13 +14,18 @@ struct PictureLimits {
   double flip = 0.05;     ///< the largest FLIP error of a pixel
 };
 
+/// A rectangle of golden pixels: column and row of its top left one, width and height.
+using PixelRectangle = std::array<int, 4>;
+
 /// A scene's [check] table: what its golden frames and golden motion are, and what still counts as the same.
 struct CheckSettings {
-  std::vector<int> frames;              ///< of the film, ascending; empty: eight, spread over the motion
+  std::vector<int> frames;              ///< of the film, ascending; empty: those in which something happens
   std::optional<Eigen::Vector2i> size;  ///< of the golden pictures [pixels]; absent: the film's
-  int window = 20;                      ///< steps of motion that are compared from each of the frames on
-  double motion_tolerance = 1e-6;       ///< how far a vertex may end from its golden place [m]
+  double window_time = 0.4;             ///< after which the motion starts again from a golden state [s]
+  double motion_tolerance = 1e-6;       ///< how far a vertex may be from its golden place [m]
   PictureLimits limits;
+  std::vector<PixelRectangle> ignore;  ///< what is not judged in any picture
+  std::vector<int> ignore_frames;      ///< whose pictures are not judged at all
 };
 
 }  // namespace drape

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
+#include "scene/check_settings.hpp"
 #include "scene/color.hpp"
 #include "scene/pins.hpp"
 #include "scene/usd_motion.hpp"
@@ -16,6 +17,27 @@ namespace drape {
 namespace {
 
 constexpr const char* effects_table = "effects";
+
+/// A list of [x, y, width, height].
+std::vector<PixelRectangle> read_rectangles(const TomlValue& value, const std::string& name, Problems& problems) {
+  constexpr int largest = 8192;  // as [check] size
+  std::vector<PixelRectangle> rectangles;
+  const TomlArray* list = value.as<TomlArray>();
+  if (list == nullptr) {
+    problems.add(value.place, fmt::format("{}: expected [[x, y, width, height], …], found {}", name, value.kind()));
+    return rectangles;
+  }
+  for (const TomlValue& item : *list) {
+    const auto numbers = read_ints(item, name, {.minimum = 0, .maximum = largest}, problems);
+    if (!numbers) continue;
+    if (numbers->size() != 4 || (*numbers)[2] == 0 || (*numbers)[3] == 0) {
+      problems.add(item.place, name + ": expected [x, y, width, height], with a width and a height above 0");
+      continue;
+    }
+    rectangles.push_back({(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]});
+  }
+  return rectangles;
+}
 
 /// Reads the value of a key into its target, whatever that is.
 class KeyReader {
@@ -59,6 +81,8 @@ class KeyReader {
   void operator()(const OwnForm& form) const {
     if (auto* const* track = std::any_cast<std::shared_ptr<const SphereTrack>*>(&form.target)) {
       read_track(**track);
+    } else if (auto* const* rectangles = std::any_cast<std::vector<PixelRectangle>*>(&form.target)) {
+      **rectangles = read_rectangles(value_, key_.name, problems_);
     } else {
       *std::any_cast<const TomlValue**>(form.target) = &value_;  // whoever describes the table reads it
     }
@@ -198,7 +222,9 @@ bool TableReader::good(const std::string& table) const { return !contains(bad_, 
 void TableReader::report_unknown(const TomlEntry& entry, const TableType& type,
                                  const std::vector<std::string>& subtables) {
   std::string message = fmt::format("unknown key '{}' in [{}]", entry.name, type.name);
-  if (const Home* home = home_of(entry.name)) {
+  if (const auto replaced = type.replaced.find(entry.name); replaced != type.replaced.end()) {
+    message = fmt::format("'{}' in [{}] is no more: {}", entry.name, type.name, replaced->second);
+  } else if (const Home* home = home_of(entry.name)) {
     message += fmt::format("; it belongs in [{}]", home->table);
   } else {
     std::vector<std::string> names = key_names(type);

@@ -119,14 +119,14 @@ Keys video_keys(Video& video) {
 Keys check_keys(CheckSettings& check) {
   Keys keys;
   keys.add("frames", &check.frames, "",
-           "The film's frames that are compared, ascending. Without it eight, spread over the motion.")
+           "The film's frames that are compared, ascending. Without it those in which something happens.")
       .at_least(0);
   keys.add("size", &check.size, "pixels", "Of the golden pictures. Without it the film's.").at_least(16).at_most(8192);
-  keys.add("window", &check.window, "", "How many steps of the motion are compared from each of these frames on.")
-      .at_least(1)
-      .at_most(20);
+  keys.add("window_time", &check.window_time, "s",
+           "After which the motion, all of which is compared, starts again from a golden state.")
+      .above(0);
   keys.add("motion_tolerance", &check.motion_tolerance, "m",
-           "How far a vertex may be from its golden place in these steps. With 0 the bits must be the same.")
+           "How far a vertex may be from its golden place. With 0 the bits must be the same.")
       .at_least(0);
   keys.add("channel_limit", &check.limits.channel, "1/255",
            "A picture that differs is still the same, but for rounding, if no pixel differs by more in any channel…")
@@ -138,6 +138,9 @@ Keys check_keys(CheckSettings& check) {
   keys.add("flip_limit", &check.limits.flip, "", "…and no pixel's FLIP error (Andersson et al. 2020) is larger.")
       .at_least(0)
       .at_most(1);
+  keys.add("ignore", OwnForm{"[[x, y, width, height], …]", &check.ignore}, "pixels",
+           "Parts of the golden pictures that are shown, but not judged; from the top left.");
+  keys.add("ignore_frames", &check.ignore_frames, "", "Frames whose pictures are shown, but not judged.").at_least(0);
   return keys;
 }
 
@@ -156,7 +159,8 @@ std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene) {
   add("look", "What things look like.", look_keys(scene.look));
   add("video", "The film.", video_keys(scene.video));
   add("check", "What `drape check` compares, see [regression.md](regression.md). Nothing else reads it.",
-      check_keys(scene.check));
+      check_keys(scene.check))
+      .replaced = {{"window", "the whole motion is compared now, in windows of 'window_time' seconds"}};
   return tables;
 }
 

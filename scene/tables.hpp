@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct TableType {
   Keys keys;
   bool required = false;
   bool repeatable = false;  ///< may be written as [[name]] several times
+  std::map<std::string, std::string> replaced = {};  ///< keys that there were, and what there is instead of them
 };
 
 /// Every table of a scene but its effects, whose keys write to `cloth` and `scene`. With effect_types() the only

@@ -8,7 +8,8 @@ namespace drape {
 /// A sphere at one moment.
 struct SphereShape {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m]
-  double radius = 1;                                 ///< [m]
+  double radius = 1;                                 ///< as it is drawn [m]
+  double reach = 0;                                  ///< where it pushes: within this distance of its centre [m]
 };
 
 /// A half-space: everything with normal·x ≤ height is inside it.

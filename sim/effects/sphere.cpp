@@ -42,8 +42,13 @@ struct SphereSurface {
 
 struct TrackedSphere final : ColliderMotion {
   std::shared_ptr<const SphereTrack> track;
-  explicit TrackedSphere(std::shared_ptr<const SphereTrack> t) : track(std::move(t)) {}
-  [[nodiscard]] Collider at(double time) const override { return track->at(time); }
+  double scale;
+  TrackedSphere(std::shared_ptr<const SphereTrack> t, double s) : track(std::move(t)), scale(s) {}
+  [[nodiscard]] Collider at(double time) const override {
+    SphereShape shape = track->at(time);
+    shape.reach = scale * shape.radius;
+    return shape;
+  }
 };
 
 }  // namespace
@@ -86,7 +91,7 @@ void Sphere::check(const SimulationSettings& settings, const ProblemSink& proble
 
 void Sphere::install(System& system) const {
   const std::shared_ptr<const SphereTrack> moving = motion();
-  system.colliders.push_back(std::make_unique<TrackedSphere>(moving));
+  system.colliders.push_back(std::make_unique<TrackedSphere>(moving, scale));
   install_contact(SphereSurface{moving, scale}, law(), system);
 }
 

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "check/check_scene.hpp"
+#include "check/golden_folder.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -78,14 +79,22 @@ Apply shader(const char* file, const char* from, const char* to) {
   return [=](Subject& subject) { replace(subject.folder / "data" / "shaders" / file, from, to); };
 }
 
-/// Changes the golden picture of frame 85, as if the film had looked different.
+/// Changes the golden picture of the second frame, as if the film had looked different when it was recorded.
 Apply golden_picture_of(const std::function<void(cv::Mat&)>& change) {
   return [=](Subject& subject) {
-    const std::string file = golden_picture(subject.golden(), 85).string();
-    cv::Mat picture = cv::imread(file);
-    ASSERT_FALSE(picture.empty());
-    change(picture);
-    cv::imwrite(file, picture);
+    const Golden golden = read_golden(subject.golden());
+    std::vector<Png> pictures;
+    for (const GoldenFrame& frame : golden.frames) {
+      const std::string file = golden_picture(subject.golden(), frame.frame).string();
+      if (&frame == &golden.frames[1]) {
+        cv::Mat picture = cv::imread(file);
+        ASSERT_FALSE(picture.empty());
+        change(picture);
+        cv::imwrite(file, picture);
+      }
+      pictures.push_back(test::content(file));
+    }
+    write_golden(subject.golden(), golden, pictures);
   };
 }
 

@@ -1,0 +1,159 @@
+#include "check/candidate.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "check/golden_file.hpp"
+#include "check/golden_folder.hpp"
+#include "check/json_fields.hpp"
+#include "check/picture.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/nearest.hpp"
+#include "core/read_file.hpp"
+
+namespace drape {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t most_description = 1 << 20;  // bytes
+
+fs::path description_file(const fs::path& report, const std::string& name) { return report / name / "candidate.json"; }
+
+Candidate read_candidate(const fs::path& file) {
+  try {
+    const Json json = parse_json(read_golden_file(file, most_description));
+    const Fields fields(json, "");
+    return {.folder = file.parent_path() / "candidate",
+            .name = file.parent_path().filename().string(),
+            .scene_file = fields.text("scene"),
+            .scene_digest = fields.text("scene_hash"),
+            .program = fields.text("program")};
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(file.string() + ": " + error.what() + "; check the scene again");
+  }
+}
+
+/// A golden with its pictures, all of it as it was recorded.
+struct Whole {
+  Golden golden;
+  std::vector<Png> pictures;
+};
+
+Whole read_whole(const fs::path& folder) {
+  Whole whole{read_golden(folder), {}};
+  for (const GoldenFrame& frame : whole.golden.frames) {
+    const fs::path file = golden_picture(folder, frame.frame);
+    whole.pictures.push_back(read_golden_file(file, most_png_bytes(whole.golden.size)));
+    try {
+      if (pixel_hash(decode_png(whole.pictures.back(), whole.golden.size)) == frame.pixels) continue;
+    } catch (const std::invalid_argument&) {
+      // Said below.
+    }
+    fail_to_read(file, "is not as it was recorded");
+  }
+  return whole;
+}
+
+[[noreturn]] void refuse(const Candidate& candidate, const std::string& why) {
+  throw UsageError(fmt::format("{}: cannot be accepted: {}", candidate.scene_file.string(), why));
+}
+
+/// The golden that a candidate makes of the one there is.
+Whole accepted(const Candidate& candidate, const std::vector<int>& frames) {
+  if (load_scene(candidate.scene_file).digest != candidate.scene_digest) {
+    refuse(candidate, "the scene is another one than the one that was checked; check it again");
+  }
+  if (program_hash() != candidate.program)
+    refuse(candidate, "another drape than this one has checked it; check it again");
+  Whole whole = read_whole(candidate.folder);
+  if (frames.empty()) return whole;
+
+  Whole there = read_whole(golden_folder(candidate.scene_file));
+  const auto motion = [](const fs::path& folder) { return read_golden_file(folder / "motion.bin", UINTMAX_MAX); };
+  if (whole.golden.size != there.golden.size ||
+      motion(candidate.folder) != motion(golden_folder(candidate.scene_file))) {
+    refuse(candidate,
+           "the motion or the size of the pictures is another one, and single pictures would not belong to "
+           "it; accept all of it, without --frames");
+  }
+  for (const int frame : frames) {
+    const auto& all = there.golden.frames;
+    const auto found = std::find_if(all.begin(), all.end(), [&](const GoldenFrame& f) { return f.frame == frame; });
+    if (found == all.end()) refuse(candidate, fmt::format("--frames: its golden has no frame {}", frame));
+    const auto index = static_cast<std::size_t>(found - all.begin());
+    there.pictures[index] = whole.pictures[index];
+  }
+  return there;
+}
+
+}  // namespace
+
+std::string program_hash() {
+  static const std::string text = [] {
+    Hash hash;
+    hash.add(read_file("/proc/self/exe", UINTMAX_MAX));
+    return hash.text();
+  }();
+  return text;
+}
+
+void write_candidate(const fs::path& report, const std::string& name, const Scene& scene, const Golden& golden,
+                     const std::vector<Png>& pictures) {
+  write_golden(report / name / "candidate", golden, pictures);
+  const Json json{{"scene", scene.file.string()}, {"scene_hash", scene.digest}, {"program", program_hash()}};
+  write_file_atomically(description_file(report, name),
+                        json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void remove_candidate(const fs::path& report, const std::string& name) {
+  std::error_code ignored;
+  fs::remove(description_file(report, name), ignored);
+  fs::remove_all(report / name / "candidate", ignored);
+}
+
+std::vector<Candidate> find_candidates(const fs::path& report, const std::vector<std::string>& wanted) {
+  std::vector<Candidate> all;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(report, error)) {
+    const fs::path file = description_file(report, entry.path().filename().string());
+    if (fs::exists(file, error)) all.push_back(read_candidate(file));
+  }
+  if (all.empty()) throw UsageError(fmt::format("{}: there is nothing to accept", report.string()));
+  std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.name < b.name; });
+  if (wanted.empty()) return all;
+
+  std::vector<Candidate> chosen;
+  std::vector<std::string> names;
+  for (const Candidate& candidate : all) names.push_back(candidate.name);
+  for (const std::string& name : wanted) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Candidate& candidate) {
+      return candidate.name == name || candidate.scene_file == name;
+    });
+    if (found == all.end()) {
+      throw UsageError(fmt::format("{}: there is nothing to accept of '{}'{}", report.string(), name,
+                                   did_you_mean(name, names, "there is")));
+    }
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+void require_acceptable(const Candidate& candidate, const std::vector<int>& frames) {
+  has_golden(golden_folder(candidate.scene_file));  // or it throws
+  accepted(candidate, frames);
+}
+
+fs::path accept_candidate(const Candidate& candidate, const std::vector<int>& frames) {
+  const Whole whole = accepted(candidate, frames);
+  fs::path folder = golden_folder(candidate.scene_file);
+  write_golden(folder, whole.golden, whole.pictures);
+  return folder;
+}
+
+}  // namespace drape

@@ -1,0 +1,181 @@
+#include "check/name_difference.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+namespace drape {
+namespace {
+
+using Plane = Eigen::ArrayXXd;  // columns × rows of the picture
+
+constexpr double explained = 0.25;    // of the squared difference may be left for a name to hold
+constexpr int farthest_shift = 6;     // looked for [pixels]
+constexpr double steep = 24;          // between neighbours: an edge [of 255]
+constexpr double one_place = 0.1;     // of the picture's area, at most
+constexpr double least_share = 0.02;  // of the channels that another brightness changes
+
+Plane luminance(const Image& image) {
+  Plane plane(image.width, image.height);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* p = image.at(x, y);
+      plane(x, y) = 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2];  // ITU-R BT.709
+    }
+  }
+  return plane;
+}
+
+/// Half the differences of the neighbours on both sides, in x and y; 0 on the border.
+std::array<Plane, 2> gradients(const Plane& plane) {
+  std::array<Plane, 2> g{Plane::Zero(plane.rows(), plane.cols()), Plane::Zero(plane.rows(), plane.cols())};
+  for (Eigen::Index y = 1; y + 1 < plane.cols(); ++y) {
+    for (Eigen::Index x = 1; x + 1 < plane.rows(); ++x) {
+      g[0](x, y) = (plane(x + 1, y) - plane(x - 1, y)) / 2;
+      g[1](x, y) = (plane(x, y + 1) - plane(x, y - 1)) / 2;
+    }
+  }
+  return g;
+}
+
+/// The part of `plane` that stays within it under any of the shifts that are looked for, moved by one of them.
+auto moved(const Plane& plane, int dx, int dy) {
+  return plane.block(farthest_shift - dx, farthest_shift - dy, plane.rows() - 2 * farthest_shift,
+                     plane.cols() - 2 * farthest_shift);
+}
+
+/// The nearest whole shift, and what is left of a pixel by linearisation (Lucas and Kanade 1981).
+std::string name_shift(const Plane& expected, const Plane& actual) {
+  if (expected.rows() <= 4 * farthest_shift || expected.cols() <= 4 * farthest_shift) return {};
+  const Plane target = moved(actual, 0, 0);
+  const double unmoved = (target - moved(expected, 0, 0)).square().sum();
+  Eigen::Vector2d whole = Eigen::Vector2d::Zero();
+  double best = unmoved;
+  for (int dy = -farthest_shift; dy <= farthest_shift; ++dy) {
+    for (int dx = -farthest_shift; dx <= farthest_shift; ++dx) {
+      const double left = (target - moved(expected, dx, dy)).square().sum();
+      if (left < best) {
+        best = left;
+        whole = {dx, dy};
+      }
+    }
+  }
+  const Plane base = moved(expected, static_cast<int>(whole[0]), static_cast<int>(whole[1]));
+  const std::array<Plane, 2> g = gradients(base);
+  const Plane difference = target - base;
+  Eigen::Matrix2d normal;
+  normal << g[0].square().sum(), (g[0] * g[1]).sum(), (g[0] * g[1]).sum(), g[1].square().sum();
+  if (normal.determinant() <= 0) return {};
+  const Eigen::Vector2d part = normal.inverse() * Eigen::Vector2d((g[0] * difference).sum(), (g[1] * difference).sum());
+  const double left = (difference - g[0] * part[0] - g[1] * part[1]).square().sum();
+  // What is seen moves against the gradient.
+  const Eigen::Vector2d shift = whole - part;
+  if (!(left < explained * unmoved) || part.norm() > 1 || shift.norm() < 0.005) return {};
+  const auto along = [](double way, const char* forth, const char* back) {
+    return fmt::format("{:.2g} pixels {}", std::abs(way), way < 0 ? back : forth);
+  };
+  const bool sideways = std::abs(shift[0]) >= 0.1 * shift.norm(), upright = std::abs(shift[1]) >= 0.1 * shift.norm();
+  return "a shift by " + (sideways ? along(shift[0], "to the right", "to the left") : "") +
+         (sideways && upright ? " and " : "") + (upright ? along(shift[1], "down", "up") : "");
+}
+
+/// One factor for all channels of all pixels that changed.
+std::string name_brightness(const Image& expected, const Image& actual) {
+  double changed = 0, product = 0, square = 0, all = 0;
+  const auto visit = [&](auto&& add) {
+    for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
+      if (expected.pixels[i] != actual.pixels[i]) add(double{1} * expected.pixels[i], double{1} * actual.pixels[i]);
+    }
+  };
+  visit([&](double a, double b) {
+    changed += 1;
+    product += a * b;
+    square += a * a;
+    all += (b - a) * (b - a);
+  });
+  const double factor = product / square;
+  double left = 0;
+  visit([&](double a, double b) { left += (b - factor * a) * (b - factor * a); });
+  if (changed < least_share * static_cast<double>(expected.pixels.size()) || !(left < explained * all)) return {};
+  return fmt::format("a brightness {:.2g} % {}", 100 * std::abs(factor - 1), factor > 1 ? "higher" : "lower");
+}
+
+/// The same new colour wherever there was the same old one.
+std::string name_colors(const Image& expected, const Image& actual) {
+  constexpr int levels = 32;  // of a channel
+  struct Bin {
+    Eigen::Array3d sum = Eigen::Array3d::Zero();
+    double square = 0, count = 0;
+  };
+  std::vector<Bin> bins(levels * levels * levels);
+  double all = 0;
+  for (std::size_t i = 0; i < expected.pixels.size(); i += 3) {
+    const std::uint8_t *p = &expected.pixels[i], *q = &actual.pixels[i];
+    const Eigen::Array3d difference(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+    Bin& bin = bins[static_cast<std::size_t>((p[0] / 8 * levels + p[1] / 8) * levels + p[2] / 8)];
+    bin.sum += difference;
+    bin.square += difference.square().sum();
+    bin.count += 1;
+    all += difference.square().sum();
+  }
+  double left = 0;
+  for (const Bin& bin : bins) left += bin.count > 0 ? bin.square - bin.sum.square().sum() / bin.count : 0;
+  return left < explained * all ? "other colours in the same places" : "";
+}
+
+std::string name_edges(const Plane& expected, const Plane& actual) {
+  const std::array<Plane, 2> a = gradients(expected), b = gradients(actual);
+  const Plane steepest = a[0].abs().max(a[1].abs()).max(b[0].abs()).max(b[1].abs());
+  const Plane square = (actual - expected).square();
+  const double elsewhere = (steepest < steep / 2).select(square, 0).sum();
+  return elsewhere < 0.1 * square.sum() ? "edges only: of lines, outlines or a texture" : "";
+}
+
+std::string name_place(const Plane& expected, const Plane& actual) {
+  Eigen::Index left = expected.rows(), right = -1, top = expected.cols(), bottom = -1;
+  for (Eigen::Index y = 0; y < expected.cols(); ++y) {
+    for (Eigen::Index x = 0; x < expected.rows(); ++x) {
+      if (expected(x, y) == actual(x, y)) continue;
+      left = std::min(left, x), right = std::max(right, x), top = std::min(top, y), bottom = std::max(bottom, y);
+    }
+  }
+  if (right < 0) return {};
+  const Eigen::Index width = right - left + 1, height = bottom - top + 1;
+  if (static_cast<double>(width * height) > one_place * static_cast<double>(expected.size())) return {};
+  return fmt::format("one place only: {}x{} pixels from column {} and row {} on", width, height, left, top);
+}
+
+}  // namespace
+
+std::string name_difference(const Image& expected, const Image& actual) {
+  if (expected == actual) return {};
+  const Plane a = luminance(expected), b = luminance(actual);
+  for (const std::string& name :
+       {name_place(a, b), name_shift(a, b), name_brightness(expected, actual), name_colors(expected, actual)}) {
+    if (!name.empty()) return name;
+  }
+  return name_edges(a, b);
+}
+
+std::string name_other_machine(const Machine& recorded, const Machine& here) {
+  std::string text;
+  const auto add = [&](const char* what, const std::string& there, const std::string& now) {
+    if (there.empty() || now.empty() || there == now) return;
+    text += fmt::format("{}{} ({}; here {})", text.empty() ? "with " : ", ", what, there, now);
+  };
+  add("another renderer", recorded.renderer, here.renderer);
+  add("another instruction set", recorded.kernels, here.kernels);
+  add("another version of drape", recorded.drape, here.drape);
+  add("another compiler", recorded.compiler, here.compiler);
+  add("another processor", recorded.processor, here.processor);
+  return text;
+}
+
+}  // namespace drape

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+#include <stop_token>
+
+#include "check/choose_frames.hpp"
+#include "check/rounding.hpp"
+#include "run/progress.hpp"
+#include "scene/scene.hpp"
+
+namespace drape {
+
+/// Runs a scene's golden motion, see run_chained(), to see what happens in its film.
+/// @returns nothing if it was stopped
+/// @throws DivergedError
+std::optional<FilmFacts> survey_motion(const Scene& scene, std::int64_t window_steps, const Quanta& quanta,
+                                       const std::stop_token& stop, Progress& progress);
+
+}  // namespace drape

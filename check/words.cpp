@@ -1,0 +1,75 @@
+#include "check/words.hpp"
+
+#include <zlib.h>
+
+#include <cmath>
+#include <new>
+
+namespace drape {
+namespace {
+
+std::string in_planes(const Words& words) {
+  std::string bytes;
+  bytes.reserve(8 * words.size());
+  for (int shift = 56; shift >= 0; shift -= 8) {
+    for (const std::uint64_t word : words) bytes += static_cast<char>(word >> shift & 255);
+  }
+  return bytes;
+}
+
+Words from_planes(std::string_view bytes) {
+  Words words(bytes.size() / 8, 0);
+  for (std::size_t i = 0; i < 8 * words.size(); ++i) {
+    std::uint64_t& word = words[i % words.size()];
+    word = word << 8 | static_cast<unsigned char>(bytes[i]);
+  }
+  return words;
+}
+
+}  // namespace
+
+std::string pack_words(const Words& words) {
+  const std::string planes = in_planes(words);
+  uLongf size = compressBound(planes.size());
+  std::string packed(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(planes.data()),
+                planes.size(), Z_BEST_COMPRESSION) != Z_OK) {
+    throw std::bad_alloc();
+  }
+  packed.resize(size);
+  return std::to_string(planes.size()) + "\n" + packed;
+}
+
+Words unpack_words(std::string_view bytes, std::uint64_t most) {
+  const std::size_t line = bytes.find('\n');
+  std::size_t size = 0;
+  for (const char c : bytes.substr(0, line)) {
+    if (c < '0' || c > '9' || size > (std::size_t{1} << 40))
+      throw std::invalid_argument("has a size that cannot be read");
+    size = 10 * size + static_cast<std::size_t>(c - '0');
+  }
+  // zlib packs a byte into no less than a thousandth of one: nothing larger is reserved for a damaged file.
+  if (line == std::string_view::npos || size % 8 != 0 || size / 1100 > bytes.size()) {
+    throw std::invalid_argument("is cut off");
+  }
+  if (size / 8 > most) throw std::invalid_argument("holds more than belongs to the manifest beside it");
+  bytes.remove_prefix(line + 1);
+  std::string planes(size, '\0');
+  uLongf unpacked = size;
+  uLong used = bytes.size();
+  if (uncompress2(reinterpret_cast<Bytef*>(planes.data()), &unpacked, reinterpret_cast<const Bytef*>(bytes.data()),
+                  &used) != Z_OK ||
+      unpacked != size || used != bytes.size()) {
+    throw std::invalid_argument("is damaged");
+  }
+  return from_planes(planes);
+}
+
+double WordReader::number() { return finite(std::bit_cast<double>(bits())); }
+
+double finite(double value) {
+  if (!std::isfinite(value)) throw std::invalid_argument("holds a number that is not finite");
+  return value;
+}
+
+}  // namespace drape
