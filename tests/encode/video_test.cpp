@@ -60,6 +60,20 @@ TEST_P(Video, HasTheRateItIsGiven) {
   }
 }
 
+// Frame k is shown at k/fps, to the millisecond in which WebM counts. Of the last frames, which a decoder of H.264
+// keeps back until the end, OpenCV does not say when.
+TEST_P(Video, ShowsEveryFrameAtItsTime) {
+  constexpr int frames = 100;
+  for (const double fps : {25.0, 12.5, 60.0}) {
+    write(frames + 20, 32, 16, fps);
+    cv::VideoCapture video(file(), cv::CAP_FFMPEG);
+    for (int k = 0; k < frames; ++k) {
+      ASSERT_TRUE(video.grab());
+      ASSERT_NEAR(video.get(cv::CAP_PROP_POS_MSEC), 1000 * k / fps, 0.501) << "frame " << k << " at " << fps;
+    }
+  }
+}
+
 TEST_P(Video, MayBeSmallAndSlow) {
   // Which VP8 makes nothing of: its bit rate rounds to nothing.
   for (const double fps : {0.2, 0.05}) {

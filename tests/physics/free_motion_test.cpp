@@ -64,32 +64,23 @@ TEST_P(FreeMotion, FallsAsTheSumOfItsStepsSays) {
   EXPECT_LT((simulation.state().v.rowwise() - velocity).cwiseAbs().maxCoeff(), rounding / h);
 }
 
-TEST_P(FreeMotion, KeepsItsMomentum) {
+// Springs pull with opposite forces. However early a step stops and however coarse its solves are (factors are in
+// single precision), what is left of its momentum is what rounding does: of positions, of about 1 m, of which the
+// implicit methods find v as a difference over h.
+TEST_P(FreeMotion, KeepsItsMomentumHoweverLooselyItIsSolvedFor) {
   constexpr int steps = 50;
-  constexpr double h = 0.02, k = 180, tolerance = 1e-3;
-  SimulationSettings settings = setup(moving_cloth(k), GetParam(), h);
-  if (GetParam().is_explicit()) settings.step = 0.001;
-  settings.integrator.tolerance = tolerance;
-  const Cloth& cloth = settings.cloth;
-  Simulation simulation(settings);
-  const Eigen::RowVector3d before = momentum(cloth, simulation.state());
-  for (int step = 0; step < steps; ++step) simulation.step();
-  const Eigen::RowVector3d after = momentum(cloth, simulation.state());
-
-  // Springs pull with opposite forces, and as every approximation A of the Hessian is M/h² plus something that ignores
-  // translations, any iterate x − A⁻¹∇g(x) keeps the momentum, converged or not, if A⁻¹ is exact. An error of the last
-  // solve is left over; earlier ones are corrected. Its relative size is the condition of A times the unit roundoff of
-  // the factor, and the last change is at most as long as the tolerance, so that Σ m‖Δ‖ ≤ max(m) √n · tolerance.
-  const double exact_sums = 100 * steps * std::numeric_limits<double>::epsilon();
-  double solves = 0;
-  if (!GetParam().is_explicit()) {
-    constexpr double unit_roundoff = 0x1p-24;  // factors are in single precision
-    constexpr int most_neighbours = 8;
-    const double condition = 1 + 2 * most_neighbours * k * h * h / cloth.masses.minCoeff();
-    const double change = cloth.masses.maxCoeff() * std::sqrt(cloth.vertex_count()) * tolerance;
-    solves = steps * condition * unit_roundoff * change / h;
+  const double h = GetParam().is_explicit() ? 0.001 : 0.02;
+  for (const double tolerance : {1e-3, 1.0}) {
+    SimulationSettings settings = setup(moving_cloth(180), GetParam(), h);
+    settings.integrator.tolerance = tolerance;
+    const Cloth& cloth = settings.cloth;
+    Simulation simulation(settings);
+    const Eigen::RowVector3d before = momentum(cloth, simulation.state());
+    for (int step = 0; step < steps; ++step) simulation.step();
+    const Eigen::RowVector3d after = momentum(cloth, simulation.state());
+    const double rounding = 2 * steps * std::numeric_limits<double>::epsilon() * cloth.masses.sum() / h;
+    EXPECT_LT((after - before).norm(), rounding) << "at " << tolerance;
   }
-  EXPECT_LT((after - before).norm(), exact_sums + solves);
 }
 
 class ExplicitMotion : public testing::TestWithParam<Method> {};

@@ -93,14 +93,18 @@ TEST(Framing, LooksFromAzimuthAndElevation) {
 }
 
 TEST(Framing, KeepsAGivenTargetInTheMiddle) {
-  Camera camera;
-  camera.target = Eigen::Vector3d(2.5, -7, 2);
-  const Vertices points = random_points(4);
-  Framing framing(camera, 1.2);
-  framing.add(points);
-  const View view = framing.view();
-  EXPECT_LT(project(view, 1.2, *camera.target).norm(), 1e-9);
-  EXPECT_NEAR(projected(view, 1.2, points).reach(), 1 - 2 * camera.margin, 1e-9);
+  // Beside the points in every direction, so that each edge of the picture is the one that counts for some of them.
+  for (const Eigen::Vector3d& target :
+       {Eigen::Vector3d(2.5, -7, 2), {5, -7, 2}, {3, -9, 2}, {3, -5, 2}, {3, -7, 4}, {3, -7, 0}}) {
+    Camera camera;
+    camera.target = target;
+    const Vertices points = random_points(4);
+    Framing framing(camera, 1.2);
+    framing.add(points);
+    const View view = framing.view();
+    EXPECT_LT(project(view, 1.2, target).norm(), 1e-9) << target.transpose();
+    EXPECT_NEAR(projected(view, 1.2, points).reach(), 1 - 2 * camera.margin, 1e-9) << target.transpose();
+  }
 }
 
 TEST(Framing, TurnsACameraThatHasAPositionToTheMiddleOfTheMotion) {

@@ -68,6 +68,22 @@ TEST(FrameSampler, InterpolatesLinearlyBetweenSteps) {
   EXPECT_DOUBLE_EQ(frames[1].time, 0.025);
 }
 
+// What moves as one is the same picture at every moment, also between two steps.
+TEST(FrameSampler, ShowsClothAndSphereAtOneMoment) {
+  const Eigen::Vector3d velocity(3, -1, 2), center(0, 0, -5);
+  SimulationSettings settings = test::setup(test::cloth_of(make_grid(2, 2), 1, 50, {}), Method::liu13, 0.02);
+  settings.cloth.velocities.rowwise() = velocity.transpose();
+  settings.effects = {Sphere{.center = center, .radius = 0.5, .velocity = velocity}};
+  Simulation simulation(settings);
+  const auto frames = sampled(simulation, FilmExtent(video(37, 1), 0.02, 20, std::nullopt));
+  ASSERT_EQ(frames.size(), 15u);
+  for (const Frame& frame : frames) {
+    const Eigen::Vector3d way = frame.time * velocity;
+    EXPECT_LT(((frame.positions - settings.cloth.positions).rowwise() - way.transpose()).norm(), 1e-13) << frame.time;
+    EXPECT_LT((std::get<SphereShape>(frame.colliders.at(0)).center - center - way).norm(), 1e-13) << frame.time;
+  }
+}
+
 TEST(FrameSampler, GivesTheSameFramesWhereverItsRangeBegins) {
   Simulation whole(test::homework(Method::liu13, 0.02, 180)), part(test::homework(Method::liu13, 0.02, 180));
   const auto all = sampled(whole, FilmExtent(video(30, 1), 0.02, 30, std::nullopt));

@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "run/run_scene.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/plain_springs.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape {
@@ -98,6 +101,35 @@ TEST(RunScene, PositionsReadBackHaveTheSameBits) {
               4);
     EXPECT_EQ(number, vertex);
     EXPECT_EQ(Eigen::RowVector3d(x, y, z), simulation.state().x.row(vertex));
+  }
+}
+
+TEST(RunScene, EnergiesAreThoseOfTheirStep) {
+  const test::SceneFolder folder;
+  const Scene scene = folder.load(swinging);
+  RunOptions options;
+  options.records.energies = (folder.path() / "energies.csv").string();
+  run(scene, options);
+  const auto rows = lines(options.records.energies);
+  ASSERT_EQ(rows.size(), 22U);
+  const Cloth& cloth = scene.simulation.cloth;
+  Simulation simulation(scene.simulation);
+  for (int step = 0; step <= 20; ++step) {
+    if (step > 0) simulation.step();
+    const State& state = simulation.state();
+    const double kinetic = cloth.masses.dot(state.v.rowwise().squaredNorm()) / 2;
+    const double gravity = 9.8 * cloth.masses.dot(state.x.col(2));
+    const double elastic = test::plain_energy(cloth.springs, state.x);
+    double number = 0, time = 0, total = 0, written_kinetic = 0, written_gravity = 0, written_elastic = 0;
+    ASSERT_EQ(std::sscanf(rows[static_cast<std::size_t>(step) + 1].c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &number, &time,
+                          &total, &written_kinetic, &written_gravity, &written_elastic),
+              6);
+    EXPECT_EQ(number, step);
+    EXPECT_NEAR(time, 0.02 * step, 1e-11);
+    EXPECT_NEAR(written_kinetic, kinetic, 1e-11 * kinetic) << "step " << step;
+    EXPECT_NEAR(written_gravity, gravity, 1e-11 * std::abs(gravity)) << "step " << step;
+    EXPECT_NEAR(written_elastic, elastic, 1e-11 * elastic + 1e-15) << "step " << step;
+    EXPECT_NEAR(total, kinetic + gravity + elastic, 1e-10 * kinetic) << "step " << step;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "sim/simulation.hpp"
@@ -48,6 +49,9 @@ SimulationSettings hanging(Solver solver, int cells, double stiffness, double st
 class HangingCloths : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, HangingCloths, testing::ValuesIn(implicit_methods), method_name);
 
+using PushedCloths = HangingCloths;
+INSTANTIATE_TEST_SUITE_P(With, PushedCloths, testing::ValuesIn(implicit_methods), method_name);
+
 TEST_P(HangingCloths, NeverHaveMoreEnergyThanTheyHadAndGravityGave) {
   for (const double stiffness : {1e5, 1e6, 1e7, 1e8}) {
     for (const double step : {1e-3, 5e-3, 1e-2, 2e-2}) {
@@ -68,6 +72,66 @@ TEST_P(HangingCloths, GainNothingInTheLongRun) {
   const Fall fallen = fall(hanging(GetParam(), 4, 1e8, 5e-3), 3000);
   EXPECT_LE(fallen.above_start, 1e-3 * fallen.work);
   EXPECT_LE(fallen.above_lowest, 0.05 * fallen.work);
+}
+
+/// Where a step would have ended that went another share of the way back from where it stopped.
+State further(const State& before, const State& after, double factor) {
+  State state = after;
+  state.x = before.x + factor * (after.x - before.x);
+  return state;
+}
+
+// A step that is cut back goes as far as it may: not an eighth of its way further without a gain. As the cloth had at
+// its start all the energy that it may have, it is never stopped dead.
+TEST_P(HangingCloths, KeepTheLargestShareOfAStepThatGainsNothing) {
+  int cut = 0;
+  for (const double stiffness : {1e6, 1e8}) {
+    const SimulationSettings settings = hanging(GetParam(), 4, stiffness, 1e-2);
+    Simulation simulation(settings);
+    const StepLedger ledger(settings);
+    for (int step = 0; step < 150; ++step) {
+      const State before = simulation.state();
+      const double kept = simulation.step().kept;
+      if (kept == 1) continue;
+      const State& after = simulation.state();
+      const StepBalance b = ledger.balance(before, after);
+      if (b.kinetic_before <= b.gain_rounding()) continue;
+      ++cut;
+      EXPECT_LE(b.gain(), b.gain_rounding()) << "step " << step << " at " << stiffness;
+      ASSERT_GT(kept, 0) << "step " << step << " at " << stiffness;
+      const double resolution = std::exp2(std::floor(std::log2(kept))) / 8;
+      const StepBalance more = ledger.balance(before, further(before, after, (kept + resolution) / kept));
+      EXPECT_GE(more.gain(), -more.gain_rounding()) << "step " << step << " at " << stiffness << ": kept " << kept;
+    }
+  }
+  if (GetParam().method == Method::liu13) {
+    EXPECT_GT(cut, 10) << "nothing to cut back";
+  }
+}
+
+// The same for a cloth that is solved for together with a push, however few iterations it is given. What pushes may
+// give energy as it curves away from the cloth: only what stopping early gives is counted.
+TEST_P(PushedCloths, GainNothingByStoppingEarly) {
+  for (const int cap : {1, 2, 8}) {
+    for (const double stiffness : {1e5, 1e6}) {
+      SimulationSettings settings = hanging(GetParam(), 4, stiffness, 1e-3);
+      settings.effects.add(Sphere{.center = Eigen::Vector3d(0.1, 0.2, -0.4),
+                                  .radius = 0.4,
+                                  .stiffness = 1e4,
+                                  .response = Response::implicit_energy});
+      settings.integrator.tolerance = 1e-9;
+      settings.integrator.max_iterations = cap;
+      Simulation simulation(settings);
+      const StepLedger ledger(settings);
+      for (int step = 0; step < 100; ++step) {
+        const State before = simulation.state();
+        simulation.step();
+        const StepBalance b = ledger.balance(before, simulation.state());
+        EXPECT_LE(b.gain(), b.pushed + b.gain_rounding())
+            << "step " << step << " of " << cap << " iterations at " << stiffness;
+      }
+    }
+  }
 }
 
 // However early the homework's cloth is told to stop, what a step gains is bounded by the forces in it.

@@ -79,6 +79,20 @@ TEST(Nearest, KnowsDegenerateAndParallelFeatures) {
   }
 }
 
+// Two edges that cross at a height are that far apart, at whatever angle.
+TEST(Nearest, OfCrossingEdgesIsWhereTheyCross) {
+  for (const double height : {0.0, 1e-3, 1.0}) {
+    for (const double angle : {1.0, 0.1, 0.05, 1e-2, 1e-4, 1e-6}) {
+      const Point across(std::cos(angle), std::sin(angle), 0), up(0, 0, height);
+      const FourPoints p{Point(-1, 0, 0), Point(2, 0, 0), up - across, up + 3 * across};
+      const Nearest found = nearest(Feature::edge_edge, p);
+      EXPECT_NEAR(std::sqrt(found.squared), height, 1e-15) << angle;
+      EXPECT_NEAR(found.weights[1], 1.0 / 3, 1e-14 / angle) << angle;
+      EXPECT_NEAR(found.weights[3], -1.0 / 4, 1e-14 / angle) << angle;
+    }
+  }
+}
+
 FourPoints moved(const FourPoints& p, const FourPoints& move, double t) {
   FourPoints result = p;
   for (std::size_t i = 0; i < 4; ++i) result[i] += t * move[i];

@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-const std::filesystem::path folder = std::filesystem::path(DRAPE_SOURCE_DIR) / "scenes" / "homework";
+const std::filesystem::path homework_folder = std::filesystem::path(DRAPE_SOURCE_DIR) / "scenes" / "homework";
 
 /// A row of the homework's table of animations.
 struct Animation {
@@ -26,7 +26,7 @@ class Homework : public ::testing::TestWithParam<Animation> {};
 
 TEST_P(Homework, SceneIsWhatTheTableSays) {
   const Animation& expected = GetParam();
-  const Scene scene = load_scene(folder / (expected.file + ".toml"));
+  const Scene scene = load_scene(homework_folder / (expected.file + ".toml"));
   EXPECT_EQ(scene.name, expected.file);
   EXPECT_EQ(scene.simulation.integrator.method, expected.method);
   if (expected.method != Method::semi_implicit) {
@@ -68,7 +68,7 @@ struct Acting {
   Scene scene;
   System system{scene.simulation.cloth, scene.simulation.step};
 
-  explicit Acting(const std::string& file) : scene(load_scene(folder / file)) {
+  explicit Acting(const std::string& file) : scene(load_scene(homework_folder / file)) {
     for (const Effect& effect : scene.simulation.effects) effect.install(system);
   }
 };

@@ -96,13 +96,13 @@ struct Bands {
 
 /// A well-conditioned lower triangle of panels of every width, each with rows below.
 template <class T>
-struct Triangle {
+struct TriangularSystem {
   std::vector<Panel> panels;
   std::vector<int> rows;
   std::vector<T> values;
   Eigen::MatrixXd dense;
 
-  explicit Triangle(int n) : dense(Eigen::MatrixXd::Zero(n, n)) {
+  explicit TriangularSystem(int n) : dense(Eigen::MatrixXd::Zero(n, n)) {
     Random random(5);
     for (int first = 0, width = 1; first < n; first += width, width = 1 + panels.back().width % panel_width) {
       width = std::min(width, n - first);
@@ -336,13 +336,13 @@ TEST_P(KernelsVersion, PacksAndUnpacks) {
 
 TEST_P(KernelsVersion, SolvesAlike) {
   for (const int n : {0, 1, 2, 3, 4, 5, 8, 13, 30, 71}) {
-    const Triangle<float> singles(n);
+    const TriangularSystem<float> singles(n);
     auto a = right_hand_side<float>(n), b = a;
     reference.solve_single(singles.view(), a.data());
     tested.solve_single(singles.view(), b.data());
     ASSERT_TRUE(same(a, b)) << n << " in single precision";
 
-    const Triangle<double> doubles(n);
+    const TriangularSystem<double> doubles(n);
     auto c = right_hand_side<double>(n), d = c;
     reference.solve_double(doubles.view(), c.data());
     tested.solve_double(doubles.view(), d.data());
@@ -352,7 +352,7 @@ TEST_P(KernelsVersion, SolvesAlike) {
 
 TEST_P(KernelsVersion, SolvesBothTriangles) {
   for (const int n : {1, 2, 7, 8, 9, 71}) {
-    const Triangle<double> triangle(n);
+    const TriangularSystem<double> triangle(n);
     const auto b = right_hand_side<double>(n);
     auto x = b;
     tested.solve_double(triangle.view(), x.data());

@@ -172,6 +172,16 @@ TEST(UsdMotion, BoundsTheShapeByASphereThatFollowsUnitsAndUpAxis) {
   EXPECT_NEAR(track.sphere_at(0).radius, 0.1, 1e-16);
 }
 
+// What is drawn and collided with is a sphere, whatever becomes of it: no point of it may be outside.
+TEST(UsdMotion, HoldsAStretchedShapeWhole) {
+  for (const char* scale : {"(2, 3, 5)", "(5, 2, 3)", "(-5, 3, 2)"}) {
+    const TransformTrack track = parse(
+        ball(std::string("double radius = 0.5\nfloat3 xformOp:rotateXYZ = (20, -50, 70)\nfloat3 xformOp:scale = ") +
+             scale + "\nuniform token[] xformOpOrder = [\"xformOp:rotateXYZ\", \"xformOp:scale\"]"));
+    EXPECT_NEAR(track.sphere_at(0).radius, 2.5, 1e-12) << scale;
+  }
+}
+
 TEST(UsdMotion, SaysWhatIsWrongWithASample) {
   EXPECT_EQ(error_of(ball("double3 xformOp:translate.timeSamples = { 1: (0, 0, 0), 1: (1, 0, 0) }")),
             "ball.usda:7:60: the time 1 appears twice in the time samples of xformOp:translate");
