@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/read_file.hpp"
 #include "core/text.hpp"
-#include "scene/mesh_source.hpp"
+#include "scene/mesh/source.hpp"
 
 namespace drape {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/nearest.hpp"
 #include "scene/color.hpp"
 #include "scene/pins.hpp"
-#include "scene/usd_motion.hpp"
+#include "scene/usd/motion.hpp"
 #include "scene/values.hpp"
 
 namespace drape {
