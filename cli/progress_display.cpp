@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "core/console.hpp"
@@ -15,7 +16,7 @@ constexpr int bar_width = 24;
 constexpr std::chrono::seconds line_interval{5};
 
 std::string minutes(double seconds) {
-  const int whole = static_cast<int>(std::min(seconds, 359999.0) + 0.5);
+  const auto whole = std::lround(std::min(seconds, 359999.0));
   return whole < 3600 ? fmt::format("{}:{:02}", whole / 60, whole % 60)
                       : fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }

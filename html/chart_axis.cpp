@@ -43,9 +43,8 @@ void widen(double& low, double& high, double step) {
 
 std::vector<double> multiples(double step, double low, double high) {
   std::vector<double> numbers;
-  for (double k = std::ceil(low / step - rounding); k <= high / step + rounding; ++k) {
-    numbers.push_back(k * step + 0.0);  // + 0: no −0
-  }
+  const double first = std::ceil(low / step - rounding);
+  for (int i = 0; first + i <= high / step + rounding; ++i) numbers.push_back((first + i) * step + 0.0);  // + 0: no −0
   return numbers;
 }
 

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/read_file.hpp"
 #include "core/text.hpp"
-#include "scene/mesh_source.hpp"
+#include "scene/mesh/source.hpp"
 
 namespace drape {
 namespace {
@@ -107,8 +107,8 @@ TomlValue read_document(const std::filesystem::path& file) {
   refuse_depth(source.text(), [&](std::size_t offset, const std::string& message) { source.fail(offset, message); });
   try {
     const toml::table table = toml::parse(source.text());
-    return convert(table, [](const toml::source_region& source) {
-      return Place{.line = source.begin.line, .column = source.begin.column};
+    return convert(table, [](const toml::source_region& region) {
+      return Place{.line = region.begin.line, .column = region.begin.column};
     });
   } catch (const toml::parse_error& error) {
     const toml::source_position& at = error.source().begin;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "scene/mesh_source.hpp"
-#include "scene/obj_mesh.hpp"
-#include "scene/usd_mesh.hpp"
+#include "scene/mesh/obj.hpp"
+#include "scene/mesh/source.hpp"
+#include "scene/usd/mesh.hpp"
 
 namespace drape {
 

@@ -10,7 +10,7 @@
 #include "scene/check_settings.hpp"
 #include "scene/color.hpp"
 #include "scene/pins.hpp"
-#include "scene/usd_motion.hpp"
+#include "scene/usd/motion.hpp"
 #include "scene/values.hpp"
 
 namespace drape {

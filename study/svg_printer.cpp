@@ -7,7 +7,6 @@
 #include "core/shared_library.hpp"
 
 namespace drape {
-namespace {
 
 // What is used of rsvg.h, cairo.h, cairo-pdf.h and glib-object.h. Written down here, so that building needs none of
 // their packages; the numbers and structures are part of the libraries' ABI, which stays.
@@ -18,6 +17,9 @@ struct RsvgRectangle {
   double x, y, width, height;
 };
 using CairoWrite = int (*)(void* closure, const unsigned char* bytes, unsigned int count);
+
+namespace {
+
 constexpr int cairo_success = 0, cairo_rgb24 = 1, cairo_pdf_1_4 = 0;
 constexpr double pixels_per_inch = 96, points_per_pixel = 0.75;
 

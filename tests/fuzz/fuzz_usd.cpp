@@ -1,7 +1,7 @@
 // ASCII USD, as a mesh and as a motion.
 
-#include "scene/usd_mesh.hpp"
-#include "scene/usd_motion.hpp"
+#include "scene/usd/mesh.hpp"
+#include "scene/usd/motion.hpp"
 #include "tests/fuzz/accepts_or_refuses.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,4 @@
-// The pieces of self-collision: distances, times of impact, the spatial hash, rigid zones.
+// The pieces of self-collision: distances, times of impact, candidates, rigid zones.
 
 #include <gtest/gtest.h>
 
@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "sim/collision/candidates.hpp"
 #include "sim/collision/impact.hpp"
 #include "sim/collision/rigid_zones.hpp"
-#include "sim/collision/spatial_hash.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
@@ -167,60 +165,6 @@ TEST(TimeOfImpact, MissesNothing) {
     }
   }
   EXPECT_GT(impacts, 100);
-}
-
-TEST(SpatialHash, FindsEveryOverlapOnce) {
-  Random random;
-  for (const double huge : {0.0, 50.0}) {
-    std::vector<Box> boxes;
-    for (int i = 0; i < 300; ++i) {
-      const Point low = random_point(random);
-      const Point size = 0.15 * (random_point(random) + Point::Ones());
-      boxes.push_back({low, low + size});
-      if (i % 100 == 0) boxes.back().high += huge * Point(1, 0.5, 1);  // one that reaches far beyond the others
-    }
-    SpatialHash hash;
-    hash.build(boxes);
-    std::vector<std::pair<int, int>> expected, pairs, queried;
-    for (int k = 0; k < 300; ++k) {
-      for (int l = k + 1; l < 300; ++l) {
-        if (boxes[static_cast<std::size_t>(k)].overlaps(boxes[static_cast<std::size_t>(l)]))
-          expected.emplace_back(k, l);
-      }
-    }
-    hash.for_pairs([&](int k, int l) { pairs.emplace_back(k, l); });
-    for (int k = 0; k < 300; ++k) {
-      hash.for_overlapping(boxes[static_cast<std::size_t>(k)], [&](int l) {
-        if (k < l) queried.emplace_back(k, l);
-      });
-    }
-    std::sort(pairs.begin(), pairs.end());
-    std::sort(queried.begin(), queried.end());
-    ASSERT_GT(expected.size(), 100U);
-    EXPECT_EQ(pairs, expected);
-    EXPECT_EQ(queried, expected);
-  }
-}
-
-TEST(SpatialHash, TakesBoxesInOnePlaceAndFarApart) {
-  SpatialHash hash;
-  int found = 0;
-  const auto count = [&](int, int) { ++found; };
-  const std::vector<Box> same(5, Box{Point(1, 2, 3), Point(1, 2, 3)});
-  hash.build(same);
-  hash.for_pairs(count);
-  EXPECT_EQ(found, 10);
-  found = 0;
-  const std::vector<Box> far{{Point(0, 0, 0), Point(1, 1, 1)},
-                             {Point::Constant(1e200), Point::Constant(1e201)},
-                             {Point(0.5, 0.5, 0.5), Point(2, 2, 2)}};
-  hash.build(far);
-  hash.for_pairs(count);
-  EXPECT_EQ(found, 1);
-  found = 0;
-  hash.build({});
-  hash.for_pairs(count);
-  EXPECT_EQ(found, 0);
 }
 
 // Whatever comes near is among the candidates.

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "scene/mesh_builder.hpp"
+#include "scene/mesh/builder.hpp"
 #include "tests/support/usage_error.hpp"
 
 namespace drape {

@@ -1,4 +1,4 @@
-#include "scene/obj_mesh.hpp"
+#include "scene/mesh/obj.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "scene/usd_motion.hpp"
+#include "scene/usd/motion.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/scene_folder.hpp"
 

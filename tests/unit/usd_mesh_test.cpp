@@ -1,4 +1,4 @@
-#include "scene/usd_mesh.hpp"
+#include "scene/usd/mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 
 #include "scene/mesh_file.hpp"
-#include "scene/usd_layer.hpp"
+#include "scene/usd/layer.hpp"
 #include "tests/support/usage_error.hpp"
 
 namespace drape {

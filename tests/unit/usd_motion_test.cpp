@@ -1,4 +1,4 @@
-#include "scene/usd_motion.hpp"
+#include "scene/usd/motion.hpp"
 
 #include <gtest/gtest.h>
 

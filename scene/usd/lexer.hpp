@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/mesh_source.hpp"
+#include "scene/mesh/source.hpp"
 
 namespace drape {
 

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "scene/usd_layer.hpp"
-#include "scene/usd_lexer.hpp"
-#include "scene/usd_value.hpp"
+#include "scene/usd/layer.hpp"
+#include "scene/usd/lexer.hpp"
+#include "scene/usd/value.hpp"
 
 namespace drape {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "scene/mesh_source.hpp"
+#include "scene/mesh/source.hpp"
 #include "sim/sphere_track.hpp"
 
 namespace drape {

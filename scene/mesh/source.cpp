@@ -1,4 +1,4 @@
-#include "scene/mesh_source.hpp"
+#include "scene/mesh/source.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/mesh_source.hpp"
+#include "scene/mesh/source.hpp"
 
 namespace drape {
 

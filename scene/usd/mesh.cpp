@@ -1,4 +1,4 @@
-#include "scene/usd_mesh.hpp"
+#include "scene/usd/mesh.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
-#include "scene/mesh_builder.hpp"
-#include "scene/usd_layer.hpp"
-#include "scene/usd_xform.hpp"
+#include "scene/mesh/builder.hpp"
+#include "scene/usd/layer.hpp"
+#include "scene/usd/xform.hpp"
 
 namespace drape {
 namespace {

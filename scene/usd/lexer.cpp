@@ -1,4 +1,4 @@
-#include "scene/usd_lexer.hpp"
+#include "scene/usd/lexer.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "scene/usd_value.hpp"
+#include "scene/usd/value.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string_view>
 
-#include "scene/usd_layer.hpp"
-#include "scene/usd_lexer.hpp"
+#include "scene/usd/layer.hpp"
+#include "scene/usd/lexer.hpp"
 
 namespace drape {
 

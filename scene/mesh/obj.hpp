@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/mesh_source.hpp"
+#include "scene/mesh/source.hpp"
 #include "sim/mesh.hpp"
 
 namespace drape {

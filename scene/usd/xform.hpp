@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/usd_layer.hpp"
+#include "scene/usd/layer.hpp"
 
 namespace drape {
 

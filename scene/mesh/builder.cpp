@@ -1,4 +1,4 @@
-#include "scene/mesh_builder.hpp"
+#include "scene/mesh/builder.hpp"
 
 #include <Eigen/Geometry>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "scene/obj_mesh.hpp"
+#include "scene/mesh/obj.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
-#include "scene/mesh_builder.hpp"
+#include "scene/mesh/builder.hpp"
 
 namespace drape {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/usd_xform.hpp"
+#include "scene/usd/xform.hpp"
 
 #include <algorithm>
 #include <cmath>

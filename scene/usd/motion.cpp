@@ -1,4 +1,4 @@
-#include "scene/usd_motion.hpp"
+#include "scene/usd/motion.hpp"
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "scene/usd_layer.hpp"
-#include "scene/usd_xform.hpp"
+#include "scene/usd/layer.hpp"
+#include "scene/usd/xform.hpp"
 
 namespace drape {
 namespace {
