@@ -61,11 +61,11 @@ class Renderer::Implementation {
       if (!grounds_) grounds_.emplace(gl_, data_folder_, look_, cloth_.triangles(), shot.spheres.size());
       grounds_->draw(shot);
     }
-    if (!shot.spheres.empty()) {
+    cloth_.draw(shot, colors);
+    if (!shot.spheres.empty()) {  // after the cloth that hides much of them
       if (!spheres_) spheres_.emplace(gl_, data_folder_, look_, shot.grounds.size());
       spheres_->draw(shot);
     }
-    cloth_.draw(shot, colors);
     return canvas_.finish();
   }
 
