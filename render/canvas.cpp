@@ -44,24 +44,6 @@ const std::vector<std::uint8_t>& encoding() {
   return table;
 }
 
-/// The background in one row of the picture, as bytes and as 16-bit light.
-struct Background {
-  std::array<std::uint8_t, 3> bytes{};
-  std::array<std::uint32_t, 3> light{};
-
-  /// @param height of the row's middle, 0 at the bottom of the picture to 1 at its top
-  Background(const Look& look, double height) {
-    const Rgb top = look.background_top.value_or(look.background);
-    const std::array<double, 3> lower{look.background.r, look.background.g, look.background.b};
-    const std::array<double, 3> upper{top.r, top.g, top.b};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double value = std::clamp(std::lerp(lower[c], upper[c], height), 0.0, 1.0);
-      bytes[c] = static_cast<std::uint8_t>(std::lround(255 * value));
-      light[c] = static_cast<std::uint32_t>(std::lround(full * srgb_to_linear(value)));
-    }
-  }
-};
-
 }  // namespace
 
 Canvas::Target::Target(const GlFunctions& gl, Eigen::Vector2i size, int samples, bool with_depth)
@@ -83,47 +65,71 @@ Canvas::Target::Target(const GlFunctions& gl, Eigen::Vector2i size, int samples,
 Canvas::Canvas(const GlFunctions& gl, Eigen::Vector2i size, const Look& look)
     : gl_(gl),
       size_(checked_size(gl, size)),
-      look_(look),
+      empty_(size.x(), size.y()),
       samples_(gl, size, look.samples, true),
       rgba_(4 * static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y())) {
   if (look.samples > 1) resolved_.emplace(gl, size, 1, false);
+  const Rgb top = look.background_top.value_or(look.background);
+  const std::array<double, 3> lower{look.background.r, look.background.g, look.background.b};
+  const std::array<double, 3> upper{top.r, top.g, top.b};
+  for (int y = 0; y < size.y(); ++y) {
+    Row& row = background_.emplace_back();
+    const double height = 1 - (size.y() - 1 - y + 0.5) / size.y();  // of its middle, from 0 to 1
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double value = std::clamp(std::lerp(lower[c], upper[c], height), 0.0, 1.0);
+      row.bytes[c] = static_cast<std::uint8_t>(std::lround(255 * value));
+      row.light[c] = static_cast<std::uint32_t>(std::lround(full * srgb_to_linear(value)));
+    }
+    for (int x = 0; x < size.x(); ++x) std::ranges::copy(row.bytes, empty_.at(x, size.y() - 1 - y));
+  }
 }
 
-void Canvas::begin() {
+// Emptying, resolving and reading the whole picture would take llvmpipe longer than most of what is drawn.
+void Canvas::begin(const PixelBox& box) {
+  box_ = box;
   gl_.BindFramebuffer(GL_FRAMEBUFFER, samples_.framebuffer.id());
   gl_.Viewport(0, 0, size_.x(), size_.y());
+  gl_.Enable(GL_SCISSOR_TEST);
+  gl_.Scissor(box.corner.x(), box.corner.y(), box.size.x(), box.size.y());
   gl_.Enable(GL_DEPTH_TEST);
   gl_.ClearColor(0, 0, 0, 0);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 Image Canvas::finish() {
+  Image image = empty_;
+  if (box_.empty()) return image;
+  const Eigen::Vector2i from = box_.corner, to = box_.corner + box_.size;
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, samples_.framebuffer.id());
   if (resolved_) {
     gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_->framebuffer.id());
-    gl_.BlitFramebuffer(0, 0, size_.x(), size_.y(), 0, 0, size_.x(), size_.y(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    gl_.BlitFramebuffer(from.x(), from.y(), to.x(), to.y(), from.x(), from.y(), to.x(), to.y(), GL_COLOR_BUFFER_BIT,
+                        GL_NEAREST);
     gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_->framebuffer.id());
   }
-  gl_.ReadPixels(0, 0, size_.x(), size_.y(), GL_RGBA, GL_UNSIGNED_SHORT, rgba_.data());
+  gl_.ReadPixels(from.x(), from.y(), box_.size.x(), box_.size.y(), GL_RGBA, GL_UNSIGNED_SHORT, rgba_.data());
   if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR) {
     throw OutputError(fmt::format("cannot draw: OpenGL reports error {:#x}", error));
   }
+  compose(image);
+  return image;
+}
 
+void Canvas::compose(Image& image) const {
   const std::uint8_t* encode = encoding().data();
-  Image image(size_.x(), size_.y());
-  const std::uint16_t* from = rgba_.data();  // rows from bottom to top
-  for (int y = size_.y() - 1; y >= 0; --y) {
-    const Background background(look_, 1 - (y + 0.5) / size_.y());
-    std::uint8_t* to = image.at(0, y);
-    for (int x = 0; x < size_.x(); ++x, from += 4, to += 3) {
+  const std::uint16_t* from = rgba_.data();
+  for (int y = box_.corner.y(); y < box_.corner.y() + box_.size.y(); ++y) {
+    const Row& row = background_[static_cast<std::size_t>(y)];
+    std::uint8_t* to = image.at(box_.corner.x(), size_.y() - 1 - y);
+    for (int x = 0; x < box_.size.x(); ++x, from += 4, to += 3) {
       const std::uint32_t uncovered = full - from[3];
+      if (uncovered == full) continue;
       for (std::size_t c = 0; c < 3; ++c) {
-        const std::uint32_t light = from[c] + (uncovered * background.light[c] + full / 2) / full;
-        to[c] = uncovered == full ? background.bytes[c] : encode[std::min(light, full)];
+        const std::uint32_t light = from[c] + (uncovered * row.light[c] + full / 2) / full;
+        to[c] = encode[std::min(light, full)];
       }
     }
   }
-  return image;
 }
 
 }  // namespace drape

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "render/covered_box.hpp"
 #include "render/gl/objects.hpp"
 #include "render/image.hpp"
 #include "render/settings.hpp"
@@ -22,7 +24,8 @@ class Canvas {
   Canvas(const GlFunctions& gl, Eigen::Vector2i size, const Look& look);
 
   /// Directs drawing to the canvas, emptied.
-  void begin();
+  /// @param box what will be drawn on: nothing outside it changes, and all of it is background
+  void begin(const PixelBox& box);
 
   /// The picture: what was drawn since begin(), over the background. Where nothing was drawn the background's bytes are
   /// exact.
@@ -38,12 +41,23 @@ class Canvas {
     Target(const GlFunctions& gl, Eigen::Vector2i size, int samples, bool with_depth);
   };
 
+  /// One row of the background.
+  struct Row {
+    std::array<std::uint8_t, 3> bytes{};
+    std::array<std::uint32_t, 3> light{};  // 16 bits, linear
+  };
+
+  /// Lays what was drawn in the box over the background.
+  void compose(Image& image) const;
+
   const GlFunctions& gl_;
   Eigen::Vector2i size_;
-  Look look_;
+  std::vector<Row> background_;  // of each row of the picture, from below
+  Image empty_;                  // nothing but background
+  PixelBox box_;
   Target samples_;
-  std::optional<Target> resolved_;  // absent with one sample per pixel
-  std::vector<std::uint16_t> rgba_;
+  std::optional<Target> resolved_;   // absent with one sample per pixel
+  std::vector<std::uint16_t> rgba_;  // of the box, rows from below
 };
 
 }  // namespace drape

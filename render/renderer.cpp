@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "render/canvas.hpp"
+#include "render/covered_box.hpp"
 #include "render/draw_cloth.hpp"
 #include "render/draw_ground.hpp"
 #include "render/draw_sphere.hpp"
@@ -31,7 +32,7 @@ class Renderer::Implementation {
                  int vertex_count, const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs,
                  GlBackend backend)
       : data_folder_(std::move(data_folder)),
-        aspect_(static_cast<double>(size.x()) / size.y()),
+        size_(size),
         view_(view),
         look_(look),
         context_(make_current_context(backend)),
@@ -54,17 +55,17 @@ class Renderer::Implementation {
   /// @param colors of the vertices, or none
   Image draw(const Frame& frame, std::span<const Rgb> colors) {
     context_->make_current();
-    const Shot shot(frame, view_, aspect_);
-    canvas_.begin();
+    const Shot shot(frame, view_, static_cast<double>(size_.x()) / size_.y());
+    canvas_.begin(covered_box(shot, size_));
     if (!shot.grounds.empty()) {
       if (!grounds_) grounds_.emplace(gl_, data_folder_, look_, cloth_.triangles(), shot.spheres.size());
       grounds_->draw(shot);
     }
-    if (!shot.spheres.empty()) {
+    cloth_.draw(shot, colors);
+    if (!shot.spheres.empty()) {  // after the cloth that hides much of them
       if (!spheres_) spheres_.emplace(gl_, data_folder_, look_, shot.grounds.size());
       spheres_->draw(shot);
     }
-    cloth_.draw(shot, colors);
     return canvas_.finish();
   }
 
@@ -76,7 +77,7 @@ class Renderer::Implementation {
 
  private:
   std::filesystem::path data_folder_;
-  double aspect_;
+  Eigen::Vector2i size_;
   View view_;
   Look look_;
   std::unique_ptr<GlContext> context_;  // before all that lives in it

@@ -28,7 +28,8 @@ out vec4 color;  // premultiplied
 // How much of the pixel the lines along the triangle's edges cover. Where the triangle is so small that lines would fill
 // it, they fade.
 float line_coverage() {
-  vec3 slope = sqrt(pow(dFdx(corner_weights), vec3(2)) + pow(dFdy(corner_weights), vec3(2)));  // [1/pixel]
+  vec3 across = dFdx(corner_weights), along = dFdy(corner_weights);
+  vec3 slope = sqrt(across * across + along * along);  // [1/pixel]
   vec3 distance_to_edge = corner_weights / slope;
   vec3 height = 1.0 / slope;  // of the triangle above each edge
   vec3 half_width = 0.5 * line_width * edge_line_scale;
@@ -77,8 +78,10 @@ void main() {
   vec3 light = ambient_light(n) * open + key_light * (key + key_through) + fill_light * fill;
 
   // Fibres that stand up from the cloth catch light where it is seen edge-on.
-  float sheen = 0.10 * pow(1.0 - clamp(dot(n, to_eye), 0.0, 1.0), 3.0);
-  vec3 specular = key_light * 0.03 * highlight(n, to_eye, key_direction, 12.0);
+  float aside = 1.0 - clamp(dot(n, to_eye), 0.0, 1.0);
+  float sheen = 0.10 * aside * aside * aside;
+  float glance = power4(half_cosine(n, to_eye, key_direction));
+  vec3 specular = key_light * 0.03 * highlight(n, key_direction, 12.0, glance * glance * glance);
 
   color = vec4(min(albedo * light * (1.0 + sheen) + specular, 1.0), 1.0);
 }

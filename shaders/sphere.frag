@@ -15,20 +15,26 @@ out vec4 color;  // premultiplied
 vec3 surroundings(vec3 direction) { return mix(vec3(0.35), vec3(0.95), smoothstep(-0.5, 0.4, dot(direction, up))); }
 
 void main() {
+  // Where the ray to this pixel meets the sphere, as the triangles come near to only.
+  vec3 to_eye = normalize(eye - world_position);
+  vec3 from_center = eye - sphere.xyz;
+  vec3 beside = from_center - dot(from_center, to_eye) * to_eye;  // from the centre to the ray
+  float towards = sqrt(max(sphere.w * sphere.w - dot(beside, beside), 0.0));
+  vec3 n = (beside + towards * to_eye) / sphere.w;
 #if GROUNDS > 0
   for (int i = 0; i < GROUNDS; ++i) {
-    if (dot(grounds[i].xyz, world_position) < grounds[i].w) discard;
+    if (dot(grounds[i].xyz, sphere.xyz + sphere.w * n) < grounds[i].w) discard;
   }
 #endif
-  vec3 n = normalize(world_position - sphere.xyz);
-  vec3 to_eye = normalize(eye - world_position);
 
   vec3 light = ambient_light(n) + key_light * wrapped_cosine(n, key_direction, 0.1) +
                fill_light * wrapped_cosine(n, fill_direction, 0.2);
   float mirror = fresnel(dot(n, to_eye));
+  float glance = power4(half_cosine(n, to_eye, key_direction));
+  float wide = glance * glance * glance;  // to the power of 12, and below of 24 and 256
   vec3 gloss = surroundings(reflect(-to_eye, n)) * mirror +
-               key_light * (0.060 * highlight(n, to_eye, key_direction, 250.0) +
-                            0.035 * highlight(n, to_eye, key_direction, 24.0));
+               key_light * (0.060 * highlight(n, key_direction, 256.0, power4(power4(power4(glance)))) +
+                            0.035 * highlight(n, key_direction, 24.0, wide * wide));
 
   color = vec4(min(sphere_color * light * (1.0 - mirror) + gloss, 1.0), 1.0);
 }

@@ -56,6 +56,7 @@ namespace drape {
   ENTRY(PFNGLREADBUFFERPROC, ReadBuffer)                                         \
   ENTRY(PFNGLREADPIXELSPROC, ReadPixels)                                         \
   ENTRY(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample) \
+  ENTRY(PFNGLSCISSORPROC, Scissor)                                               \
   ENTRY(PFNGLSHADERSOURCEPROC, ShaderSource)                                     \
   ENTRY(PFNGLTEXIMAGE2DPROC, TexImage2D)                                         \
   ENTRY(PFNGLTEXPARAMETERFPROC, TexParameterf)                                   \

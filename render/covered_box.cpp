@@ -1,0 +1,74 @@
+#include "render/covered_box.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace drape {
+namespace {
+
+/// Grows around points of a shot as they appear in the picture.
+class Outline {
+ public:
+  explicit Outline(const Shot& shot) : to_clip_(shot.view_projection.cast<double>()) {}
+
+  /// @param points n×3 [m]
+  void add(const Vertices& points) {
+    const Eigen::MatrixX4d clip = (points * to_clip_.leftCols<3>().transpose()).rowwise() + to_clip_.col(3).transpose();
+    // Beside the camera a point has no place in the picture; and what is not a number is not positive either.
+    if (!(clip.col(3).array() > 0).all()) {
+      unbounded_ = true;
+      return;
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto place = clip.col(axis).array() / clip.col(3).array();
+      low_[axis] = std::min(low_[axis], place.minCoeff());
+      high_[axis] = std::max(high_[axis], place.maxCoeff());
+    }
+  }
+
+  /// The pixels within it, with a border of so many.
+  [[nodiscard]] PixelBox box(Eigen::Vector2i picture, int border) const {
+    if (unbounded_) return {.size = picture};
+    PixelBox box;
+    for (int axis = 0; axis < 2; ++axis) {
+      const int last = picture[axis];
+      const auto pixel = [last](double place) {
+        return static_cast<int>(std::clamp(0.5 * (place + 1) * last, -1e6, 1e6));
+      };
+      box.corner[axis] = std::clamp(pixel(low_[axis]) - border, 0, last);
+      box.size[axis] = std::clamp(pixel(high_[axis]) + 1 + border, 0, last) - box.corner[axis];
+    }
+    return box;
+  }
+
+ private:
+  Eigen::Matrix4d to_clip_;
+  Eigen::Array2d low_ = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Array2d high_ = -low_;
+  bool unbounded_ = false;
+};
+
+/// The corners of the cube around a sphere.
+Vertices cube(const Eigen::Vector4f& sphere) {
+  Vertices corners(8, 3);
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      corners(corner, axis) = double{sphere[axis]} + ((corner >> axis & 1) != 0 ? 1 : -1) * double{sphere[3]};
+    }
+  }
+  return corners;
+}
+
+}  // namespace
+
+PixelBox covered_box(const Shot& shot, Eigen::Vector2i picture) {
+  if (!shot.grounds.empty()) return {.size = picture};
+  Outline outline(shot);
+  outline.add(shot.frame.positions);
+  for (const Eigen::Vector4f& sphere : shot.spheres) outline.add(cube(sphere));
+  // OpenGL places vertices in single precision, and to a 256th of a pixel.
+  constexpr int border = 1;
+  return outline.box(picture, border);
+}
+
+}  // namespace drape

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "render/shot.hpp"
+
+namespace drape {
+
+/// A rectangle of pixels, counted from the left and from below.
+struct PixelBox {
+  Eigen::Vector2i corner{0, 0};
+  Eigen::Vector2i size{0, 0};
+
+  [[nodiscard]] bool empty() const { return size.minCoeff() <= 0; }
+};
+
+/// A box that holds every pixel which something of the shot may cover: what lies outside it is background. With a
+/// ground, or with something beside or behind the camera, it is the whole picture.
+/// @param picture its width and height [pixels]
+PixelBox covered_box(const Shot& shot, Eigen::Vector2i picture);
+
+}  // namespace drape

@@ -1,0 +1,100 @@
+#include "render/covered_box.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/render/drawing.hpp"
+#include "tests/support/random.hpp"
+
+// Only the part of a picture that something covers is cleared, drawn and read. Two specks beyond opposite corners of
+// the picture, which nobody sees, stretch that part to all of it: the picture must be the same.
+
+namespace drape::test {
+namespace {
+
+Mesh crumpled(std::uint64_t seed) {
+  Mesh mesh = make_grid(6, 6);
+  Random random(seed);
+  for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) mesh.positions(i, axis) += random.between(-0.3, 0.3);
+  }
+  return mesh;
+}
+
+/// From +z, with the point on the plane z = 0 in the middle.
+View looking_at(double x, double y) {
+  View view = from_above();
+  view.position.head<2>() = view.target.head<2>() = Eigen::Vector2d(x, y);
+  return view;
+}
+
+std::vector<Collider> with_specks(std::vector<Collider> colliders, const View& view) {
+  for (const double side : {-100.0, 100.0}) {
+    colliders.emplace_back(SphereShape{view.target + Eigen::Vector3d(side, side, 0), 1e-6});
+  }
+  return colliders;
+}
+
+TEST(CoveredBox, HoldsAllThatIsDrawn) {
+  const Eigen::Vector2d middles[] = {{0, 0}, {1.1, 0.4}, {-0.8, 1.3}, {0.9, -2.2}, {7, 0}};
+  const int samples[] = {1, 2, 4};
+  std::uint64_t seed = 0;
+  for (const Eigen::Vector2i size : {Eigen::Vector2i(16, 16), {97, 131}, {301, 40}}) {
+    for (const Eigen::Vector2d& middle : middles) {
+      const View view = looking_at(middle.x(), middle.y());
+      Look look;
+      look.samples = samples[++seed % 3];
+      look.background = {0.2, 0.5, 0.9};
+      look.background_top = Rgb{1, 1, 1};
+      look.mesh_lines = seed % 2 == 0;
+      const Mesh mesh = crumpled(seed);
+      const std::vector<Collider> ball{SphereShape{{0.7, -0.6, 0.1}, 0.5}};
+      EXPECT_EQ(draw(mesh, view, look, size, ball), draw(mesh, view, look, size, with_specks(ball, view)))
+          << size.transpose() << ", " << look.samples << " samples, " << middle.transpose();
+      EXPECT_EQ(draw(mesh, view, look, size), draw(mesh, view, look, size, with_specks({}, view)));
+    }
+  }
+}
+
+TEST(CoveredBox, ForgetsTheFrameBefore) {
+  const Mesh mesh = crumpled(5);
+  const View view = from_above();
+  const auto renderer = [&] {
+    return Renderer(data_folder(), {120, 100}, view, Look{}, static_cast<int>(mesh.positions.rows()), mesh.triangles,
+                    mesh.uvs);
+  };
+  Frame small, large;
+  large.positions = mesh.positions;
+  small.positions = 0.2 * mesh.positions;
+  Renderer used = renderer();
+  for (const Frame* frame : {&large, &small, &large}) EXPECT_EQ(used.draw(*frame), renderer().draw(*frame));
+}
+
+TEST(CoveredBox, IsTightAndEndsAtThePicture) {
+  const auto box = [](double x, double y) {
+    Frame frame;
+    frame.positions = make_grid(2, 2).positions * 0.5;  // a square of side 1 around the origin
+    const View view = looking_at(x, y);
+    return covered_box(Shot(frame, view, 1), {100, 100});
+  };
+  const PixelBox middle = box(0, 0);
+  EXPECT_LE(middle.corner.maxCoeff(), 25);
+  EXPECT_GE(middle.corner.minCoeff(), 22);
+  EXPECT_GE(middle.size.minCoeff(), 50);
+  EXPECT_LE(middle.size.maxCoeff(), 55);
+  EXPECT_TRUE(box(5, 0).empty());
+  EXPECT_FALSE(box(1.4, 0).empty());
+  EXPECT_EQ(box(1.2, 0).corner.x(), 0);
+}
+
+TEST(CoveredBox, IsThePictureWhereItCannotBeKnown) {
+  Frame frame;
+  frame.positions = make_grid(2, 2).positions;
+  frame.positions(0, 2) = 6;  // behind the camera
+  EXPECT_EQ(covered_box(Shot(frame, from_above(), 1), {100, 90}).size, Eigen::Vector2i(100, 90));
+  frame.positions(0, 2) = 0;
+  frame.colliders = {GroundShape{}};
+  EXPECT_EQ(covered_box(Shot(frame, from_above(), 1), {100, 90}).size, Eigen::Vector2i(100, 90));
+}
+
+}  // namespace
+}  // namespace drape::test
