@@ -23,6 +23,7 @@ std::string duration(double seconds) {
 
 std::string out_of_balance(const Exactness::Unbalanced& unbalanced) {
   if (!unbalanced.of_weight) return fmt::format("{:.2g} N out of balance", unbalanced.force);
+  if (*unbalanced.of_weight >= 1) return fmt::format("{:.2g} times its weight out of balance", *unbalanced.of_weight);
   return fmt::format("{:.2g} % of its weight out of balance", 100 * *unbalanced.of_weight);
 }
 
