@@ -15,7 +15,7 @@ namespace {
 constexpr double duration = 0.42;  // from rest [s]
 
 /// A method with the longest step and the loosest tolerance whose motion is as near to the true one as asked.
-struct Scheme {
+struct Integration {
   StepMethod method;
   int steps;               ///< of the whole motion
   double tolerance = 0.1;  ///< [m]
@@ -24,7 +24,7 @@ struct Scheme {
 struct EqualError {
   std::string name;
   double stiffness, damping;
-  Scheme second_order, first_order;
+  Integration second_order, first_order;
 };
 
 /// The errors are those of every vertex at the end; tests/physics/order_test.cpp holds them.
@@ -37,21 +37,21 @@ const std::vector<EqualError>& equal_errors() {
   return all;
 }
 
-Subject make_motion(const EqualError& c, const Scheme& scheme) {
+Subject make_motion(const EqualError& c, const Integration& how) {
   const Mesh mesh = make_grid(20, 20);
   SimulationSettings settings;
   settings.cloth = make_cloth(mesh, mesh, 1, c.stiffness, {0, 20});
-  settings.step = duration / scheme.steps;
-  settings.integrator.method = scheme.method.method;
-  settings.integrator.scheme = scheme.method.scheme;
+  settings.step = duration / how.steps;
+  settings.integrator.method = how.method.method;
+  settings.integrator.scheme = how.method.scheme;
   settings.integrator.stop = StoppingRule::change;
-  settings.integrator.tolerance = scheme.tolerance;
+  settings.integrator.tolerance = how.tolerance;
   settings.effects = {Gravity{}};
   if (c.damping < 1) settings.effects.add(Damping{.factor = c.damping});
   const auto simulation = std::make_shared<Simulation>(std::move(settings));
   return {.restore = [simulation, start = simulation->state()] { simulation->restore(start); },
           .run =
-              [simulation, steps = scheme.steps] {
+              [simulation, steps = how.steps] {
                 for (int step = 0; step < steps; ++step) simulation->step();
                 return 1;  // motion
               }};

@@ -11,7 +11,7 @@ void describe_contact(Keys& keys, double& stiffness, Response& response, double&
                       std::optional<double>& restitution, const std::string& without_restitution) {
   keys.add("stiffness", &stiffness, "1/s²", "Acceleration per metre that a vertex is within that reach.").at_least(0);
   keys.choice("response", response, {"explicit", "implicit"},
-              "Whether the push is evaluated at the start of a step, or solved for together with the springs.");
+              "Whether the push is evaluated once in a step, or solved for together with the springs.");
   keys.add("friction", &friction, "",
            "Coulomb's coefficient µ: what rests on a slope of tan θ ≤ µ stays there; 0 is slippery.")
       .at_least(0);
