@@ -157,6 +157,36 @@ TEST_P(Contact, AMovingSpherePushesFromWhereItIsAtItsTime) {
   EXPECT_GT(simulation.state().v(0, 0), 0.1);
 }
 
+/// Where the middle of a floor is that goes aside faster and faster, and up.
+Vector3d accelerating_place(double time) { return {3 * time + 10 * time * time, 0, time - 1e4}; }
+
+/// Steps a vertex that lies on that floor, a huge ball, with the floor's velocity at the start, and sticks to it.
+void expect_carried(SimulationSettings s, Response response) {
+  constexpr int steps = 20;
+  std::vector<Keyframe> path;
+  for (int k = 0; k <= steps; ++k) path.push_back({k * s.step, accelerating_place(k * s.step)});
+  s.cloth.velocities.row(0) << 3, 0, 1;
+  s.effects.add(Sphere{
+      .radius = 1e4, .scale = 1, .stiffness = stiffness, .response = response, .friction = 100, .keyframes = path});
+  Simulation simulation(s);
+  for (std::size_t k = 0; k < steps; ++k) {
+    simulation.step();
+    const Vector3d way = path[k + 1].value - path[k].value;
+    EXPECT_NEAR(simulation.state().v(0, 0), way[0] / s.step, 1e-4) << "step " << k;
+  }
+}
+
+TEST_P(Contact, WhatSticksToAnAcceleratingSphereHasItsVelocityInTheSameStep) {
+  expect_carried(settings(loose(RowVector3d(0, 0, -g / stiffness)), 0.01), GetParam().response);
+}
+
+// Semi-implicit Euler moves with the velocities that contact leaves: damping comes before it.
+TEST(SemiImplicitContact, HoldsWhatIsDamped) {
+  SimulationSettings s = setup(loose(RowVector3d(0, 0, -g / stiffness)), Method::semi_implicit, 0.01);
+  s.effects = {Gravity{}, Damping{.factor = 0.2}};
+  expect_carried(s, Response::explicit_force);
+}
+
 TEST_P(Contact, AnEffectlessContactLeavesTheMotionAlone) {
   SimulationSettings s = settings(cloth_of(make_grid(4, 4), 1, 50, {0}), 0.01);
   Simulation without(s);

@@ -114,6 +114,31 @@ TEST(StrainLimitAlone, KeepsBothMomentaOfAFreeCloth) {
   EXPECT_LT((angular_momentum(settings.cloth, simulation.state()) - l).norm(), 1e-11 * l.norm());
 }
 
+// One spring that is squeezed and pushed aside at once: it is held by a push along where it was, which turns nothing;
+// and where it has turned far, along where it is.
+TEST(StrainLimitAlone, HoldsASpringThatIsPushedAcross) {
+  for (const Eigen::RowVector3d& pushed : {Eigen::RowVector3d(0.6, 0.25, 0), {0.7, 0, -0.3}, {0.3, 0.3, 0.1}}) {
+    Cloth cloth;
+    cloth.positions = cloth.rest = Vertices::Zero(2, 3);
+    cloth.positions(0, 0) = 1;
+    cloth.velocities = Vertices::Zero(2, 3);
+    cloth.masses = Eigen::Vector2d(0.5, 2);
+    cloth.springs = {{.i = 0, .j = 1, .rest_length = 1, .stiffness = 1e-9}};
+    SimulationSettings settings = setup(cloth, Method::semi_implicit, 0.01);
+    settings.cloth.velocities.row(0) = (pushed - cloth.positions.row(0)) / settings.step;
+    settings.effects = {drape::StrainLimit{.min_stretch = 0.8}};
+    Simulation simulation(settings);
+    EXPECT_TRUE(simulation.step().converged) << pushed;
+    const Eigen::RowVector3d d = simulation.state().x.row(0) - simulation.state().x.row(1);
+    EXPECT_GE(d.norm(), 0.8 * 0.999) << pushed;
+    EXPECT_LE(d.norm(), 1.1 * 1.001) << pushed;
+    const bool turned = pushed[0] < 0.9 * pushed.norm();
+    const Eigen::RowVector3d along = turned ? pushed.normalized() : Eigen::RowVector3d(1, 0, 0);
+    const Eigen::RowVector3d change = d - pushed;
+    EXPECT_LT((change - change.dot(along) * along).norm(), 1e-9) << pushed;
+  }
+}
+
 TEST(StrainLimitAlone, RefusesAClothThatStartsBeyondIt) {
   SimulationSettings settings = setup(cloth_of(make_grid(4, 4), 1, 20, {}), Method::liu13, 0.02);
   settings.cloth.positions.col(0) *= 1.3;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "sim/effects/bending.hpp"
+#include "sim/effects/ground.hpp"
 #include "sim/linear/conjugate_gradients.hpp"
 #include "sim/linear/newton_cholesky.hpp"
 #include "sim/step_objective.hpp"
@@ -63,6 +64,22 @@ class Term {
     for (const auto& hessian : hessians_) {
       hessian->linearise(x, 0);
       hessian->add_product(v, result);
+    }
+    return result;
+  }
+  /// The same by the blocks, of an energy whose vertices are by themselves.
+  Vertices product_of_blocks(const Vertices& x, const Vertices& v) {
+    HessianBlocks blocks{.pairs = {}, .vertices = Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(x.rows(), 6)};
+    for (const auto& hessian : hessians_) {
+      hessian->linearise(x, 0);
+      hessian->add_blocks(blocks);
+    }
+    Vertices result(x.rows(), 3);
+    for (Eigen::Index i = 0; i < x.rows(); ++i) {
+      const auto b = blocks.vertices.row(i);
+      Eigen::Matrix3d block;
+      block << b[0], b[1], b[2], b[1], b[3], b[4], b[2], b[4], b[5];
+      result.row(i) = v.row(i) * block;
     }
     return result;
   }
@@ -133,6 +150,22 @@ TEST_P(EveryEnergy, HasTheCurvatureItsHessianSaysOrLess) {
     EXPECT_GE(curvature, slope - 1e-5 * term_.bounded(d));
     EXPECT_GE(curvature, 0);
     EXPECT_LE(curvature, term_.bounded(d) * (1 + 1e-12));
+  }
+}
+
+// A plane pushes with a constant Hessian, so nothing of it is left out, whichever way it is tilted.
+TEST(PushOfAPlane, HasTheHessianThatIsTheSlopeOfItsGradient) {
+  Term term(flat_mesh(), Ground{.height = 0.2, .normal = {1, -2, 5}, .response = Response::implicit_energy});
+  const Eigen::Index count = term.cloth().vertex_count();
+  const Vertices x = term.cloth().positions;
+  ASSERT_LT((x * Eigen::Vector3d(1, -2, 5).normalized()).maxCoeff(), 2.0);
+  for (const int seed : {1, 2, 3}) {
+    constexpr double e = 1e-6;
+    const Vertices d = random_vertices(count, seed);
+    const Vertices slope = (term.gradient(x + e * d) - term.gradient(x - e * d)) / (2 * e);
+    ASSERT_GT(slope.norm(), 1);
+    EXPECT_LT((term.product(x, d) - slope).norm(), 1e-6 * slope.norm());
+    EXPECT_LT((term.product_of_blocks(x, d) - slope).norm(), 1e-6 * slope.norm());
   }
 }
 
