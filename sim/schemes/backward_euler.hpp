@@ -30,7 +30,7 @@ class BackwardEuler final : public Scheme {
   StepObjective objective_;
   std::unique_ptr<Minimiser> solver_;
   EnergyBooks books_;
-  Point point_;
+  Iterate point_;
   bool free_;  // see is_free()
 };
 

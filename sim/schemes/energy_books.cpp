@@ -28,7 +28,7 @@ Eigen::RowVector3d mean(const Cloth& cloth, const Vertices& v) {
 
 bool is_free(const System& system) { return system.cloth.pins.empty() && system.all_internal(); }
 
-void balance_momentum(const Cloth& cloth, const StepObjective& objective, Point& point) {
+void balance_momentum(const Cloth& cloth, const StepObjective& objective, Iterate& point) {
   const Eigen::RowVector3d shift = mean(cloth, objective.y()) - mean(cloth, point.x);
   const double inertial = objective.inertial_value(point.x);
   point.x.rowwise() += shift;
@@ -55,7 +55,7 @@ void EnergyBooks::begin(const State& state, const Vertices& last_end) {
   start_exact_ = false;
 }
 
-bool EnergyBooks::gains(const Point& point, bool tolerant) {
+bool EnergyBooks::gains(const Iterate& point, bool tolerant) {
   // What pushes may be moved, and give energy as it curves away from the cloth: only stopping early is looked at there.
   if (!system_.all_internal() && !(given(point) > lost(point))) return false;
   const auto too_much = [&] {
@@ -71,18 +71,18 @@ bool EnergyBooks::gains(const Point& point, bool tolerant) {
   return too_much();
 }
 
-double EnergyBooks::gain(const Point& point) const {
+double EnergyBooks::gain(const Iterate& point) const {
   // With g written out: g(x') − g(x) = ΔK + ΔE − W + K − h⁻¹Δx·M v.
   const double along = system_.step * inner(objective_.free_inertia(), point.x - state_->x, state_->v);
   return point.value - start_.value - start_kinetic_ + along;
 }
 
-double EnergyBooks::rounding(const Point& point) const {
+double EnergyBooks::rounding(const Iterate& point) const {
   // h⁻¹Δx·M v is at most K and what the inertia holds at either end together.
   return objective_.rounding(point.value) + objective_.rounding(start_.value) + objective_.rounding(start_kinetic_);
 }
 
-double EnergyBooks::given(const Point& point) const {
+double EnergyBooks::given(const Iterate& point) const {
   double sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
     sum += (point.gradient.col(axis).array() * (point.x.col(axis) - state_->x.col(axis)).array()).sum();
@@ -90,12 +90,12 @@ double EnergyBooks::given(const Point& point) const {
   return sum;
 }
 
-double EnergyBooks::lost(const Point& point) const {
+double EnergyBooks::lost(const Iterate& point) const {
   const auto change = point.x - state_->x - system_.step * state_->v;  // h Δv
   return 0.5 * inner(objective_.free_inertia(), change, change);
 }
 
-double EnergyBooks::tolerated(const Point& point) const {
+double EnergyBooks::tolerated(const Iterate& point) const {
   const double h = system_.step;
   const Eigen::VectorXd& inertia = objective_.free_inertia();
   const auto way = point.x - state_->x;
@@ -107,7 +107,7 @@ double EnergyBooks::tolerated(const Point& point) const {
   return std::min(tolerated_share * most, std::max(lost(point), -work));
 }
 
-double EnergyBooks::shed(Point& point) {
+double EnergyBooks::shed(Iterate& point) {
   Vertices back = start_.x;
   if (is_free(system_)) back.rowwise() += mean(system_.cloth, objective_.y()) - mean(system_.cloth, start_.x);
   const Vertices way = point.x - back;
@@ -129,7 +129,7 @@ double EnergyBooks::shed(Point& point) {
   return length;
 }
 
-void EnergyBooks::end(const Point& point) {
+void EnergyBooks::end(const Iterate& point) {
   if (!steady_) return;
   // A lower bound, so that a step which goes on from here comes to the same as one that starts here.
   const double energy = point.value - objective_.inertial_value(point.x);

@@ -29,34 +29,34 @@ class EnergyBooks {
   void begin(const State& state, const Vertices& last_end);
   /// Whether ΔK + ΔE − W at the point is more than rounding explains.
   /// @param tolerant and more than is tolerated
-  [[nodiscard]] bool gains(const Point& point, bool tolerant);
+  [[nodiscard]] bool gains(const Iterate& point, bool tolerant);
   /// Goes back from a point that gains towards where the step started until it gains nothing; returns the part of the
   /// way that is left. A cloth that nothing holds goes back to where it would be as a whole.
-  double shed(Point& point);
+  double shed(Iterate& point);
   /// Notes what the cloth has where the step ends.
-  void end(const Point& point);
+  void end(const Iterate& point);
 
  private:
   /// ΔK + ΔE − W of a point [J], or an upper bound of it as long as start_ is not exact.
-  [[nodiscard]] double gain(const Point& point) const;
+  [[nodiscard]] double gain(const Iterate& point) const;
   /// The error that rounding can be expected to make in it [J].
-  [[nodiscard]] double rounding(const Point& point) const;
+  [[nodiscard]] double rounding(const Iterate& point) const;
   /// ∇g·Δx, and ½‖v' − v‖²_M [J].
-  [[nodiscard]] double given(const Point& point) const;
-  [[nodiscard]] double lost(const Point& point) const;
+  [[nodiscard]] double given(const Iterate& point) const;
+  [[nodiscard]] double lost(const Iterate& point) const;
   /// What a step that meets its tolerance may gain, see above [J].
-  [[nodiscard]] double tolerated(const Point& point) const;
+  [[nodiscard]] double tolerated(const Iterate& point) const;
 
   const System& system_;
   const StepObjective& objective_;
   Accuracy accuracy_;
   const State* state_ = nullptr;  // at the start of the step
-  Point start_;                   // its x with its pins where they are when the step ends, and g there…
+  Iterate start_;                   // its x with its pins where they are when the step ends, and g there…
   bool start_exact_ = false;      // …or, where it has not been needed, a lower bound of g and nothing else
   double start_kinetic_ = 0;      // ½‖v‖²_M [J]
   double end_energy_ = 0;         // a lower bound of E where the last step ended [J]
   bool steady_;                   // a step starts where the last one ended, and E there is what it was
-  Point trial_;
+  Iterate trial_;
 };
 
 /// The mean of n×3 numbers, weighted by mass.
@@ -68,6 +68,6 @@ bool is_free(const System& system);
 /// Moves a cloth that nothing holds as a whole to where Σ∇g = 0. There Σ∇g = Σ m(x' − y)/h², since what it solves for
 /// pulls with opposite forces. Every exact solve makes that zero; what the rounding of a factor leaves of it is taken
 /// out by a translation, which keeps the momentum to rounding.
-void balance_momentum(const Cloth& cloth, const StepObjective& objective, Point& point);
+void balance_momentum(const Cloth& cloth, const StepObjective& objective, Iterate& point);
 
 }  // namespace drape

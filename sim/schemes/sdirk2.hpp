@@ -51,7 +51,7 @@ class Sdirk2 final : public Scheme {
   const System& system_;
   StepObjective objective_;
   std::unique_ptr<Minimiser> solver_;
-  Point point_;
+  Iterate point_;
   State stage_;
   Vertices force_;                      // of a stage [N]
   Vertices of_start_, of_stage_, way_;  // of velocities [N]; scratch

@@ -8,7 +8,7 @@ FactoredMinimiser::FactoredMinimiser(const System& system, const StepObjective& 
       system_(system),
       factor_(system, objective.duration(), Precision::automatic) {}
 
-void FactoredMinimiser::find_newton_step(const Point& point, Vertices& direction) {
+void FactoredMinimiser::find_newton_step(const Iterate& point, Vertices& direction) {
   if (!newton_) newton_ = std::make_unique<ConjugateGradients>(system_, objective(), &factor_);
   newton_->solve(point.x, point.gradient, direction);
 }

@@ -18,7 +18,7 @@ class FactoredMinimiser : public Minimiser {
   ConstantFactor& factor() { return factor_; }
 
  private:
-  void find_newton_step(const Point& point, Vertices& direction) override;
+  void find_newton_step(const Iterate& point, Vertices& direction) override;
 
   const System& system_;
   ConstantFactor factor_;

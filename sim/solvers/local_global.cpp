@@ -10,7 +10,7 @@ constexpr int local_global_iterations = 100;  // the homework's
 LocalGlobal::LocalGlobal(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
     : FactoredMinimiser(system, objective, settings, local_global_iterations) {}
 
-double LocalGlobal::iterate(Point& point) {
+double LocalGlobal::iterate(Iterate& point) {
   const double change = factor().subtract_solution(point.gradient, point.x);
   point.value = objective().evaluate(point.x, point.gradient);
   return change;

@@ -12,7 +12,7 @@ class LocalGlobal final : public FactoredMinimiser {
   LocalGlobal(const System& system, const StepObjective& objective, const IntegratorSettings& settings);
 
  private:
-  double iterate(Point& point) override;
+  double iterate(Iterate& point) override;
 };
 
 }  // namespace drape

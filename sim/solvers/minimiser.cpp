@@ -22,7 +22,7 @@ Minimiser::Minimiser(const System& system, const StepObjective& objective, const
   trial_.gradient = trial_.x = Vertices::Zero(objective.y().rows(), 3);
 }
 
-StepReport Minimiser::minimise(Point& point, const std::function<bool()>& may_end) {
+StepReport Minimiser::minimise(Iterate& point, const std::function<bool()>& may_end) {
   start();
   StepReport report;
   double change = std::numeric_limits<double>::infinity();
@@ -48,7 +48,7 @@ StepReport Minimiser::minimise(Point& point, const std::function<bool()>& may_en
   return report;
 }
 
-bool Minimiser::balanced(const Point& point, double change) {
+bool Minimiser::balanced(const Iterate& point, double change) {
   switch (accuracy_.rule) {
     case StoppingRule::change:
       return false;  // a change says little about how far the minimum is: who asks for more gets it
@@ -65,14 +65,14 @@ bool Minimiser::balanced(const Point& point, double change) {
   return (change <= accuracy_.tolerance || in_vain_ >= patience) && error <= objective_.error_rounding();
 }
 
-double Minimiser::error(const Point& point) {
+double Minimiser::error(const Iterate& point) {
   const double bound = objective_.error_bound(point.gradient);
   if (accuracy_.rule == StoppingRule::error && bound <= accuracy_.tolerance) return bound;
   find_newton_step(point, trial_.x);
   return std::min(bound, trial_.x.rowwise().norm().maxCoeff());
 }
 
-double Minimiser::descend(Point& point, const Vertices& direction, double slope) {
+double Minimiser::descend(Iterate& point, const Vertices& direction, double slope) {
   const auto count = static_cast<std::size_t>(point.x.size());
   for (double length = 1; length >= shortest_move; length /= 2) {
     trial_.x = point.x;

@@ -9,7 +9,7 @@
 namespace drape {
 
 /// Where a minimisation is, with what g is there.
-struct Point {
+struct Iterate {
   Vertices x;         ///< n×3 [m]
   Vertices gradient;  ///< ∇g(x), n×3, zero on pins [N]
   double value = 0;   ///< g(x) [J]
@@ -30,41 +30,41 @@ class Minimiser {
   /// Moves the point, which has g's value and gradient already, until the stopping rule is met. No iteration raises g
   /// beyond rounding.
   /// @param may_end asked where an iteration changes little, whether the point will do
-  StepReport minimise(Point& point, const std::function<bool()>& may_end);
+  StepReport minimise(Iterate& point, const std::function<bool()>& may_end);
 
   [[nodiscard]] const Accuracy& accuracy() const { return accuracy_; }
 
   /// How far the worst vertex is from the minimum, estimated where a minimisation has ended [m]: the error that it
   /// stopped at, or else Newton's step from there, which costs some iterations. Nothing of what comes after depends on
   /// whether it was asked for.
-  double error(const Point& point);
+  double error(const Iterate& point);
 
  protected:
   /// Begins another minimisation.
   virtual void start() {}
   /// One iteration: moves the point, and returns how far [m], the 2-norm over all unknowns.
-  virtual double iterate(Point& point) = 0;
+  virtual double iterate(Iterate& point) = 0;
 
   /// Tries x = point.x − length·direction with lengths 1, 1/2, 1/4 … until g decreases enough (Armijo's condition), and
   /// moves the point there, so that g never rises beyond rounding.
   /// @param slope ∇g·direction, positive [J]
   /// @return the length, or 0 where none was found: the point is as low as it can be computed
-  double descend(Point& point, const Vertices& direction, double slope);
+  double descend(Iterate& point, const Vertices& direction, double slope);
 
   /// direction = H(x)⁻¹∇g, see NewtonSolver.
-  virtual void find_newton_step(const Point& point, Vertices& direction) = 0;
+  virtual void find_newton_step(const Iterate& point, Vertices& direction) = 0;
 
   [[nodiscard]] const StepObjective& objective() const { return objective_; }
 
  private:
   /// Whether the point will do by a rule that looks at the gradient.
   /// @param change how far the last iteration has moved the point [m]
-  bool balanced(const Point& point, double change);
+  bool balanced(const Iterate& point, double change);
 
   const StepObjective& objective_;
   Accuracy accuracy_;
   int max_iterations_;
-  Point trial_;
+  Iterate trial_;
   double least_error_ = 0;  // that a point of this minimisation had, where it stops at an error…
   int in_vain_ = 0;         // …and how many points had none that was less since
 };

@@ -20,11 +20,11 @@ Newton::Newton(const System& system, const StepObjective& objective, const Integ
       solver_(make_solver(settings.linear_solver, system, objective)),
       direction_(system.cloth.vertex_count(), 3) {}
 
-void Newton::find_newton_step(const Point& point, Vertices& direction) {
+void Newton::find_newton_step(const Iterate& point, Vertices& direction) {
   solver_->solve(point.x, point.gradient, direction);
 }
 
-double Newton::iterate(Point& point) {
+double Newton::iterate(Iterate& point) {
   find_newton_step(point, direction_);
   return descend(point, direction_, dot(point.gradient, direction_)) * norm(direction_);
 }

@@ -13,8 +13,8 @@ class Newton final : public Minimiser {
   Newton(const System& system, const StepObjective& objective, const IntegratorSettings& settings);
 
  private:
-  double iterate(Point& point) override;
-  void find_newton_step(const Point& point, Vertices& direction) override;
+  double iterate(Iterate& point) override;
+  void find_newton_step(const Iterate& point, Vertices& direction) override;
 
   std::unique_ptr<NewtonSolver> solver_;
   Vertices direction_;

@@ -21,7 +21,7 @@ QuasiNewton::QuasiNewton(const System& system, const StepObjective& objective, c
 
 void QuasiNewton::start() { history_.clear(); }
 
-double QuasiNewton::iterate(Point& point) {
+double QuasiNewton::iterate(Iterate& point) {
   factor().solve(point.gradient, preconditioned_);
   history_.observe(point.gradient, preconditioned_);
   history_.find_direction(preconditioned_, direction_);

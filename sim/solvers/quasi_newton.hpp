@@ -15,7 +15,7 @@ class QuasiNewton final : public FactoredMinimiser {
 
  private:
   void start() override;
-  double iterate(Point& point) override;
+  double iterate(Iterate& point) override;
 
   LbfgsHistory history_;
   Vertices preconditioned_;  // A⁻¹∇g at the point

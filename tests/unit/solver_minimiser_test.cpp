@@ -18,11 +18,12 @@ namespace {
 /// A minimiser that goes where it is told to.
 class Told final : public Minimiser {
  public:
-  explicit Told(const StepObjective& objective) : Minimiser(objective, {}, 1) {}
+  Told(const System& system, const StepObjective& objective) : Minimiser(system, objective, {}, 1) {}
   using Minimiser::descend;
 
  private:
-  double iterate(Point&) override { return 0; }
+  double iterate(Iterate&) override { return 0; }
+  void find_newton_step(const Iterate&, Vertices&) override {}
 };
 
 // Without springs g is a parabola about y. Along t(x − y) a move of length l lowers it by 1 − lt/2 of what its slope
@@ -33,15 +34,15 @@ TEST(LineSearch, TakesTheLongestMoveThatLowersGByATenThousandthOfItsSlope) {
   cloth.velocities = Vertices::Zero(5, 3);
   cloth.masses = Eigen::VectorXd::LinSpaced(5, 0.5, 2);
   const System system(cloth, 0.1);
-  StepObjective objective(system);
-  objective.begin({.x = cloth.positions, .v = cloth.velocities, .step = 0}, Vertices::Zero(5, 3));
-  Told minimiser(objective);
+  StepObjective objective(system, system.step);
+  objective.begin(cloth.positions, cloth.velocities, Vertices::Zero(5, 3), system.step);
+  Told minimiser(system, objective);
   struct Move {
     double t, length;
   };
   for (const Move& move : {Move{0.1, 1}, Move{1, 1}, Move{1.5, 1}, Move{1.999, 1}, Move{1.9999, 0.5}, Move{2.5, 0.5},
                            Move{3.999, 0.5}, Move{3.9999, 0.25}}) {
-    Point point{.x = objective.y() + random_vertices(5, 2), .gradient = Vertices::Zero(5, 3)};
+    Iterate point{.x = objective.y() + random_vertices(5, 2), .gradient = Vertices::Zero(5, 3)};
     point.value = objective.evaluate(point.x, point.gradient);
     const Vertices away = point.x - objective.y();
     const Vertices direction = move.t * away;
@@ -72,9 +73,8 @@ TEST(ObjectiveRounding, IsAsLargeAsItHasToBe) {
     for (const Cloth& original : {grid_cloth(2, stiffness), grid_cloth(12, stiffness), irregular_cloth(stiffness)}) {
       const Cloth cloth = disturbed(original);
       const System system(cloth, 0.02);
-      StepObjective objective(system);
-      objective.begin({.x = cloth.positions, .v = cloth.velocities, .step = 0},
-                      Vertices::Zero(cloth.vertex_count(), 3));
+      StepObjective objective(system, system.step);
+      objective.begin(cloth.positions, cloth.velocities, Vertices::Zero(cloth.vertex_count(), 3), system.step);
       for (int seed = 1; seed <= 10; ++seed) {
         const double size = std::pow(10.0, -seed);
         const Vertices x = objective.y() + size * random_vertices(cloth.vertex_count(), seed);
