@@ -33,7 +33,7 @@ struct TableType {
   std::string help;
   Keys keys;
   bool required = false;
-  bool repeatable = false;  ///< may be written as [[name]] several times
+  bool repeatable = false;                           ///< may be written as [[name]] several times
   std::map<std::string, std::string> replaced = {};  ///< keys that there were, and what there is instead of them
 };
 
