@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/effect_costs.hpp"
+#include "bench/encoding.hpp"
 #include "bench/equal_accuracy.hpp"
 #include "bench/moving_cloth.hpp"
 #include "bench/ratio_table.hpp"
@@ -107,6 +108,7 @@ int main(int argc, char** argv) {
 
   std::vector<std::string> schemes = drape::register_time_schemes();
   std::vector<std::string> effects = drape::register_effect_costs();
+  std::vector<std::string> encoding = drape::register_encoding();
 
   // Ours first, so that the caller's own flags win.
   std::vector<std::string> defaults{"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=11"};
@@ -120,7 +122,8 @@ int main(int argc, char** argv) {
 
   drape::RatioReporter reporter({{.first = "drape", .second = "textbook", .cases = std::move(names)},
                                  {.first = "second order", .second = "first order", .cases = std::move(schemes)},
-                                 {.first = "with", .second = "without", .cases = std::move(effects)}});
+                                 {.first = "with", .second = "without", .cases = std::move(effects)},
+                                 {.first = "drape", .second = "ffmpeg", .cases = std::move(encoding)}});
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();
 }

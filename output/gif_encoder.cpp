@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
-#include "output/gif_writer.hpp"
+#include "output/gif/film_writer.hpp"
+#include "output/gif/palette.hpp"
 #include "output/video_check.hpp"
 
 namespace drape {
@@ -29,16 +31,13 @@ double checked_rate(const std::filesystem::path& file, double fps) {
 }  // namespace
 
 GifEncoder::GifEncoder(const std::filesystem::path& file, double fps, std::function<void(int, int)> progress)
-    : fps_(checked_rate(file, fps)), file_(file), progress_(std::move(progress)), spool_(file_) {
-  libav::silence();
-}
+    : fps_(checked_rate(file, fps)), file_(file), progress_(std::move(progress)), spool_(file_) {}
 
 std::int64_t GifEncoder::start(int frame) const { return std::llround(frame * 100.0 / fps_); }
 
 void GifEncoder::add(const Image& image) {
   spool_.append(image);
-  if (!palette_) palette_.emplace(image.width, image.height);
-  palette_->add(image);
+  colors_.add(image);
 }
 
 std::vector<OutputFile> GifEncoder::finish(Ending ending) {
@@ -50,18 +49,14 @@ std::vector<OutputFile> GifEncoder::finish(Ending ending) {
 }
 
 void GifEncoder::encode() {
-  const GifPalette palette = palette_->finish();
-  palette_.reset();
+  const gif::Palette palette = gif::make_palette(colors_);
   const int count = spool_.count();
-  std::optional<GifWriter> writer;
+  std::optional<gif::FilmWriter> writer;
   spool_.rewind();
   for (int k = 0; k < count; ++k) {
     const Image& image = spool_.next();
-    if (!writer) {
-      writer.emplace(file_.temporary(), file_.file().string(), image.width, image.height, palette,
-                     start(count) - start(count - 1));
-    }
-    writer->add(image, start(k));
+    if (!writer) writer.emplace(file_, image.width, image.height, palette);
+    writer->add(image, start(k + 1) - start(k));
     if (progress_) progress_(k + 1, count);
   }
   writer->finish();
@@ -70,8 +65,8 @@ void GifEncoder::encode() {
 OutputFormat gif_format() {
   return {.extension = ".gif",
           .help = "an animation that repeats for ever, of at most 50 frames per second",
-          .made_by = std::string("FFmpeg ") + av_version_info(),
-          .packages = "libavcodec-dev libavfilter-dev libavformat-dev",
+          .made_by = {},
+          .packages = "libopencv-dev",  // reads it back
           .make = FilmMaker<Image>([](const std::filesystem::path& file, const FilmInfo& film) {
             return std::make_unique<GifEncoder>(file, film.fps, film.progress);
           })};

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 
 #include "core/atomic_file.hpp"
 #include "output/format.hpp"
-#include "output/frame_spool.hpp"
-#include "output/gif_palette.hpp"
+#include "output/gif/color_histogram.hpp"
+#include "output/gif/frame_spool.hpp"
 
 namespace drape {
 
@@ -30,8 +29,8 @@ class GifEncoder : public Encoder {
   double fps_;
   PartialFile file_;
   std::function<void(int, int)> progress_;
-  FrameSpool spool_;
-  std::optional<GifPaletteBuilder> palette_;
+  gif::FrameSpool spool_;
+  gif::ColorHistogram colors_;
 };
 
 OutputFormat gif_format();

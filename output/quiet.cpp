@@ -3,6 +3,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+extern "C" {
+#include <libavutil/log.h>
+}
+
 #include <cstdio>
 
 namespace drape {
@@ -22,5 +26,7 @@ QuietStderr::~QuietStderr() {
   ::dup2(kept_, STDERR_FILENO);
   ::close(kept_);
 }
+
+void silence_ffmpeg() { av_log_set_level(AV_LOG_QUIET); }
 
 }  // namespace drape

@@ -15,4 +15,8 @@ class QuietStderr {
   int kept_ = -1;
 };
 
+/// Keeps FFmpeg, which OpenCV uses, from writing to the terminal: what goes wrong is reported by exceptions. For the
+/// whole process, until OpenCV turns its messages on again, as it does when it is first used.
+void silence_ffmpeg();
+
 }  // namespace drape

@@ -5,7 +5,6 @@
 #include <opencv2/videoio.hpp>
 
 #include "core/error.hpp"
-#include "output/libav.hpp"
 #include "output/quiet.hpp"
 
 namespace drape {
@@ -14,7 +13,7 @@ namespace {
 cv::VideoCapture opened(const std::string& name) {
   const QuietStderr quiet;
   cv::VideoCapture video(name, cv::CAP_FFMPEG);
-  libav::silence();  // OpenCV has just undone it
+  silence_ffmpeg();  // OpenCV has just undone it
   return video;
 }
 

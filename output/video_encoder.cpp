@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "output/libav.hpp"
 #include "output/quiet.hpp"
 #include "output/video_check.hpp"
 
@@ -74,7 +73,7 @@ bool VideoEncoder::open(cv::Size size) {
   const bool opened =
       writer_.open(file_.temporary().string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc(c[0], c[1], c[2], c[3]), fps_,
                    {size.width + size.width % 2, size.height + size.height % 2});
-  libav::silence();  // OpenCV turns its messages on when it is first used
+  silence_ffmpeg();  // OpenCV turns its messages on when it is first used
   return opened;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/collision/distance.hpp"
 #include "tests/support/random.hpp"
 
 namespace drape::spatial_hash {

@@ -9,7 +9,7 @@
 #include "core/atomic_file.hpp"
 #include "render/image.hpp"
 
-namespace drape {
+namespace drape::gif {
 
 /// Keeps the frames of a film on disk, unchanged, to go through them a second time. Its file has no name, so nothing is
 /// left of it whatever happens to the process. Holds one frame in memory.
@@ -39,10 +39,9 @@ class FrameSpool {
 
   std::filesystem::path file_;
   std::unique_ptr<std::FILE, Close> stream_;
-  Image last_;                       // the frame that the next one is stored as a difference to
-  std::vector<std::uint8_t> delta_;  // scratch
-  std::vector<std::uint8_t> packed_;
+  Image last_;                        // the frame that the next one is stored as a difference to
+  std::vector<std::uint8_t> packed_;  // that difference
   int count_ = 0;
 };
 
-}  // namespace drape
+}  // namespace drape::gif

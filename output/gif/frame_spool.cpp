@@ -1,25 +1,21 @@
-#include "output/frame_spool.hpp"
+#include "output/gif/frame_spool.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <functional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
 #include "core/error.hpp"
+#include "output/gif/frame_difference.hpp"
 
-namespace drape {
+namespace drape::gif {
 namespace {
-
-/// Fast, and on frames of a film, of which most does not change, as small as the higher levels.
-constexpr int compression_level = 1;
 
 /// A file without a name. File systems that have none get one whose name is removed at once.
 int open_nameless(const std::filesystem::path& folder) {
@@ -41,19 +37,14 @@ FrameSpool::FrameSpool(const PartialFile& output) : file_(output.file()) {
 }
 
 void FrameSpool::append(const Image& image) {
-  if (count_ == 0) {
-    last_ = Image(image.width, image.height);
-    delta_.resize(last_.pixels.size());
-    packed_.resize(compressBound(delta_.size()));
-  }
+  if (count_ == 0) last_ = Image(image.width, image.height);
   if (image.width != last_.width || image.height != last_.height) {
     throw std::invalid_argument("the frames of a film must have one size");
   }
-  std::transform(image.pixels.begin(), image.pixels.end(), last_.pixels.begin(), delta_.begin(), std::bit_xor<>());
+  pack_difference(last_.pixels, image.pixels, packed_);
   last_.pixels = image.pixels;
 
-  uLongf size = packed_.size();
-  if (compress2(packed_.data(), &size, delta_.data(), delta_.size(), compression_level) != Z_OK) throw std::bad_alloc();
+  const std::uint64_t size = packed_.size();
   const bool written = std::fwrite(&size, sizeof size, 1, stream_.get()) == 1 &&
                        std::fwrite(packed_.data(), 1, size, stream_.get()) == size;
   if (!written) fail(errno);
@@ -66,13 +57,11 @@ void FrameSpool::rewind() {
 }
 
 const Image& FrameSpool::next() {
-  uLongf packed_size = 0, size = delta_.size();
-  const bool read = std::fread(&packed_size, sizeof packed_size, 1, stream_.get()) == 1 &&
-                    packed_size <= packed_.size() &&
-                    std::fread(packed_.data(), 1, packed_size, stream_.get()) == packed_size;
-  if (!read) fail(EIO);
-  if (uncompress(delta_.data(), &size, packed_.data(), packed_size) != Z_OK || size != delta_.size()) fail(EIO);
-  std::transform(delta_.begin(), delta_.end(), last_.pixels.begin(), last_.pixels.begin(), std::bit_xor<>());
+  std::uint64_t size = 0;
+  if (std::fread(&size, sizeof size, 1, stream_.get()) != 1) fail(EIO);
+  packed_.resize(size);
+  if (std::fread(packed_.data(), 1, size, stream_.get()) != size) fail(EIO);
+  if (!apply_difference(packed_, last_.pixels)) fail(EIO);
   return last_;
 }
 
@@ -82,4 +71,4 @@ void FrameSpool::fail(int error_number) const {
                   file_.string(), std::generic_category().message(error_number)));
 }
 
-}  // namespace drape
+}  // namespace drape::gif

@@ -1,0 +1,159 @@
+#include "bench/ffmpeg_gif.hpp"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavfilter/avfilter.h>
+#include <libavfilter/buffersink.h>
+#include <libavfilter/buffersrc.h>
+#include <libavformat/avformat.h>
+#include <libavutil/log.h>
+}
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace drape {
+namespace {
+
+struct Free {
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+  void operator()(AVFilterGraph* graph) const { avfilter_graph_free(&graph); }
+  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+  void operator()(AVFormatContext* format) const { avformat_free_context(format); }
+};
+template <class T>
+using Owned = std::unique_ptr<T, Free>;
+
+int check(int result) {
+  if (result < 0) throw std::runtime_error(fmt::format("FFmpeg fails with {}", result));
+  return result;
+}
+
+Owned<AVFilterGraph> make_graph(const std::string& description) {
+  Owned<AVFilterGraph> graph(avfilter_graph_alloc());
+  graph->nb_threads = 1;
+  AVFilterInOut *inputs = nullptr, *outputs = nullptr;
+  check(avfilter_graph_parse2(graph.get(), description.c_str(), &inputs, &outputs));
+  check(avfilter_graph_config(graph.get(), nullptr));
+  return graph;
+}
+
+/// A frame with an alpha channel, as both filters take it.
+Owned<AVFrame> rgb32_frame(const Image& image, int number) {
+  Owned<AVFrame> frame(av_frame_alloc());
+  frame->format = AV_PIX_FMT_RGB32;
+  frame->width = image.width;
+  frame->height = image.height;
+  frame->pts = number;
+  check(av_frame_get_buffer(frame.get(), 0));
+  for (int y = 0; y < image.height; ++y) {
+    auto* out = reinterpret_cast<std::uint32_t*>(frame->data[0] + static_cast<std::ptrdiff_t>(y) * frame->linesize[0]);
+    const std::uint8_t* in = image.at(0, y);
+    for (int x = 0; x < image.width; ++x, in += 3) {
+      out[x] = 0xff000000U | static_cast<std::uint32_t>(in[0] << 16 | in[1] << 8 | in[2]);
+    }
+  }
+  return frame;
+}
+
+void push(const Owned<AVFilterGraph>& graph, const char* input, AVFrame* frame) {
+  check(av_buffersrc_add_frame_flags(avfilter_graph_get_filter(graph.get(), input), frame, AV_BUFFERSRC_FLAG_PUSH));
+}
+
+/// Nothing if the graph has none yet, or none any more.
+Owned<AVFrame> pull(const Owned<AVFilterGraph>& graph) {
+  Owned<AVFrame> frame(av_frame_alloc());
+  const int result = av_buffersink_get_frame(avfilter_graph_get_filter(graph.get(), "buffersink@out"), frame.get());
+  if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return nullptr;
+  check(result);
+  return frame;
+}
+
+std::string buffer(const char* name, int width, int height, int fps) {
+  return fmt::format("buffer@{}=width={}:height={}:pix_fmt={}:time_base=1/{}", name, width, height,
+                     static_cast<int>(AV_PIX_FMT_RGB32), fps);
+}
+
+Owned<AVFrame> make_palette(const std::vector<Image>& film, int fps) {
+  const auto graph = make_graph(buffer("film", film[0].width, film[0].height, fps) + ", palettegen, buffersink@out");
+  for (std::size_t k = 0; k < film.size(); ++k)
+    push(graph, "buffer@film", rgb32_frame(film[k], static_cast<int>(k)).get());
+  push(graph, "buffer@film", nullptr);
+  return pull(graph);
+}
+
+/// A GIF that is being written to memory.
+class Writer {
+ public:
+  Writer(int width, int height, int fps) : packet_(av_packet_alloc()) {
+    const AVCodec* encoder = avcodec_find_encoder(AV_CODEC_ID_GIF);
+    codec_.reset(avcodec_alloc_context3(encoder));
+    codec_->width = width;
+    codec_->height = height;
+    codec_->pix_fmt = AV_PIX_FMT_PAL8;
+    codec_->time_base = {1, fps};
+    check(avcodec_open2(codec_.get(), encoder, nullptr));
+    AVFormatContext* format = nullptr;
+    check(avformat_alloc_output_context2(&format, nullptr, "gif", nullptr));
+    format_.reset(format);
+    AVStream* stream = avformat_new_stream(format, nullptr);
+    stream->time_base = codec_->time_base;
+    check(avcodec_parameters_from_context(stream->codecpar, codec_.get()));
+    check(avio_open_dyn_buf(&format->pb));
+    check(avformat_write_header(format, nullptr));
+  }
+
+  /// Nothing: no frame follows.
+  void add(const AVFrame* frame) {
+    check(avcodec_send_frame(codec_.get(), frame));
+    while (avcodec_receive_packet(codec_.get(), packet_.get()) == 0) {
+      av_packet_rescale_ts(packet_.get(), codec_->time_base, format_->streams[0]->time_base);
+      check(av_write_frame(format_.get(), packet_.get()));
+      av_packet_unref(packet_.get());
+    }
+  }
+
+  std::size_t finish() {
+    add(nullptr);
+    check(av_write_trailer(format_.get()));
+    std::uint8_t* bytes = nullptr;
+    const int size = avio_close_dyn_buf(format_->pb, &bytes);
+    av_free(bytes);
+    return static_cast<std::size_t>(size);
+  }
+
+ private:
+  Owned<AVCodecContext> codec_;
+  Owned<AVFormatContext> format_;
+  Owned<AVPacket> packet_;
+};
+
+}  // namespace
+
+std::size_t encode_gif_by_ffmpeg(const std::vector<Image>& film, int fps) {
+  av_log_set_level(AV_LOG_QUIET);
+  const int width = film[0].width, height = film[0].height;
+  const Owned<AVFrame> palette = make_palette(film, fps);
+  const auto graph = make_graph(buffer("film", width, height, fps) + " [film]; " + buffer("palette", 16, 16, fps) +
+                                " [palette]; [film][palette] paletteuse, buffersink@out");
+  palette->pts = 0;
+  push(graph, "buffer@palette", palette.get());
+  push(graph, "buffer@palette", nullptr);
+  Writer writer(width, height, fps);
+  const auto write_ready = [&] {
+    while (const Owned<AVFrame> frame = pull(graph)) writer.add(frame.get());
+  };
+  for (std::size_t k = 0; k < film.size(); ++k) {
+    push(graph, "buffer@film", rgb32_frame(film[k], static_cast<int>(k)).get());
+    write_ready();
+  }
+  push(graph, "buffer@film", nullptr);
+  write_ready();
+  return writer.finish();
+}
+
+}  // namespace drape

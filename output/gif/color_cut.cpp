@@ -1,0 +1,151 @@
+#include "output/gif/color_cut.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace drape::gif {
+namespace {
+
+int channel(std::uint32_t color, int axis) { return static_cast<int>(color >> (16 - 8 * axis) & 0xff); }
+
+/// The zeroth and the first moments of colours.
+struct Moments {
+  double count = 0;
+  std::array<double, 3> sum{};
+
+  void add(const ColorCount& c) {
+    const auto n = static_cast<double>(c.count);
+    count += n;
+    for (int axis = 0; axis < 3; ++axis) sum[axis] += n * channel(c.color, axis);
+  }
+  void operator+=(const Moments& other) {
+    count += other.count;
+    for (int axis = 0; axis < 3; ++axis) sum[axis] += other.sum[axis];
+  }
+  [[nodiscard]] Moments operator-(const Moments& other) const {
+    Moments rest = *this;
+    rest.count -= other.count;
+    for (int axis = 0; axis < 3; ++axis) rest.sum[axis] -= other.sum[axis];
+    return rest;
+  }
+  /// By how much the squared error is less around the mean than around zero.
+  [[nodiscard]] double explained() const {
+    return count > 0 ? (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / count : 0;
+  }
+  [[nodiscard]] std::uint32_t mean() const {
+    std::uint32_t color = 0;
+    for (const double s : sum) color = color << 8 | static_cast<std::uint32_t>(std::lround(s / count));
+    return color;
+  }
+};
+
+constexpr int hues = 12;
+
+/// The twelfth of the circle of hues that a colour is in, 1…12, the first one around red; 0: it is nearly grey.
+int hue(std::uint32_t color) {
+  constexpr int least_chroma = 24;
+  const int r = red(color), g = green(color), b = blue(color);
+  const int most = std::max({r, g, b}), chroma = most - std::min({r, g, b});
+  if (chroma < least_chroma) return 0;
+  // Of the six sides of the hexagon that hues lie on, and how far along it.
+  const int along = most == r ? g - b : most == g ? b - r : r - g;
+  const int side = most == r ? 0 : most == g ? 2 : 4;
+  const int twelfth = (hues * chroma + 2 * side * chroma + 2 * along + chroma / 2) / chroma;
+  return 1 + twelfth % hues;
+}
+
+/// Colours, with the plane along which they are best cut in two.
+struct Box {
+  std::span<ColorCount> colors;
+  Moments moments;
+  int axis = 0, first_above = 0;  // those whose channel is at least this are on the other side of the plane
+  double gain = 0;                // by how much the cut reduces the squared error
+
+  explicit Box(std::span<ColorCount> all) : colors(all) {
+    std::array<std::array<Moments, 256>, 3> slices{};
+    for (const ColorCount& c : colors) {
+      moments.add(c);
+      for (int a = 0; a < 3; ++a) slices[a][channel(c.color, a)].add(c);
+    }
+    for (int a = 0; a < 3; ++a) {
+      Moments below;
+      for (int value = 0; value < 255; ++value) {
+        below += slices[a][value];
+        const Moments above = moments - below;
+        if (below.count == 0 || above.count == 0) continue;
+        const double reduction = below.explained() + above.explained() - moments.explained();
+        if (reduction > gain) gain = reduction, axis = a, first_above = value + 1;
+      }
+    }
+  }
+
+  /// Cuts off and returns what is above the plane.
+  Box cut() {
+    const auto middle = std::partition(colors.begin(), colors.end(),
+                                       [this](const ColorCount& c) { return channel(c.color, axis) < first_above; });
+    const auto size = static_cast<std::size_t>(middle - colors.begin());
+    const Box above(colors.subspan(size));
+    *this = Box(colors.first(size));
+    return above;
+  }
+};
+
+Box& most_worth(std::span<Box> boxes) {
+  return *std::max_element(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.gain < b.gain; });
+}
+
+/// The boxes that hues have for themselves, at most half of all, so that a red ball that few frames show is not left
+/// the colours of a cloth that all of them show. The last box holds the rest: greys, and hues of no more than pixels on
+/// edges.
+std::vector<Box> boxes_of_hues(std::span<ColorCount> colors, std::size_t most) {
+  constexpr double least_share = 1e-4;
+  constexpr double unseen = 2;  // less of the squared error of a pixel, and a cut is not worth its entry
+  std::array<double, 1 + hues> pixels{};
+  double total = 0;
+  for (const ColorCount& c : colors) {
+    pixels[static_cast<std::size_t>(hue(c.color))] += static_cast<double>(c.count);
+    total += static_cast<double>(c.count);
+  }
+  const auto frequent = [&](double count) { return count > least_share * total; };
+  const auto present = static_cast<std::size_t>(std::count_if(pixels.begin() + 1, pixels.end(), frequent));
+  const std::size_t reserved = std::min(std::size_t{24}, most / 2 / std::max(present, std::size_t{1}));  // for each hue
+
+  std::vector<Box> boxes;
+  for (int h = 1; h <= hues; ++h) {
+    if (!frequent(pixels[static_cast<std::size_t>(h)])) continue;
+    const auto end =
+        std::partition(colors.begin(), colors.end(), [h](const ColorCount& c) { return hue(c.color) == h; });
+    const auto count = static_cast<std::size_t>(end - colors.begin());
+    std::vector<Box> own{Box(colors.first(count))};
+    for (colors = colors.subspan(count); own.size() < reserved;) {
+      Box& worst = most_worth(own);
+      if (worst.gain <= unseen * worst.moments.count) break;
+      own.push_back(worst.cut());
+    }
+    boxes.insert(boxes.end(), own.begin(), own.end());
+  }
+  if (!colors.empty()) boxes.push_back(Box(colors));
+  return boxes;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> representative_colors(std::vector<ColorCount> colors, std::size_t most) {
+  std::vector<std::uint32_t> chosen;
+  if (colors.size() <= most) {
+    for (const ColorCount& c : colors) chosen.push_back(c.color);
+    return chosen;
+  }
+  std::vector<Box> boxes = boxes_of_hues(colors, most);
+  while (boxes.size() < most) {
+    Box& worst = most_worth(boxes);
+    if (worst.gain <= 0) break;
+    boxes.push_back(worst.cut());
+  }
+  for (const Box& box : boxes) chosen.push_back(box.moments.mean());
+  return chosen;
+}
+
+}  // namespace drape::gif

@@ -1,0 +1,143 @@
+#include "output/gif/compactor.hpp"
+
+#include <algorithm>
+
+#include "output/gif/color_table.hpp"
+
+namespace drape::gif {
+namespace {
+
+/// Squared, weighted by how much of the brightness each channel makes. A difference of d in all channels gives 9·d².
+int color_error(std::uint32_t a, std::uint32_t b) {
+  const int r = red(a) - red(b), g = green(a) - green(b), bl = blue(a) - blue(b);
+  return 2 * r * r + 4 * g * g + 3 * bl * bl;
+}
+
+/// What the dither may add to the error of a pixel's own colour shows nowhere.
+constexpr int unseen_error = 9 * 4 * 4;
+
+}  // namespace
+
+Compactor::Compactor(const Palette& palette, int width, int height)
+    : palette_(palette),
+      width_(width),
+      height_(height),
+      shown_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), Palette::transparent),
+      touched_(static_cast<std::size_t>(height)),
+      late_(shown_.size()) {}
+
+bool Compactor::is_exact(std::uint32_t color) const {
+  return std::binary_search(palette_.exact.begin(), palette_.exact.end(), color);
+}
+
+/// How far off a pixel may be for longer than one frame.
+int Compactor::lasting_error(const IndexedFrame& frame, std::size_t i) const {
+  return std::max(color_error(palette_.colors[frame.index[i]], frame.source[i]), unseen_error);
+}
+
+bool Compactor::may_stay(const IndexedFrame& frame, std::size_t i) const {
+  if (frame.index[i] == shown_[i]) return true;
+  return color_error(palette_.colors[shown_[i]], frame.source[i]) <= lasting_error(frame, i) &&
+         !is_exact(frame.source[i]);
+}
+
+int Compactor::most_error(const IndexedFrame& frame, std::size_t i, int tolerance) const {
+  // Where the picture is smooth, all of the tolerance would show as streaks.
+  const int allowed = std::min(tolerance, 2 + tolerance / 16 + frame.contrast[i]);
+  const int most = 9 * allowed * allowed;
+  return late_[i] ? std::min(most, lasting_error(frame, i)) : most;
+}
+
+Compactor::Pixel Compactor::pixel(const IndexedFrame& frame, std::size_t i, int tolerance) const {
+  const std::uint8_t index = frame.index[i], shown = shown_[i];
+  Pixel p{index == shown ? std::uint8_t{Palette::transparent} : index, shown, 0, frame.source[i]};
+  if (frame.moved[i]) {
+    if (tolerance > 0 && !is_exact(p.source))
+      p.most_error = static_cast<std::uint16_t>(most_error(frame, i, tolerance));
+  } else if (index != shown && may_stay(frame, i)) {
+    p.symbol = Palette::transparent;
+  }
+  return p;
+}
+
+/// Finds the rectangle of what changes.
+Patch Compactor::changed(const IndexedFrame& frame) const {
+  Span rows, columns;
+  for (int y = 0; y < height_; ++y) {
+    // What was a little off in the frame before is now put right.
+    Span span = touched_[static_cast<std::size_t>(y)];
+    span.include(frame.touched[static_cast<std::size_t>(y)]);
+    const auto stays = [&](int x) {
+      const std::size_t i = frame.at(x, y);
+      return frame.index[i] == shown_[i] || (!frame.moved[i] && may_stay(frame, i));
+    };
+    while (span.begin < span.end && stays(span.begin)) ++span.begin;
+    if (span.begin >= span.end) continue;
+    while (stays(span.end - 1)) --span.end;
+    columns.include(span);
+    rows.include({y, y + 1});
+  }
+  if (rows.begin >= rows.end) return {};
+  return {columns.begin, rows.begin, columns.end - columns.begin, rows.end - rows.begin, {}};
+}
+
+/// Of showing a symbol in place of a pixel's own; above what is allowed if it cannot be.
+int Compactor::error(const Pixel& pixel, int symbol) const {
+  const int index = symbol == Palette::transparent ? pixel.shown : symbol;
+  const int own = pixel.symbol == Palette::transparent ? pixel.shown : pixel.symbol;
+  if (index == own) return 0;
+  if (pixel.most_error == 0 || index == Palette::transparent) return pixel.most_error + 1;
+  return color_error(palette_.colors[index], pixel.source);
+}
+
+/// Goes on from a match of the first pixels, as far as there are entries for the next ones.
+void Compactor::find_longest(std::span<const Pixel> pixels, const Match& match, Match& best) const {
+  if (match.length > best.length || (match.length == best.length && match.error < best.error)) best = match;
+  if (static_cast<std::size_t>(match.length) == pixels.size()) return;
+  const Pixel& pixel = pixels[static_cast<std::size_t>(match.length)];
+  for (int e = dictionary_.first_child(match.entry); e >= 0; e = dictionary_.next_sibling(e)) {
+    const int added = error(pixel, dictionary_.symbol(e));
+    if (added <= pixel.most_error) find_longest(pixels, {e, match.length + 1, match.error + added}, best);
+  }
+}
+
+std::string Compactor::compress() {
+  LzwCodes codes;
+  dictionary_.clear();
+  for (std::span<Pixel> rest = pixels_; !rest.empty();) {
+    Match best;
+    find_longest(rest, {rest[0].symbol, 1, 0}, best);
+    int entry = best.entry;
+    for (int i = best.length - 1; i > 0; --i, entry = dictionary_.parent(entry)) {
+      rest[static_cast<std::size_t>(i)].symbol = static_cast<std::uint8_t>(dictionary_.symbol(entry));
+    }
+    rest = rest.subspan(static_cast<std::size_t>(best.length));
+    codes.put(best.entry, dictionary_.size());
+    if (rest.empty()) break;
+    dictionary_.extend(best.entry, rest[0].symbol);
+    if (dictionary_.is_full()) codes.put_clear(), dictionary_.clear();
+  }
+  return codes.finish();
+}
+
+Patch Compactor::compact(const IndexedFrame& frame, int tolerance) {
+  Patch patch = changed(frame);
+  pixels_.clear();
+  for (int y = patch.y; y < patch.y + patch.height; ++y) {
+    for (int x = patch.x; x < patch.x + patch.width; ++x) pixels_.push_back(pixel(frame, frame.at(x, y), tolerance));
+  }
+  patch.data = compress();
+
+  std::fill(late_.begin(), late_.end(), std::uint8_t{0});
+  auto p = pixels_.begin();
+  for (int y = patch.y; y < patch.y + patch.height; ++y) {
+    for (std::size_t i = frame.at(patch.x, y); i < frame.at(patch.x + patch.width, y); ++i, ++p) {
+      if (p->symbol != Palette::transparent) shown_[i] = p->symbol;
+      late_[i] = p->most_error > 0 && !may_stay(frame, i);
+    }
+  }
+  touched_ = frame.touched;
+  return patch;
+}
+
+}  // namespace drape::gif
