@@ -1,0 +1,57 @@
+// Goldens that another program has recorded: the scene is the same, what drape makes of it is not.
+
+#include <gtest/gtest.h>
+
+#include "check/golden.hpp"
+#include "check/golden_folder.hpp"
+#include "tests/check/checked_scene.hpp"
+
+namespace drape {
+namespace {
+
+class AnotherProgram : public test::CheckedScene {
+ protected:
+  /// Writes the golden anew with what a change makes of it, and the pictures that it has.
+  template <class Change>
+  void record_otherwise(const Change& change) {
+    Golden other = read_golden(golden());
+    std::vector<Png> pictures;
+    for (const GoldenFrame& frame : other.frames) {
+      pictures.push_back(test::content(golden_picture(golden(), frame.frame)));
+    }
+    change(other);
+    write_golden(golden(), other, pictures);
+  }
+};
+
+// As if the automatic camera had left a wider margin then than the scene says.
+TEST_F(AnotherProgram, ThatFramedTheMotionOtherwiseIsSeen) {
+  const Scene wider = scene({"camera.margin=0.2"});
+  bless_scene(wider, wider.check, GlBackend::automatic, {}, progress_);
+  record_otherwise([&](Golden& golden) {
+    golden.camera = scene().camera;
+    golden.scene_digest = scene().digest;
+  });
+  const SceneResult result = check();
+  EXPECT_FALSE(result.scene_changed);
+  EXPECT_EQ(result.windows.motion, MotionVerdict::same_bits);
+  EXPECT_EQ(result.windows.picture, PictureVerdict::changed);
+  EXPECT_EQ(result.verdict, SceneVerdict::changed);
+}
+
+// The motion has the same bits: only the record of energies would say it.
+TEST_F(AnotherProgram, ThatHadOtherEnergiesIsSeen) {
+  bless();
+  ASSERT_EQ(check().verdict, SceneVerdict::passed);
+  for (double Energies::*energy : {&Energies::kinetic, &Energies::gravity, &Energies::elastic}) {
+    bless();
+    record_otherwise([&](Golden& golden) { golden.windows[1].energies.*energy += 1e-6; });
+    const SceneResult result = check();
+    EXPECT_EQ(result.windows.motion, MotionVerdict::changed);
+    ASSERT_EQ(result.findings.size(), 1U);
+    EXPECT_NE(result.findings[0].find("energies"), std::string::npos) << result.findings[0];
+  }
+}
+
+}  // namespace
+}  // namespace drape
