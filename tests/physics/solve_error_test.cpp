@@ -93,7 +93,7 @@ TEST_P(SolveError, StopsWhereRoundingHidesIt) {
 
 double default_tolerance(const SimulationSettings& settings) {
   const System system = make_system(settings);
-  const Accuracy accuracy(settings.integrator, system, system.inertia());
+  const Accuracy accuracy(settings.integrator, system, system.inertia(system.step));
   EXPECT_EQ(accuracy.rule, StoppingRule::error);
   return accuracy.tolerance;
 }
@@ -129,7 +129,7 @@ TEST(DefaultTolerance, HoldsWhereNoneIsGiven) {
   const auto accuracy = [&](std::optional<StoppingRule> stop, std::optional<double> tolerance) {
     settings.integrator.stop = stop;
     settings.integrator.tolerance = tolerance;
-    return Accuracy(settings.integrator, system, system.inertia());
+    return Accuracy(settings.integrator, system, system.inertia(system.step));
   };
   EXPECT_EQ(accuracy({}, {}).rule, StoppingRule::error);
   EXPECT_EQ(accuracy({}, 1e-5).rule, StoppingRule::change);

@@ -130,7 +130,7 @@ Real StepLedger::tolerated(const StepBalance& b, const RealVertices& force, cons
     way += change.row(i).squaredNorm();
     push += force.row(i).squaredNorm() / masses_[i];
   }
-  const Accuracy accuracy(settings_.integrator, system_, system_.inertia());
+  const Accuracy accuracy(settings_.integrator, system_, system_.inertia(settings_.step));
   if (accuracy.rule == StoppingRule::gradient) return accuracy.tolerance * std::sqrt(way);
   if (accuracy.rule == StoppingRule::error) {
     const Real error = accuracy.tolerance, h = settings_.step;
