@@ -36,10 +36,11 @@ Keys time_keys(Scene& scene) {
 
 Keys integrator_keys(IntegratorSettings& integrator) {
   Keys keys;
-  keys.choice("method", integrator.method, {method_names.begin(), method_names.end()},
-              "How a step is computed: semi-implicit is symplectic Euler and verlet velocity Verlet, both explicit; the "
-              "others are implicit, solved by Newton's method, by the alternation of Liu et al. 2013, or by L-BFGS "
-              "that starts from its matrix.");
+  keys.choice(
+      "method", integrator.method, {method_names.begin(), method_names.end()},
+      "How a step is computed: semi-implicit is symplectic Euler and verlet velocity Verlet, both explicit; the "
+      "others are implicit, solved by Newton's method, by the alternation of Liu et al. 2013, or by L-BFGS "
+      "that starts from its matrix.");
   keys.choice("scheme", integrator.scheme, {scheme_names.begin(), scheme_names.end()},
               "How time advances with an implicit method: backward Euler, of first order, or in two stages that are "
               "solved like its steps, of second order (Alexander 1977).");
