@@ -23,8 +23,8 @@ class BlowUpWatch {
   static constexpr double limit_of_unstable_steps = 1e4;
   /// How many times the energy that is explained is a blow-up of an explicit method. Symplectic Euler keeps K + E −
   /// (h/2)·v·∇E of a linear cloth. With r = step/safe_step() < 1 that is between (1 − r) and (1 + r) times K + E, which
-  /// so stays within a factor of (1 + r)/(1 − r); the limit is four times that. Velocity Verlet keeps (1 − r²) K + E and
-  /// stays nearer. Beyond r = 1 the energy grows by a constant factor in every step, and ten thousand times what is
+  /// so stays within a factor of (1 + r)/(1 − r); the limit is four times that. Velocity Verlet keeps (1 − r²) K + E
+  /// and stays nearer. Beyond r = 1 the energy grows by a constant factor in every step, and ten thousand times what is
   /// explained is far beyond what a stable motion has, and a few steps after the beginning of its end.
   /// @param ratio step/safe_step()
   static double limit(double ratio);

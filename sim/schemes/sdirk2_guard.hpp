@@ -7,8 +7,8 @@ namespace drape {
 
 /// For SDIRK2, which can be computed as far as backward Euler, but promises nothing about energy. Measured, with steps
 /// up to 46 ms a motion whose stages are solved tightly never has more than 1.6 times what the cloth had and was given,
-/// and that only where it starts crumpled into a line or a point. But where a stiff cloth crumples within a step of 0.1 s
-/// it has had 38 times that, and an error δ of a loose solve puts k δ² into a spring, while the second stage begins
+/// and that only where it starts crumpled into a line or a point. But where a stiff cloth crumples within a step of 0.1
+/// s it has had 38 times that, and an error δ of a loose solve puts k δ² into a spring, while the second stage begins
 /// where it is five times as large. Beyond ten times what is explained it is no motion of this cloth.
 class Sdirk2Guard final : public StabilityGuard {
  public:
