@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <random>
 #include <set>
@@ -10,6 +11,7 @@
 #include "output/gif/color_cut.hpp"
 #include "output/gif/color_histogram.hpp"
 #include "output/gif/frame_difference.hpp"
+#include "output/gif/ordered_dither.hpp"
 #include "output/gif/palette.hpp"
 #include "tests/support/synthetic_film.hpp"
 
@@ -142,6 +144,28 @@ TEST(GifPalette, GivesAHueThatFewFramesShowColorsOfItsOwn) {
                                  std::abs(gif::blue(p) - gif::blue(color))}));
     }
     EXPECT_LE(least, 200 / 16) << std::hex << color;
+  }
+}
+
+// A dither as high as the distance of the palette's colours takes each of the two that a colour lies between in its
+// share of the pixels, and no other.
+TEST(OrderedDither, MixesTheTwoColorsAroundEach) {
+  constexpr int gap = 6, size = 64;
+  gif::Palette palette;
+  for (std::size_t i = 1; i < palette.colors.size(); ++i) {
+    palette.colors[i] = 0x010101 * std::min<std::uint32_t>(static_cast<std::uint32_t>(gap * i), 255);
+  }
+  for (int gray = 60; gray < 60 + gap; ++gray) {
+    Image image(size, size);
+    std::ranges::fill(image.pixels, static_cast<std::uint8_t>(gray));
+    gif::OrderedDither dither(palette, size, size);
+    double sum = 0;
+    for (const std::uint8_t index : dither.apply(image).index) {
+      const int shown = static_cast<int>(palette.colors[index] & 0xff);
+      EXPECT_LT(std::abs(shown - gray), gap);
+      sum += shown;
+    }
+    EXPECT_NEAR(sum / (size * size), gray, 1);
   }
 }
 

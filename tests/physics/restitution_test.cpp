@@ -80,11 +80,14 @@ TEST_P(Restitution, AFallingSheetRisesToItsSquareOfTheHeight) {
         s.effects.add(ground(e, stiffness));
         // The top of a parabola lies at most gh²/8 above the nearest step. What stays lies in the ground's layer.
         const double share = rebound(s, 1).highest / fall;
+        if (e > 0) {
+          EXPECT_NEAR(share, e * e, g * step * step / 4 / fall) << e << ", " << step << ", " << stiffness;
+          continue;
+        }
         // SDIRK2 may end a stage outside before it has taken the speed away, γ√2 of a step's way at most.
-        const bool late = GetParam().method.scheme == TimeScheme::sdirk2 && e == 0;
+        const bool late = GetParam().method.scheme == TimeScheme::sdirk2;
         const double outside = late ? 0.42 * step * std::sqrt(2 * g * fall) : 0;
-        const double most = (outside + g * step * step / (e > 0 ? 4 : 1)) / fall;
-        EXPECT_NEAR(share, e * e, most) << e << ", " << step << ", " << stiffness;
+        EXPECT_LT(share, (outside + g * step * step) / fall) << step << ", " << stiffness;
       }
     }
   }
