@@ -11,8 +11,9 @@
 namespace drape {
 namespace {
 
-// The rim is within 0.03 % of the radius of a circle. Mesa takes about a microsecond per triangle, and every pixel finds
-// its own place on the sphere: more rings would only change the depth, by less than sphere.vert's depth_radius leaves.
+// The rim is within 0.03 % of the radius of a circle. Mesa takes about a microsecond per triangle, and every pixel
+// finds its own place on the sphere: more rings would only change the depth, by less than sphere.vert's depth_radius
+// leaves.
 constexpr unsigned segments = 128, rings = 4;
 
 }  // namespace

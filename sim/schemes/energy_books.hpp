@@ -51,7 +51,7 @@ class EnergyBooks {
   const StepObjective& objective_;
   Accuracy accuracy_;
   const State* state_ = nullptr;  // at the start of the step
-  Iterate start_;                   // its x with its pins where they are when the step ends, and g there…
+  Iterate start_;                 // its x with its pins where they are when the step ends, and g there…
   bool start_exact_ = false;      // …or, where it has not been needed, a lower bound of g and nothing else
   double start_kinetic_ = 0;      // ½‖v‖²_M [J]
   double end_energy_ = 0;         // a lower bound of E where the last step ended [J]
