@@ -13,9 +13,9 @@ namespace drape {
 /// The energy of a cloth over time, with a method and a step.
 struct EnergyCurve {
   StepMethod method = Method::verlet;
-  double step = 0;               ///< h [s]
-  std::vector<double> times;     ///< [s]
-  std::vector<double> energies;  ///< K + E + gravity's above what it was at first, over the most that moved [1]
+  double step = 0;                    ///< h [s]
+  std::vector<double> times = {};     ///< [s]
+  std::vector<double> energies = {};  ///< K + E + gravity's above what it was at first, over the most that moved [1]
 };
 
 /// Eight seconds of the homework's cloth with springs of 180 N/m, which hangs from two corners and nothing damps: by
