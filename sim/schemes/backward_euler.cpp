@@ -3,12 +3,7 @@
 namespace drape {
 
 BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver)
-    : system_(system),
-      objective_(system, system.step),
-      solver_(make_solver(objective_)),
-      books_(system, objective_, solver_->accuracy()),
-      point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
-      free_(is_free(system)) {}
+    : MinimisingScheme(system, system.step, make_solver), books_(system, objective_, solver_->accuracy()) {}
 
 StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   system_.begin(state);

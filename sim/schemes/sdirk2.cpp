@@ -15,12 +15,7 @@ const double delta = 1 - 1 / (2 * gamma);
 }  // namespace
 
 Sdirk2::Sdirk2(const System& system, const MakeSolver& make_solver)
-    : system_(system),
-      objective_(system, tableau::gamma * system.step),
-      solver_(make_solver(objective_)),
-      point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
-      pushes_(system),
-      free_(is_free(system)) {}
+    : MinimisingScheme(system, tableau::gamma * system.step, make_solver), pushes_(system) {}
 
 StepReport Sdirk2::advance(State& state, StepForces& forces) {
   const double start = system_.time(state.step), end = system_.time(state.step + 1);

@@ -1,12 +1,7 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-
-#include "sim/schemes/energy_books.hpp"
+#include "sim/schemes/minimising_scheme.hpp"
 #include "sim/schemes/push_limit.hpp"
-#include "sim/schemes/scheme.hpp"
-#include "sim/solvers/minimiser.hpp"
 
 namespace drape {
 
@@ -27,18 +22,11 @@ namespace drape {
 ///
 /// Of a linear cloth no step gains energy. Of others it may: the method is not algebraically stable, since (1 − γ)(3γ −
 /// 1) < 0, so Sdirk2Guard keeps an eye on it.
-class Sdirk2 final : public Scheme {
+class Sdirk2 final : public MinimisingScheme {
  public:
-  using MakeSolver = std::function<std::unique_ptr<Minimiser>(const StepObjective& objective)>;
-
   Sdirk2(const System& system, const MakeSolver& make_solver);
 
   StepReport advance(State& state, StepForces& forces) override;
-  // What the second stage, where the step ends, has left.
-  [[nodiscard]] double residual() override { return norm(point_.gradient); }
-  [[nodiscard]] double error() override { return solver_->error(point_); }
-  [[nodiscard]] double unbalanced() override { return point_.gradient.rowwise().norm().sum(); }
-  [[nodiscard]] std::optional<Accuracy> accuracy() const override { return solver_->accuracy(); }
 
  private:
   /// The forces of the first stage: sets force_, and of those that depend on velocities of_start_.
@@ -48,15 +36,10 @@ class Sdirk2 final : public Scheme {
   /// A step of backward Euler of γh seconds from stage_, which becomes its end.
   void solve(double end, StepReport& report);
 
-  const System& system_;
-  StepObjective objective_;
-  std::unique_ptr<Minimiser> solver_;
-  Iterate point_;
   State stage_;
   Vertices force_;                      // of a stage [N]
   Vertices of_start_, of_stage_, way_;  // of velocities [N]; scratch
   PushLimit pushes_;
-  bool free_;  // see is_free()
 };
 
 }  // namespace drape
