@@ -32,7 +32,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   std::vector<std::string> outputs;
   std::string frames;
-  std::optional<std::int64_t> steps;
+  std::optional<std::int64_t> steps, every;
   RecordPaths records;
   GlBackend backend = GlBackend::automatic;
   bool step_by_step = false;
@@ -66,6 +66,7 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
                      .trace = expanded(arguments.records.trace)};
   options.steps = arguments.steps;
   if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
+  options.every = arguments.every;
   options.backend = arguments.backend;
   options.time_effects = verbose || !arguments.records.stats.empty();
   return options;
@@ -170,6 +171,9 @@ void add_shared_options(CLI::App& command, RunArguments& arguments) {
   command.add_option("--steps", arguments.steps, "Simulate this many steps instead of the scene's duration")
       ->check(whole_number_in({0, 1e9}));
   command.add_option("--frames", arguments.frames, "A..B: only these frames of the film");
+  command
+      .add_option("--every", arguments.every, "N: a frame after every N steps, instead of as [video] fps and speed say")
+      ->check(whole_number_in({1, 1e9}));
   command.add_option("--stats", arguments.records.stats, "Write the run's figures to a JSON file");
   command.add_option("--energies", arguments.records.energies, "Write the energies of every step to a CSV file");
   command.add_option("--positions", arguments.records.positions, "Write the last positions to a CSV file");

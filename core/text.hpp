@@ -16,4 +16,7 @@ std::string escape_controls(std::string_view text);
 /// A length for people, with three digits: "1.23 mm", "0.5 mm", "12 µm", "340 nm"; millimetres from a tenth of one on.
 std::string readable_length(double metres);
 
+/// Bytes as text, see RFC 4648, section 4.
+std::string base64(std::string_view bytes);
+
 }  // namespace drape

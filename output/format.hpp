@@ -9,24 +9,32 @@
 #include <vector>
 
 #include "output/sink.hpp"
-#include "sim/mesh.hpp"
+#include "render/settings.hpp"
+#include "sim/cloth.hpp"
 
 namespace drape {
 
 /// What is known of a film before its first frame.
 struct FilmInfo {
-  std::string scene;            ///< the scene's name
-  double fps = 25;              ///< frames per second
-  int first_frame = 0;          ///< number of the first frame added
-  int expected_frames = 0;      ///< how many will be added; fewer is no error
-  int width = 64, height = 64;  ///< of the pictures, to try beforehand what can be tried [pixels]
+  std::string scene;                ///< the scene's name
+  double fps = 25;                  ///< frames per second, as it is played
+  double seconds_per_frame = 0.04;  ///< of the scene's time
+  int first_frame = 0;              ///< number of the first frame added
+  int expected_frames = 0;          ///< how many will be added; fewer is no error
+  int width = 64, height = 64;      ///< of the pictures, to try beforehand what can be tried [pixels]
 
-  /// The cloth's triangles and its texture coordinates, as in Mesh. They outlive the sinks; null: there is no cloth.
-  const std::vector<Triangle>* triangles = nullptr;
+  /// The cloth before the first step, its texture coordinates as in Mesh, and what things look like. They outlive the
+  /// sinks.
+  const Cloth* cloth = nullptr;  ///< null: there is none
   const std::vector<std::array<float, 2>>* uvs = nullptr;
+  const Look* look = nullptr;
 
   /// Called in Sink::finish() while it has frames left to encode: how many are done, and of how many.
   std::function<void(int done, int total)> progress = {};
+
+  /// Of the cloth; empty where there is none.
+  [[nodiscard]] const std::vector<Triangle>& triangles() const;
+  [[nodiscard]] const std::vector<std::array<float, 2>>& texture_coordinates() const;
 };
 
 /// Makes the sink of a format of which one file holds the whole film.

@@ -32,10 +32,7 @@ std::string surface_lines(const std::vector<Triangle>& triangles, const std::vec
 }  // namespace
 
 std::function<std::string(const Frame&)> obj_writer(const FilmInfo& film) {
-  static const std::vector<Triangle> no_triangles;
-  static const std::vector<std::array<float, 2>> no_uvs;
-  const std::string surface = surface_lines(film.triangles != nullptr ? *film.triangles : no_triangles,
-                                            film.uvs != nullptr ? *film.uvs : no_uvs);
+  const std::string surface = surface_lines(film.triangles(), film.texture_coordinates());
   return [surface](const Frame& frame) {
     std::string text = fmt::format("# drape: frame {} at {:.9g} s, in metres, z up\n", frame.index, frame.time);
     for (const auto& x : frame.positions.rowwise()) {

@@ -17,6 +17,8 @@ void give_two_frames(Encoder& encoder) {
 void give_two_frames(MotionWriter& writer) {
   Frame frame;
   frame.positions = Vertices::Identity(3, 3);
+  frame.velocities = Vertices::Zero(3, 3);
+  frame.energies.emplace();
   writer.add(frame);
   frame.index = 1;
   writer.add(frame);
@@ -25,10 +27,13 @@ void give_two_frames(MotionWriter& writer) {
 }  // namespace
 
 std::string try_format(const OutputFormat& format, const std::filesystem::path& file) {
-  const std::vector<Triangle> triangles{{0, 1, 2}};
+  Cloth cloth;
+  cloth.positions = cloth.rest = Vertices::Identity(3, 3);
+  cloth.velocities = Vertices::Zero(3, 3);
+  cloth.triangles = {{0, 1, 2}};
   FilmInfo film;
   film.expected_frames = 2;
-  film.triangles = &triangles;
+  film.cloth = &cloth;
   const AnySink any = make_sink(format, file, film);
   return std::visit(
       [&](const auto& sink) {

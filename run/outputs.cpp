@@ -19,20 +19,23 @@ void add_to(MotionWriter& writer, const FilmFrame& frame) { writer.add(frame.fra
 }  // namespace
 
 FilmExtent film_extent(const Scene& scene, const RunOptions& options) {
-  return FilmExtent(scene.video, scene.simulation.step, options.steps.value_or(scene.step_count()), options.frames);
+  return FilmExtent(scene.video, scene.simulation.step, options.steps.value_or(scene.step_count()), options.frames,
+                    options.every);
 }
 
 FilmInfo film_info(const Scene& scene, const RunOptions& options) {
-  const FrameRange frames = film_extent(scene, options).frames;
+  const FilmExtent extent = film_extent(scene, options);
   FilmInfo film;
   film.scene = scene.name;
   film.fps = scene.video.fps;
-  film.first_frame = frames.first;
-  film.expected_frames = frames.count();
+  film.seconds_per_frame = extent.seconds_per_frame;
+  film.first_frame = extent.frames.first;
+  film.expected_frames = extent.frames.count();
   film.width = scene.video.size.x();
   film.height = scene.video.size.y();
-  film.triangles = &scene.simulation.cloth.triangles;
+  film.cloth = &scene.simulation.cloth;
   film.uvs = &scene.uvs;
+  film.look = &scene.look;
   return film;
 }
 
@@ -65,10 +68,17 @@ bool Outputs::none() const {
   return std::none_of(outputs_.begin(), outputs_.end(), [](const Output& output) { return output.sink.has_value(); });
 }
 
-bool Outputs::drawn() const {
+template <class AnyOf>
+bool Outputs::any_is() const {
   return std::any_of(outputs_.begin(), outputs_.end(), [](const Output& output) {
-    return output.sink && std::holds_alternative<std::unique_ptr<Encoder>>(*output.sink);
+    return output.sink && std::holds_alternative<std::unique_ptr<AnyOf>>(*output.sink);
   });
+}
+
+bool Outputs::drawn() const { return any_is<Encoder>(); }
+
+FrameContents Outputs::contents() const {
+  return any_is<MotionWriter>() ? FrameContents::motion : FrameContents::places;
 }
 
 /// Does a thing with an output's sink, and gives the output up if it fails.

@@ -15,7 +15,7 @@ namespace drape {
 /// @throws UsageError if the motion has no such frames
 FilmExtent film_extent(const Scene& scene, const RunOptions& options);
 
-/// What is known of a run's film before its first frame. Refers to the scene's cloth.
+/// What is known of a run's film before its first frame. Refers to the scene's cloth and look.
 /// @throws UsageError as film_extent()
 FilmInfo film_info(const Scene& scene, const RunOptions& options);
 
@@ -49,6 +49,9 @@ class Outputs {
   /// Whether any (still) takes images.
   [[nodiscard]] bool drawn() const;
 
+  /// What the frames must hold for them.
+  [[nodiscard]] FrameContents contents() const;
+
   /// @param frame with its image, if any output takes images
   void add(const FilmFrame& frame);
 
@@ -64,6 +67,8 @@ class Outputs {
     std::string path;
     std::optional<AnySink> sink;  ///< absent once it was given up
   };
+  template <class AnyOf>
+  [[nodiscard]] bool any_is() const;
   template <class Work>
   void attempt(Output& output, Work work);
 

@@ -108,13 +108,14 @@ class Pipeline {
     for (StepObserver* record : records_.observers()) observers.push_back(record);
     if (options_.observer != nullptr) observers.push_back(options_.observer);
 
-    FrameSampler sampler(extent_, [this](Frame frame) {
+    const auto send = [this](Frame frame) {
       if (drawn_) {
         frames_.push(std::move(frame));
       } else {
         film_.push({std::move(frame), std::nullopt});
       }
-    });
+    };
+    FrameSampler sampler(extent_, send, outputs_.contents());
     StepCounter counter(progress_);
     if (result_.frames_wanted > 0) {
       if (drawn_ && !find_view()) return close_queues();
@@ -148,7 +149,8 @@ class Pipeline {
   bool find_view() {
     if (!needs_motion(scene_.camera)) return view_.push(fixed_view(scene_.camera));
     Framing framing(scene_.camera, static_cast<double>(scene_.video.size[0]) / scene_.video.size[1]);
-    const FilmExtent whole(scene_.video, scene_.simulation.step, options_.steps.value_or(scene_.step_count()), {});
+    const FilmExtent whole(scene_.video, scene_.simulation.step, options_.steps.value_or(scene_.step_count()), {},
+                           options_.every);
     FrameSampler sampler(whole, [&](const Frame& frame) {
       framing.add(frame.positions);
       for (const Collider& collider : frame.colliders) framing.add(collider);

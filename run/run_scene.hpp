@@ -21,6 +21,7 @@ struct RunOptions {
   RecordPaths records;
   std::optional<std::int64_t> steps;  ///< instead of the scene's duration
   std::optional<FrameRange> frames;   ///< draw only these, and simulate no further than they need
+  std::optional<std::int64_t> every;  ///< steps from a frame to the next; absent: as the scene's video says
   GlBackend backend = GlBackend::automatic;
   bool time_effects = false;         ///< measure which part of the steps' time each effect takes
   StepObserver* observer = nullptr;  ///< told of every step too, on the thread that simulates, after it is recorded

@@ -1,18 +1,22 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim/collider.hpp"
+#include "sim/energies.hpp"
 #include "sim/mesh.hpp"
 
 namespace drape {
 
-/// What a drawing of one moment needs to know: where everything is.
+/// What is known of one moment: where everything is, which is what a drawing needs, and how the cloth moves.
 struct Frame {
-  int index = 0;                    ///< number of the frame, from 0
-  double time = 0;                  ///< [s], in the scene's time
-  Vertices positions;               ///< n×3 [m]
-  std::vector<Collider> colliders;  ///< in the order of the scene
+  int index = 0;                          ///< number of the frame, from 0
+  double time = 0;                        ///< [s], in the scene's time
+  Vertices positions;                     ///< n×3 [m]
+  std::vector<Collider> colliders;        ///< in the order of the scene
+  Vertices velocities = {};               ///< n×3 [m/s]; empty where nobody has asked for them
+  std::optional<Energies> energies = {};  ///< likewise absent
 };
 
 }  // namespace drape

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "sim/blow_up.hpp"
+#include "sim/energies.hpp"
 #include "sim/schemes/scheme.hpp"
 #include "sim/schemes/stability_guard.hpp"
 #include "sim/settings.hpp"
@@ -14,15 +15,6 @@
 #include "sim/system.hpp"
 
 namespace drape {
-
-/// The energies of a cloth at one moment [J].
-struct Energies {
-  double kinetic = 0;  ///< Σ m v²/2
-  double gravity = 0;  ///< −Σ m g·x
-  double elastic = 0;  ///< of all springs and of bending
-
-  [[nodiscard]] double total() const { return kinetic + gravity + elastic; }
-};
 
 /// What acts on the cloth with the settings' effects. Refers to the settings, which must outlive it.
 /// @param effect_seconds if given, one number for each effect, to which the time that it takes is added from then on

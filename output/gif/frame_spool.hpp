@@ -1,18 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
-#include <filesystem>
-#include <memory>
 #include <vector>
 
-#include "core/atomic_file.hpp"
+#include "core/spool.hpp"
 #include "render/image.hpp"
 
 namespace drape::gif {
 
-/// Keeps the frames of a film on disk, unchanged, to go through them a second time. Its file has no name, so nothing is
-/// left of it whatever happens to the process. Holds one frame in memory.
+/// Keeps the frames of a film on disk, unchanged, to go through them again. Holds one frame in memory.
 class FrameSpool {
  public:
   /// @param output  what the frames are for: the spool lies in its folder, and messages name it
@@ -32,13 +28,7 @@ class FrameSpool {
   const Image& next();
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  [[noreturn]] void fail(int error_number) const;
-
-  std::filesystem::path file_;
-  std::unique_ptr<std::FILE, Close> stream_;
+  Spool spool_;
   Image last_;                        // the frame that the next one is stored as a difference to
   std::vector<std::uint8_t> packed_;  // that difference
   int count_ = 0;

@@ -116,6 +116,23 @@ TEST(CommandLine, DrawsAFrameOfTheFilmWhicheverRangeItIsIn) {
   EXPECT_FALSE(fs::exists(folder.path() / "some/03.png"));
 }
 
+TEST(CommandLine, TakesAFrameAfterEverySoManySteps) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", scene);  // of 20 steps
+  EXPECT_EQ(drape(folder, "simulate scene.toml -o {frame}.obj --every 6 --frames 1..3 --positions end.csv").code, 0);
+  EXPECT_FALSE(fs::exists(folder.path() / "0.obj"));
+  for (const int k : {1, 2, 3}) {
+    EXPECT_EQ(drape(folder, "simulate scene.toml -o still.obj --every 1 --steps " + std::to_string(6 * k)).code, 0);
+    const auto vertices = [&](const std::string& file) {
+      const std::string text = test::content(folder.path(file));
+      return text.substr(text.find('\n'));  // after the line that says which frame it is
+    };
+    EXPECT_EQ(vertices(std::to_string(k) + ".obj"), vertices("still.obj")) << k;
+  }
+  EXPECT_EQ(drape(folder, "simulate scene.toml -o {frame}.obj --every 6 --frames 0..4").code, 2);
+  EXPECT_EQ(drape(folder, "simulate scene.toml -o x.obj --every 0").code, 2);
+}
+
 TEST(CommandLine, StepByStepPrintsEveryStepAndEndsAtQ) {
   const test::SceneFolder folder;
   folder.write("scene.toml", scene);

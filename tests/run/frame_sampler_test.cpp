@@ -18,9 +18,11 @@ Video video(double fps, double speed) {
   return v;
 }
 
-std::vector<Frame> sampled(Simulation& simulation, const FilmExtent& extent) {
+std::vector<Frame> sampled(Simulation& simulation, const FilmExtent& extent,
+                           FrameContents contents = FrameContents::places) {
   std::vector<Frame> frames;
-  FrameSampler sampler(extent, [&](Frame frame) { frames.push_back(std::move(frame)); });
+  FrameSampler sampler(
+      extent, [&](Frame frame) { frames.push_back(std::move(frame)); }, contents);
   const std::array<StepObserver*, 1> observers{&sampler};
   run_steps(simulation, extent.steps, observers, {});
   return frames;
@@ -47,6 +49,16 @@ TEST(FilmExtent, RefusesFramesAfterTheEnd) {
   EXPECT_THROW(FilmExtent(video(25, 1), 0.02, 417, FrameRange{0, 209}), UsageError);
 }
 
+TEST(FilmExtent, CountsStepsWhereItIsTold) {
+  const FilmExtent extent(video(25, 2), 0.02, 417, std::nullopt, 10);
+  EXPECT_EQ(extent.frames.last, 41);
+  EXPECT_EQ(extent.steps, 410);  // the last seven have no frame
+  EXPECT_EQ(extent.time(41), 410 * 0.02);
+  EXPECT_EQ(extent.seconds_per_frame, 0.2);
+  EXPECT_EQ(FilmExtent(video(25, 1), 0.02, 417, FrameRange{3, 10}, 7).steps, 70);
+  EXPECT_THROW(FilmExtent(video(25, 1), 0.02, 417, FrameRange{0, 42}, 10), UsageError);
+}
+
 TEST(FrameSampler, TakesAStepsOwnBitsWhereAFrameFallsOnIt) {
   Simulation simulation(test::homework(Method::liu13, 0.02, 180)), again(test::homework(Method::liu13, 0.02, 180));
   const auto frames = sampled(simulation, FilmExtent(video(25, 1), 0.02, 20, std::nullopt));
@@ -66,6 +78,44 @@ TEST(FrameSampler, InterpolatesLinearlyBetweenSteps) {
   again.step();
   EXPECT_LT((frames[1].positions - (0.75 * before + 0.25 * again.state().x)).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_DOUBLE_EQ(frames[1].time, 0.025);
+}
+
+TEST(FrameSampler, TakesEveryStepWithItsOwnBits) {
+  // A step that is no binary fraction: k·h must not miss a step by its rounding.
+  Simulation simulation(test::homework(Method::liu13, 0.0123, 180)), again(test::homework(Method::liu13, 0.0123, 180));
+  const auto frames = sampled(simulation, FilmExtent(video(25, 1), 0.0123, 20, std::nullopt, 3), FrameContents::motion);
+  ASSERT_EQ(frames.size(), 7u);
+  for (const Frame& frame : frames) {
+    EXPECT_EQ(frame.time, again.time());
+    EXPECT_EQ(frame.positions, again.state().x);
+    EXPECT_EQ(frame.velocities, again.state().v);
+    ASSERT_TRUE(frame.energies);
+    EXPECT_EQ(frame.energies->total(), again.energies().total());
+    for (int step = 0; step < 3; ++step) again.step();
+  }
+}
+
+TEST(FrameSampler, InterpolatesHowTheClothMovesToo) {
+  // In free fall, velocities are linear in time, so that they are right between two steps.
+  SimulationSettings settings = test::setup(test::cloth_of(make_grid(2, 2), 1, 50, {}), Method::liu13, 0.02);
+  settings.effects = {Gravity{}};
+  const double g = Gravity{}.acceleration.z();
+  Simulation simulation(settings);
+  const auto frames = sampled(simulation, FilmExtent(video(37, 1), 0.02, 20, std::nullopt), FrameContents::motion);
+  ASSERT_EQ(frames.size(), 15u);
+  for (const Frame& frame : frames) {
+    EXPECT_LT((frame.velocities.col(2).array() - g * frame.time).abs().maxCoeff(), 1e-12) << frame.time;
+    ASSERT_TRUE(frame.energies);
+    EXPECT_NEAR(frame.energies->elastic, 0, 1e-12);
+  }
+}
+
+TEST(FrameSampler, AsksForNothingThatNobodyWants) {
+  Simulation simulation(test::homework(Method::liu13, 0.02, 180));
+  for (const Frame& frame : sampled(simulation, FilmExtent(video(25, 1), 0.02, 4, std::nullopt))) {
+    EXPECT_EQ(frame.velocities.size(), 0);
+    EXPECT_FALSE(frame.energies);
+  }
 }
 
 // What moves as one is the same picture at every moment, also between two steps.

@@ -111,9 +111,10 @@ TEST(Obj, HasTextureCoordinatesOnlyWhereTheMeshHasThem) {
 
 TEST(Obj, TellsNumbersInSinglePrecisionApart) {
   const test::SceneFolder folder;
-  const std::vector<Triangle> triangles{{0, 1, 2}};
+  Cloth cloth;
+  cloth.triangles = {{0, 1, 2}};
   FilmInfo film;
-  film.triangles = &triangles;
+  film.cloth = &cloth;
   Frame frame;
   frame.positions = Vertices(3, 3);
   frame.positions << 0.1F, std::nextafter(0.1F, 1.0F), 1e-20F, -16777217.0F, 3.14159274F, 1 / 3.0F, 0, 1, 5e5F;

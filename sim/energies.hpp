@@ -1,0 +1,14 @@
+#pragma once
+
+namespace drape {
+
+/// The energies of a cloth at one moment [J].
+struct Energies {
+  double kinetic = 0;  ///< Σ m v²/2
+  double gravity = 0;  ///< −Σ m g·x
+  double elastic = 0;  ///< of all springs and of bending
+
+  [[nodiscard]] double total() const { return kinetic + gravity + elastic; }
+};
+
+}  // namespace drape
