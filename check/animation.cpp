@@ -12,6 +12,7 @@
 #include "check/compare_motion.hpp"
 #include "check/draw_frames.hpp"
 #include "check/picture.hpp"
+#include "codecs/codecs.hpp"
 #include "core/read_file.hpp"
 #include "output/gif_encoder.hpp"
 #include "render/montage.hpp"
@@ -30,8 +31,7 @@ struct Pair {
 };
 
 Image decode(const Png& png) {
-  const cv::Mat bytes(1, static_cast<int>(png.size()), CV_8UC1, const_cast<char*>(png.data()));
-  const cv::Mat bgr = cv::imdecode(bytes, cv::IMREAD_COLOR);
+  const cv::Mat bgr = codecs().decode(png, cv::IMREAD_COLOR);
   Image image(bgr.cols, bgr.rows);
   if (!bgr.empty()) cv::cvtColor(bgr, cv::Mat(bgr.rows, bgr.cols, CV_8UC3, image.pixels.data()), cv::COLOR_BGR2RGB);
   return image;

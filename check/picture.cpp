@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "output/quiet.hpp"
+#include "codecs/codecs.hpp"
 
 namespace drape {
 namespace {
@@ -102,9 +102,7 @@ Image decode_png(std::string_view bytes, const Eigen::Vector2i& size) {
   }
   cv::Mat bgr;
   try {
-    const cv::Mat all(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-    const QuietStderr quiet;  // libpng says on its own what it does not like, without the file's name
-    bgr = cv::imdecode(all, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    bgr = codecs().decode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
     // said below
   }

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "codecs/codecs.hpp"
 #include "core/error.hpp"
 #include "output/registry.hpp"
 #include "output/try_format.hpp"
@@ -193,6 +194,11 @@ Diagnosis diagnose() {
   }
   diagnosis.drawing = find_drawing(diagnosis.backends);
 
+  diagnosis.codecs = {.name = "codecs", .detail = {}, .problem = {}, .packages = {}};
+  diagnosis.codecs.problem = problem_of([&] {
+    codecs();
+    diagnosis.codecs.detail = codecs_module().string();
+  });
   const TemporaryFolder folder;
   for (const OutputFormat& format : output_formats()) diagnosis.outputs.push_back(find_output(folder, format));
   diagnosis.optional = find_diagrams();

@@ -41,6 +41,7 @@ struct Diagnosis {
 
   std::vector<BackendFinding> backends;
   Finding drawing;  ///< detail: the backend that --backend auto picks; works if a picture came out as it should
+  Finding codecs;   ///< detail: the module that encodes and decodes
   std::vector<Finding> outputs;   ///< the formats of films
   std::vector<Finding> optional;  ///< what only some commands use
 

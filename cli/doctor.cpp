@@ -51,7 +51,7 @@ std::string to_text(const Diagnosis& d) {
     if (backend.works()) text += line("", limits(backend.facts));
   }
 
-  text += "\noutputs\n";
+  text += "\noutputs\n" + line(d.codecs);
   for (const Finding& output : d.outputs) text += line(output);
   text += "\nfor drape study\n";
   for (const Finding& finding : d.optional) text += line(finding);
@@ -116,6 +116,7 @@ Json to_json(const Diagnosis& d) {
           {"cholmod", d.cholmod},
           {"drawing", to_json(d.drawing)},
           {"backends", backends},
+          {"codecs", to_json(d.codecs)},
           {"outputs", to_json(d.outputs)},
           {"optional", to_json(d.optional)},
           {"missing_packages", d.missing_packages()}};

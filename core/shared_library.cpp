@@ -8,8 +8,9 @@
 
 namespace drape {
 
-SharedLibrary::SharedLibrary(std::string title, const std::vector<std::string>& names, const char* packages)
-    : title_(std::move(title)) {
+SharedLibrary::SharedLibrary(std::string title, const std::vector<std::string>& names, const char* packages,
+                             const char* task)
+    : title_(std::move(title)), task_(task) {
   std::string reason;
   for (const std::string& name : names) {
     // RTLD_LOCAL: OSMesa and EGL define functions of the same names and may live in the same process.
@@ -18,14 +19,14 @@ SharedLibrary::SharedLibrary(std::string title, const std::vector<std::string>& 
     if (reason.empty()) reason = dlerror();
   }
   throw OutputError(
-      fmt::format("cannot draw: no {} library can be loaded (looked for {}; {}); on Debian: apt-get install {}", title_,
-                  fmt::join(names, ", "), reason, packages));
+      fmt::format("cannot {}: no {} library can be loaded (looked for {}; {}); on Debian: apt-get install {}", task_,
+                  title_, fmt::join(names, ", "), reason, packages));
 }
 
 void* SharedLibrary::find(const char* name) const {
   void* const function = dlsym(handle_, name);
   if (function == nullptr) {
-    throw OutputError(fmt::format("cannot draw: the {} library has no {}; it is too old", title_, name));
+    throw OutputError(fmt::format("cannot {}: the {} library has no {}; it is too old", task_, title_, name));
   }
   return function;
 }

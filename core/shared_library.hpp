@@ -5,15 +5,17 @@
 
 namespace drape {
 
-/// A shared library that draws, loaded at run time: linking it would cost every start of the program. It stays loaded
-/// until the process ends: LLVM inside Mesa does not survive unloading.
+/// A shared library that is loaded at run time: linking it would cost every start of the program. It stays loaded until
+/// the process ends: LLVM inside Mesa does not survive unloading.
 class SharedLibrary {
  public:
   /// Loads the first of these that is there.
   /// @param title    what to call it in messages, as in "OSMesa"
   /// @param packages the Debian packages that bring it
+  /// @param task     what it is loaded for, in messages
   /// @throws OutputError if none is
-  SharedLibrary(std::string title, const std::vector<std::string>& names, const char* packages);
+  SharedLibrary(std::string title, const std::vector<std::string>& names, const char* packages,
+                const char* task = "draw");
 
   /// Finds a function by its name.
   /// @throws OutputError if the library has none
@@ -25,7 +27,7 @@ class SharedLibrary {
  private:
   [[nodiscard]] void* find(const char* name) const;
 
-  std::string title_;
+  std::string title_, task_;
   void* handle_ = nullptr;
 };
 

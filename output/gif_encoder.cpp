@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "codecs/codecs.hpp"
 #include "core/error.hpp"
 #include "output/gif/film_writer.hpp"
 #include "output/gif/palette.hpp"
@@ -31,7 +32,9 @@ double checked_rate(const std::filesystem::path& file, double fps) {
 }  // namespace
 
 GifEncoder::GifEncoder(const std::filesystem::path& file, double fps, std::function<void(int, int)> progress)
-    : fps_(checked_rate(file, fps)), file_(file), progress_(std::move(progress)), spool_(file_) {}
+    : fps_(checked_rate(file, fps)), file_(file), progress_(std::move(progress)), spool_(file_) {
+  codecs();  // read it back at the end; that they are missing is said now
+}
 
 std::int64_t GifEncoder::start(int frame) const { return std::llround(frame * 100.0 / fps_); }
 

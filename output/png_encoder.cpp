@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <opencv2/core/utility.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "codecs/codecs.hpp"
 #include "core/error.hpp"
 
 namespace drape {
@@ -16,7 +16,7 @@ std::string encode_png(const Image& image) {
   std::vector<std::uint8_t> bytes;
   try {
     cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-    if (!cv::imencode(".png", bgr, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6})) throw OutputError("cannot encode a PNG");
+    bytes = codecs().encode_png(bgr);
   } catch (const cv::Exception& error) {
     throw OutputError(fmt::format("cannot encode a PNG: {}", error.what()));
   }
@@ -28,7 +28,10 @@ OutputFormat png_format() {
           .help = "a picture",
           .made_by = "OpenCV " + cv::getVersionString(),
           .packages = "libopencv-dev",
-          .make = FrameMaker<Image>([](const FilmInfo&) { return encode_png; })};
+          .make = FrameMaker<Image>([](const FilmInfo&) {
+            codecs();  // what cannot be loaded is missed before the first frame
+            return encode_png;
+          })};
 }
 
 }  // namespace drape

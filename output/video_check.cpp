@@ -2,28 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/videoio.hpp>
-
+#include "codecs/codecs.hpp"
 #include "core/error.hpp"
-#include "output/quiet.hpp"
 
 namespace drape {
-namespace {
 
-cv::VideoCapture opened(const std::string& name) {
-  const QuietStderr quiet;
-  cv::VideoCapture video(name, cv::CAP_FFMPEG);
-  silence_ffmpeg();  // OpenCV has just undone it
-  return video;
-}
-
-}  // namespace
-
-int readable_frames(const PartialFile& file) {
-  int found = 0;
-  for (cv::VideoCapture video = opened(file.temporary().string()); video.isOpened() && video.grab();) ++found;
-  return found;
-}
+int readable_frames(const PartialFile& file) { return codecs().readable_frames(file.temporary().string()); }
 
 void require_frames(PartialFile& file, int count) {
   const int found = readable_frames(file);

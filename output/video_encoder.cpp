@@ -4,12 +4,10 @@
 
 #include <cmath>
 #include <opencv2/core/utility.hpp>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "output/quiet.hpp"
 #include "output/video_check.hpp"
 
 namespace drape {
@@ -40,7 +38,6 @@ OutputFormat video_format(const std::string& extension, const std::vector<VideoC
 VideoEncoder::VideoEncoder(const std::filesystem::path& file, double fps, const std::vector<VideoCodec>& codecs,
                            int width, int height)
     : fps_(checked_rate(file, fps)), file_(file) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   bool opened = false;
   std::string tried;
   for (const VideoCodec& codec : codecs) {
@@ -48,8 +45,7 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& file, double fps, const 
     if (open({width, height})) {
       opened = true;
       write(Image(width, height));
-      const QuietStderr quiet;
-      writer_.release();
+      pen_ = {};
       if (readable_frames(file_) == 1) return;
     }
     tried += (tried.empty() ? "" : " or ") + codec.name;
@@ -68,13 +64,9 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& file, double fps, const 
 }
 
 bool VideoEncoder::open(cv::Size size) {
-  const QuietStderr quiet;
-  const std::string& c = codec_.fourcc;
-  const bool opened =
-      writer_.open(file_.temporary().string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc(c[0], c[1], c[2], c[3]), fps_,
-                   {size.width + size.width % 2, size.height + size.height % 2});
-  silence_ffmpeg();  // OpenCV turns its messages on when it is first used
-  return opened;
+  pen_ = codecs().begin_video(file_.temporary().string(), codec_.fourcc, fps_,
+                              {size.width + size.width % 2, size.height + size.height % 2});
+  return pen_ != nullptr;
 }
 
 void VideoEncoder::write(const Image& image) {
@@ -82,7 +74,7 @@ void VideoEncoder::write(const Image& image) {
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   cv::copyMakeBorder(bgr, bgr, 0, image.height % 2, 0, image.width % 2, cv::BORDER_REPLICATE);
-  writer_.write(bgr);
+  pen_(bgr);
 }
 
 void VideoEncoder::add(const Image& image) {
@@ -102,7 +94,7 @@ void VideoEncoder::add(const Image& image) {
 
 std::vector<OutputFile> VideoEncoder::finish(Ending ending) {
   if (count_ == 0) return {};
-  writer_.release();
+  pen_ = {};
   require_frames(file_, count_);
   const std::uintmax_t size = file_.commit(ending);
   return {{file_.name(ending), size}};

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <opencv2/videoio.hpp>
 #include <string>
 #include <vector>
 
+#include "codecs/codecs.hpp"
 #include "core/atomic_file.hpp"
 #include "output/format.hpp"
 
@@ -40,7 +40,7 @@ class VideoEncoder : public Encoder {
   double fps_;
   PartialFile file_;
   VideoCodec codec_;
-  cv::VideoWriter writer_;
+  VideoPen pen_;
   cv::Size size_;  // of the images
   int count_ = 0;
 };

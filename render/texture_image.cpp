@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 
+#include "codecs/codecs.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
 #include "core/read_file.hpp"
@@ -65,8 +66,7 @@ cv::Mat read_image(const std::filesystem::path& file, int largest) {
   cv::Mat image;
   if (!bytes.empty() && !is_cut(bytes)) {
     try {
-      const cv::Mat encoded(1, static_cast<int>(content.size()), CV_8UC1, const_cast<char*>(content.data()));
-      image = cv::imdecode(encoded, cv::IMREAD_COLOR);
+      image = codecs().decode(content, cv::IMREAD_COLOR);
     } catch (const cv::Exception& error) {
       if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
       image.release();

@@ -1,4 +1,4 @@
-#include "output/quiet.hpp"
+#include "codecs/quiet.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

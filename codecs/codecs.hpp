@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace drape {
+
+/// Takes the next picture of a video: blue, green, red, all of one size. The video is complete when it is destroyed.
+using VideoPen = std::function<void(const cv::Mat& bgr)>;
+
+/// What encodes and decodes pictures and videos: OpenCV, in a module of ours beside the program
+/// (codecs/opencv_codecs.cpp), because starting with the two hundred libraries that it needs takes ten times as long as
+/// starting without. Functions, not a class: what the two would know of its type are two things to the sanitizers.
+struct Codecs {
+  /// The bytes of a PNG file.
+  /// @throws cv::Exception
+  std::vector<std::uint8_t> (*encode_png)(const cv::Mat& bgr);
+
+  /// The picture in the bytes of a file, as cv::imdecode(); says nothing on the terminal.
+  /// @param flags cv::ImreadModes
+  /// @returns a picture without pixels if they are damaged
+  /// @throws cv::Exception
+  cv::Mat (*decode)(std::string_view bytes, int flags);
+
+  /// Begins a video.
+  /// @param fourcc the four letters that a codec is known by
+  /// @param size   even numbers
+  /// @returns nothing if it cannot be written
+  VideoPen (*begin_video)(const std::string& file, const std::string& fourcc, double fps, cv::Size size);
+
+  /// How many frames a player would find in a video or GIF.
+  int (*readable_frames)(const std::string& file);
+};
+
+/// Where the module is: in the folder lib/drape that was installed or built with the program, wherever they were moved
+/// to.
+/// @throws OutputError if it is not there
+std::filesystem::path codecs_module();
+
+/// The codecs. The first call loads them, which takes a tenth of a second; from any thread.
+/// @throws OutputError if they cannot be loaded
+const Codecs& codecs();
+
+}  // namespace drape

@@ -1,0 +1,55 @@
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "codecs/codecs.hpp"
+#include "codecs/quiet.hpp"
+
+// The module: what drape links nothing of, and finds by the one name at the end.
+
+namespace drape {
+namespace {
+
+std::vector<std::uint8_t> encode_png(const cv::Mat& bgr) {
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(".png", bgr, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6})) bytes.clear();
+  return bytes;
+}
+
+cv::Mat decode(std::string_view bytes, int flags) {
+  const cv::Mat all(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+  const QuietStderr quiet;  // libpng says on its own what it does not like, without the file's name
+  return cv::imdecode(all, flags);
+}
+
+VideoPen begin_video(const std::string& file, const std::string& fourcc, double fps, cv::Size size) {
+  const QuietStderr quiet;
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  cv::VideoWriter writer;
+  const int code = cv::VideoWriter::fourcc(fourcc[0], fourcc[1], fourcc[2], fourcc[3]);
+  const bool opened = writer.open(file, cv::CAP_FFMPEG, code, fps, size);
+  silence_ffmpeg();  // OpenCV turns its messages on when it is first used
+  if (!opened) return {};
+  return [writer](const cv::Mat& bgr) mutable { writer.write(bgr); };
+}
+
+cv::VideoCapture opened(const std::string& file) {
+  const QuietStderr quiet;
+  cv::VideoCapture video(file, cv::CAP_FFMPEG);
+  silence_ffmpeg();  // OpenCV has just undone it
+  return video;
+}
+
+int readable_frames(const std::string& file) {
+  int found = 0;
+  for (cv::VideoCapture video = opened(file); video.isOpened() && video.grab();) ++found;
+  return found;
+}
+
+}  // namespace
+}  // namespace drape
+
+extern "C" const drape::Codecs* drape_codecs() {
+  static constexpr drape::Codecs codecs{drape::encode_png, drape::decode, drape::begin_video, drape::readable_frames};
+  return &codecs;
+}
