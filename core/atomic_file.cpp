@@ -129,6 +129,12 @@ void PartialFile::write(std::string_view bytes) {
   if (const int error_number = write_all(descriptor_, bytes)) fail(error_number);
 }
 
+void PartialFile::overwrite(std::uint64_t offset, std::string_view bytes) {
+  if (::lseek(descriptor_, static_cast<off_t>(offset), SEEK_SET) < 0) fail(errno);
+  write(bytes);
+  if (::lseek(descriptor_, 0, SEEK_END) < 0) fail(errno);
+}
+
 void PartialFile::require_space() {
   // More than the end of the last block, which is free on a full disk too.
   const std::string bytes(1 << 20, '\0');

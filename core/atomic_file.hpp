@@ -39,6 +39,9 @@ class PartialFile {
   /// Appends bytes. @throws OutputError with the system's reason
   void write(std::string_view bytes);
 
+  /// Writes over bytes that are there already. @throws OutputError with the system's reason
+  void overwrite(std::uint64_t offset, std::string_view bytes);
+
   /// Throws the system's reason why nothing more can be written, if there is one: for libraries that fail without a
   /// word. What was in the temporary file is lost.
   /// @throws OutputError

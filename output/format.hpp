@@ -53,6 +53,8 @@ struct OutputFormat {
   std::string made_by;    ///< the library that makes it, with its version; empty: drape itself
   std::string packages;   ///< of Debian, separated by spaces: what to install where it does not work
   std::variant<FilmMaker<Image>, FrameMaker<Image>, FilmMaker<Frame>, FrameMaker<Frame>> make;
+  std::vector<const char*> beside =
+      {};  ///< what may be written beside a file NAME.EXT: ".obj" is NAME.obj, see beside.hpp
 
   /// Whether it takes images, so that somebody has to draw them.
   [[nodiscard]] bool drawn() const;

@@ -6,17 +6,13 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
+#include "output/beside.hpp"
 #include "output/frame_files.hpp"
 #include "output/path_template.hpp"
 #include "output/registry.hpp"
 
 namespace drape {
 namespace {
-
-/// Digits of the sequence's last number, so that its files sort by name.
-int digits(const FilmInfo& film) {
-  return static_cast<int>(std::to_string(film.first_frame + std::max(1, film.expected_frames) - 1).size());
-}
 
 /// Makes the sinks of a film at one file.
 struct AtFile {
@@ -55,7 +51,7 @@ struct AtFiles {
   }
   template <class Item>
   AnySink operator()(const FrameMaker<Item>& make) const {
-    const auto name = [path = path, scene = film.scene, width = digits(film)](int frame) {
+    const auto name = [path = path, scene = film.scene, width = frame_digits(film)](int frame) {
       return path.path(scene, frame, width);
     };
     return std::make_unique<FrameFiles<Item>>(name, film.first_frame, make(film));
@@ -66,9 +62,18 @@ struct AtFiles {
 
 std::vector<std::string> output_files(const std::string& path, const FilmInfo& film) {
   const PathTemplate path_template(path);
+  const int frames = std::max(1, film.expected_frames);
   std::vector<std::string> files;
-  for (int i = 0; i < (path_template.has_frame() ? std::max(1, film.expected_frames) : 1); ++i) {
-    files.push_back(path_template.path(film.scene, film.first_frame + i, digits(film)));
+  for (int i = 0; i < (path_template.has_frame() ? frames : 1); ++i) {
+    files.push_back(path_template.path(film.scene, film.first_frame + i, frame_digits(film)));
+  }
+  const OutputFormat* format = find_format(path);
+  if (format == nullptr || path_template.has_frame()) return files;
+  const std::filesystem::path file = files.front();
+  for (const char* beside : format->beside) {
+    for (int i = 0; i < (PathTemplate(beside).has_frame() ? frames : 1); ++i) {
+      files.push_back(file_beside(file, beside, film, film.first_frame + i));
+    }
   }
   return files;
 }

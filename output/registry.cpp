@@ -8,9 +8,14 @@
 #include "core/error.hpp"
 #include "core/nearest.hpp"
 #include "output/gif_encoder.hpp"
+#include "output/npz_writer.hpp"
 #include "output/obj_writer.hpp"
+#include "output/pc2_writer.hpp"
+#include "output/ply_writer.hpp"
 #include "output/png_encoder.hpp"
+#include "output/usd_writer.hpp"
 #include "output/video_encoder.hpp"
+#include "output/vtk_writer.hpp"
 
 namespace drape {
 
@@ -22,6 +27,12 @@ const std::vector<OutputFormat>& output_formats() {
       webm_format(),  //
       avi_format(),   //
       obj_format(),   //
+      ply_format(),   //
+      npz_format(),   //
+      usda_format(),  //
+      pvd_format(),   //
+      vtp_format(),   //
+      pc2_format(),   //
   };
   return formats;
 }

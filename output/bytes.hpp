@@ -1,0 +1,36 @@
+#pragma once
+
+#include <bit>
+#include <cstring>
+#include <string>
+#include <type_traits>
+
+#include "sim/mesh.hpp"
+
+namespace drape {
+
+static_assert(std::endian::native == std::endian::little, "files have the machine's own byte order, and say little");
+
+/// Appends a number's bytes, the least significant first.
+template <class Number>
+void append_number(std::string& bytes, std::type_identity_t<Number> number) {
+  static_assert(std::is_arithmetic_v<Number>);
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+/// Vertices one after the other, x, y, z of each.
+/// @tparam Number of the file
+template <class Number>
+std::string vertex_bytes(const Vertices& vertices) {
+  const Eigen::Matrix<Number, Eigen::Dynamic, 3, Eigen::RowMajor> rows = vertices.template cast<Number>();
+  return {reinterpret_cast<const char*>(rows.data()), static_cast<std::size_t>(rows.size()) * sizeof(Number)};
+}
+
+/// The bytes of a row of things that are plain numbers.
+template <class Thing>
+std::string_view bytes_of(const std::vector<Thing>& things) {
+  static_assert(std::is_trivially_copyable_v<Thing>);
+  return {reinterpret_cast<const char*>(things.data()), things.size() * sizeof(Thing)};
+}
+
+}  // namespace drape

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/atomic_file.hpp"
+#include "core/spool.hpp"
+#include "output/format.hpp"
+
+namespace drape {
+
+/// An array of numpy that grows by rows: its bytes wait on disk until its file can be put into the archive.
+class NpyArray {
+ public:
+  /// @param type    as numpy's descr has it, with its quotes or brackets: "'<f8'"
+  /// @param row     the shape of a row: {n, 3} for an array of the shape (rows, n, 3)
+  NpyArray(const PartialFile& output, std::string name, std::string type, std::vector<std::size_t> row);
+
+  void append(std::string_view row);
+  void append_rows(std::size_t count, std::string_view bytes);
+
+  [[nodiscard]] std::string file_name() const { return name_ + ".npy"; }
+  /// What comes before the numbers (NEP 1, version 1.0).
+  [[nodiscard]] std::string header() const;
+  [[nodiscard]] std::uint64_t data_size() const { return data_.size(); }
+  /// Of header and numbers.
+  [[nodiscard]] std::uint32_t crc32() const;
+  void copy_to(PartialFile& file);
+
+ private:
+  std::string name_, type_;
+  std::vector<std::size_t> row_;
+  Spool data_;
+  std::size_t rows_ = 0;
+  std::uint32_t crc32_ = 0;  // of the numbers
+};
+
+/// The motion as an archive of numpy's arrays, whose names docs/outputs.md lists. Its memory does not grow with the
+/// motion; its arrays wait beside it on disk, since an archive takes one after the other.
+class NpzWriter final : public MotionWriter {
+ public:
+  NpzWriter(const std::filesystem::path& file, const FilmInfo& film);
+
+  void add(const Frame& frame) override;
+  std::vector<OutputFile> finish(Ending ending) override;
+
+ private:
+  NpyArray& make(std::string name, std::string type, std::vector<std::size_t> row);
+  void make_colliders(const Frame& first);
+
+  FilmInfo film_;
+  PartialFile file_;
+  std::vector<std::unique_ptr<NpyArray>> arrays_;
+  struct {
+    NpyArray *positions, *velocities, *times, *frames, *energies, *spheres, *grounds;
+  } of_ = {};  // of the motion; into arrays_
+  std::size_t vertices_ = 0;
+};
+
+OutputFormat npz_format();
+
+}  // namespace drape

@@ -1,0 +1,180 @@
+#include "output/usd_writer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Geometry>
+
+#include <utility>
+
+#include "output/usd_material.hpp"
+
+namespace drape {
+namespace {
+
+/// The shortest that is read back as the same number in single precision.
+std::string point(const Eigen::RowVector3d& x) {
+  const Eigen::RowVector3f p = x.cast<float>();
+  return fmt::format("({}, {}, {})", p[0], p[1], p[2]);
+}
+
+std::string point_list(const Vertices& points) {
+  std::string text = "[";
+  for (const auto& x : points.rowwise()) text += (text.size() > 1 ? ", " : "") + point(x);
+  return text + "]";
+}
+
+/// The lowest and the highest corner of the box around points.
+std::string box(const Vertices& points) {
+  return fmt::format("[{}, {}]", point(points.colwise().minCoeff()), point(points.colwise().maxCoeff()));
+}
+
+/// A row-major matrix that turns z into the normal and then moves, as USD has it: for row vectors.
+std::string placing(const Eigen::Quaterniond& turn, const Eigen::Vector3d& place) {
+  const Eigen::Matrix3d r = turn.toRotationMatrix().transpose();
+  std::string text = "(";
+  for (int i = 0; i < 3; ++i) text += fmt::format("({}, {}, {}, 0), ", r(i, 0), r(i, 1), r(i, 2));
+  return text + fmt::format("({}, {}, {}, 1))", place.x(), place.y(), place.z());
+}
+
+/// A list of numbers of anything that can be counted on.
+template <class Count, class Text>
+std::string list(Count count, Text text_of) {
+  std::string text = "[";
+  for (Count i = 0; i < count; ++i) text += (i > 0 ? ", " : "") + text_of(i);
+  return text + "]";
+}
+
+}  // namespace
+
+void UsdSamples::add(int time_code, std::string value) {
+  text_.append(fmt::format("            {}: {},\n", time_code, value));
+  if (first_.empty()) {
+    first_ = std::move(value);
+  } else {
+    moves_ = moves_ || value != first_;
+  }
+}
+
+void UsdSamples::write(PartialFile& file, const std::string& indent, const std::string& declaration) {
+  file.write(fmt::format("{}{} = {}\n", indent, declaration, first_));
+  if (!moves_) return;
+  file.write(fmt::format("{}{}.timeSamples = {{\n", indent, declaration));
+  text_.copy_to(file);
+  file.write(indent + "}\n");
+}
+
+UsdWriter::UsdWriter(const std::filesystem::path& file, const FilmInfo& film)
+    : film_(film), file_(file), points_(file_, "its points"), extent_(file_, "its extents") {
+  if (film.cloth != nullptr) patch_ = ground_patch(film.cloth->positions);
+}
+
+void UsdWriter::add_first(const Frame& frame) {
+  for (const Collider& collider : frame.colliders) {
+    if (std::holds_alternative<SphereShape>(collider)) {
+      balls_.push_back(std::make_unique<Ball>(
+          Ball{UsdSamples(file_, "its spheres' places"), UsdSamples(file_, "its spheres' radii")}));
+    } else if (const auto* ground = std::get_if<GroundShape>(&collider)) {
+      grounds_.push_back(*ground);
+    }
+  }
+}
+
+void UsdWriter::add(const Frame& frame) {
+  if (count_++ == 0) add_first(frame);
+  points_.add(frame.index, point_list(frame.positions));
+  extent_.add(frame.index, box(frame.positions));
+  std::size_t ball = 0;
+  for (const Collider& collider : frame.colliders) {
+    const auto* sphere = std::get_if<SphereShape>(&collider);
+    if (sphere == nullptr) continue;
+    const Eigen::Vector3d& c = sphere->center;
+    balls_.at(ball)->place.add(frame.index, fmt::format("({}, {}, {})", c.x(), c.y(), c.z()));
+    balls_.at(ball++)->radius.add(frame.index, fmt::format("{}", sphere->radius));
+  }
+}
+
+void UsdWriter::write_header() {
+  file_.write(
+      fmt::format("#usda 1.0\n(\n"
+                  "    defaultPrim = \"Scene\"\n"
+                  "    metersPerUnit = 1\n"
+                  "    upAxis = \"Z\"\n"
+                  "    timeCodesPerSecond = {}\n"
+                  "    framesPerSecond = {}\n"
+                  "    startTimeCode = {}\n"
+                  "    endTimeCode = {}\n"
+                  ")\n\n"
+                  "def Xform \"Scene\"\n{{\n",
+                  1 / film_.seconds_per_frame, film_.fps, film_.first_frame, film_.first_frame + count_ - 1));
+}
+
+void UsdWriter::write_cloth() {
+  const std::vector<Triangle>& triangles = film_.triangles();
+  const auto& uvs = film_.texture_coordinates();
+  const std::string indent(8, ' ');
+  file_.write("    def Mesh \"Cloth\" (\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n    )\n    {\n");
+  file_.write(indent + "uniform token subdivisionScheme = \"none\"\n" + indent +
+              "uniform token orientation = \"rightHanded\"\n" + indent + "uniform bool doubleSided = 1\n");
+  file_.write(indent + "int[] faceVertexCounts = " +
+              list(triangles.size(), [](std::size_t) { return std::string("3"); }) + "\n");
+  file_.write(indent + "int[] faceVertexIndices = " +
+              list(triangles.size(), [&](std::size_t t) { return fmt::format("{}", fmt::join(triangles[t], ", ")); }) +
+              "\n");
+  points_.write(file_, indent, "point3f[] points");
+  extent_.write(file_, indent, "float3[] extent");
+  if (!uvs.empty()) {
+    file_.write(indent + "texCoord2f[] primvars:st = " +
+                list(uvs.size(), [&](std::size_t i) { return fmt::format("({}, {})", uvs[i][0], uvs[i][1]); }) +
+                " (\n" + indent + "    interpolation = \"faceVarying\"\n" + indent + ")\n");
+  }
+  file_.write(indent + "rel material:binding = </Scene/ClothMaterial>\n    }\n\n");
+}
+
+void UsdWriter::write_colliders() {
+  const Look look = film_.look != nullptr ? *film_.look : Look{};
+  const std::string indent(8, ' ');
+  for (std::size_t i = 0; i < balls_.size(); ++i) {
+    file_.write(fmt::format("\n    def Sphere \"Sphere{}\"\n    {{\n", i + 1));
+    balls_[i]->radius.write(file_, indent, "double radius");
+    balls_[i]->place.write(file_, indent, "double3 xformOp:translate");
+    file_.write(indent + "uniform token[] xformOpOrder = [\"xformOp:translate\"]\n" + indent +
+                "color3f[] primvars:displayColor = [" + usd_color(look.sphere_color) + "]\n    }\n");
+  }
+  for (std::size_t i = 0; i < grounds_.size(); ++i) {
+    const GroundShape& ground = grounds_[i];
+    const Eigen::Vector3d middle = ground_corners(ground, patch_).colwise().mean().transpose();
+    file_.write(fmt::format("\n    def Plane \"Ground{}\"\n    {{\n", i + 1));
+    file_.write(
+        fmt::format("{0}uniform token axis = \"Z\"\n{0}double width = {1}\n{0}double length = {1}\n"
+                    "{0}matrix4d xformOp:transform = {2}\n"
+                    "{0}uniform token[] xformOpOrder = [\"xformOp:transform\"]\n"
+                    "{0}color3f[] primvars:displayColor = [{3}]\n    }}\n",
+                    indent, patch_.side,
+                    placing(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ground.normal), middle),
+                    usd_color(look.ground_color)));
+  }
+}
+
+std::vector<OutputFile> UsdWriter::finish(Ending ending) {
+  if (count_ == 0) return {};
+  write_header();
+  write_cloth();
+  file_.write(usd_material("/Scene/ClothMaterial", film_.look != nullptr ? *film_.look : Look{}, file_.file()));
+  write_colliders();
+  file_.write("}\n");
+  const std::uintmax_t size = file_.commit(ending);
+  return {{file_.name(ending), size}};
+}
+
+OutputFormat usda_format() {
+  return {.extension = ".usda",
+          .help = "the motion as ASCII USD [m, z up]: cloth, material, spheres and grounds",
+          .made_by = {},
+          .packages = {},
+          .make = FilmMaker<Frame>([](const std::filesystem::path& file, const FilmInfo& film) {
+            return std::make_unique<UsdWriter>(file, film);
+          })};
+}
+
+}  // namespace drape

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "run/run_scene.hpp"
+#include "run/run_steps.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/scene_folder.hpp"
+
+namespace drape::test {
+
+/// A cloth that swings above a ball that moves and over a ground. Frames fall between steps as well as on them.
+inline const std::string moving_scene = R"(
+[cloth]
+mesh = { grid = [4, 3] }
+stiffness = 50
+pins = ["corner:x-y-"]
+[time]
+step = 0.02
+duration = 0.4
+[video]
+fps = 20
+[look]
+color = "#ff8000"
+[effects.gravity]
+[effects.sphere]
+center = [0, 0, -0.5]
+radius = 0.3
+velocity = [0.5, 0, 0]
+[effects.ground]
+height = -1.25
+)";
+
+/// A file of a motion, and the frames that it should hold.
+struct WrittenMotion {
+  RunResult result;
+  std::vector<Frame> frames;
+};
+
+/// Runs a scene into outputs, and again without any.
+inline WrittenMotion write_motion(const Scene& scene, const std::vector<std::string>& outputs,
+                                  const RunOptions& other = {}) {
+  RunOptions options = other;
+  options.outputs = outputs;
+  Progress progress;
+  WrittenMotion written{.result = run_scene(scene, options, {}, progress), .frames = {}};
+  const FilmExtent film(scene.video, scene.simulation.step, scene.step_count(), options.frames, options.every);
+  FrameSampler sampler(
+      film, [&](Frame frame) { written.frames.push_back(std::move(frame)); }, FrameContents::motion);
+  Simulation simulation(scene.simulation);
+  run_steps(simulation, film.steps, std::array<StepObserver*, 1>{&sampler}, {});
+  return written;
+}
+
+/// A number at a place of a file's bytes.
+template <class Number>
+Number number_at(const std::string& bytes, std::size_t offset) {
+  Number number{};
+  EXPECT_LE(offset + sizeof number, bytes.size());
+  if (offset + sizeof number <= bytes.size()) bytes.copy(reinterpret_cast<char*>(&number), sizeof number, offset);
+  return number;
+}
+
+/// Vertices from the numbers of a file, x, y, z of each.
+template <class Number>
+Vertices vertices_at(const std::string& bytes, std::size_t offset, Eigen::Index count) {
+  Vertices vertices(count, 3);
+  for (Eigen::Index i = 0; i < 3 * count; ++i) {
+    vertices(i / 3, i % 3) = number_at<Number>(bytes, offset + static_cast<std::size_t>(i) * sizeof(Number));
+  }
+  return vertices;
+}
+
+}  // namespace drape::test
