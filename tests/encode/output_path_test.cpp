@@ -72,7 +72,8 @@ class MakeSink : public drape::test::InScratchFolder {
 };
 
 TEST_F(MakeSink, NamesTheValidExtensions) {
-  const std::string valid = "the valid ones are '.gif', '.png', '.mp4', '.webm', '.avi', '.obj', '.ply', '.npz', "
+  const std::string valid =
+      "the valid ones are '.gif', '.png', '.mp4', '.webm', '.avi', '.obj', '.ply', '.npz', "
       "'.usda', '.pvd', '.vtp', '.pc2'";
   EXPECT_EQ(error("x.gfi"),
             "the output " + path("x.gfi") + " has the unknown extension '.gfi'; did you mean '.gif'? " + valid);
@@ -84,7 +85,8 @@ TEST_F(MakeSink, TakesExtensionsInCapitals) { EXPECT_EQ(error("X.GIF"), "(no err
 
 TEST_F(MakeSink, RefusesFrameNumbersForOneFile) {
   const std::string message = error("{frame}.gif");
-  EXPECT_NE(message.find("a .gif holds all frames; one file per frame make '.png', '.obj', '.ply', '.vtp'"), std::string::npos)
+  EXPECT_NE(message.find("a .gif holds all frames; one file per frame make '.png', '.obj', '.ply', '.vtp'"),
+            std::string::npos)
       << message;
 }
 
