@@ -9,6 +9,7 @@
 #include "cli/studies.hpp"
 #include "core/nearest.hpp"
 #include "core/shell.hpp"
+#include "overlay/fonts.hpp"
 #include "render/gl/inspect.hpp"
 #include "run/outputs.hpp"
 #include "study/accuracy_animation.hpp"
@@ -88,6 +89,7 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
   for (const std::string& file : arguments.scenes) check_accuracy(file, options);
   if (!animations.empty()) {
     inspect_backend(arguments.backend);
+    const Fonts fonts;
     for (const Scene& scene : scenes) require_texture(scene);
   }
   const std::vector<std::string> names = unique_names(scenes);

@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "output/registry.hpp"
 #include "output/try_format.hpp"
+#include "overlay/fonts.hpp"
 #include "render/gl/context.hpp"
 #include "render/renderer.hpp"
 #include "scene/scene.hpp"
@@ -147,6 +148,17 @@ std::string first_font(const std::string& pdf) {
   return name.substr(name.find('+') + 1);  // of a subset, which has six letters before it
 }
 
+/// The fonts of captions: for Latin and Greek, and for Chinese.
+Finding find_text() {
+  Finding text{.name = "text", .detail = {}, .problem = {}, .packages = Fonts::packages()};
+  text.problem = problem_of([&] {
+    Fonts fonts;
+    fonts.require("aεµ中");
+    text.detail = fmt::format("{}; Chinese from {}", fonts.source(U'ε'), fonts.source(U'中'));
+  });
+  return text;
+}
+
 /// What draws the PDF and PNG files of a study's diagrams, and the font of their text.
 std::vector<Finding> find_diagrams() {
   Finding files{.name = "diagrams", .detail = {}, .problem = {}, .packages = SvgPrinter::packages()};
@@ -202,6 +214,7 @@ Diagnosis diagnose() {
   const TemporaryFolder folder;
   for (const OutputFormat& format : output_formats()) diagnosis.outputs.push_back(find_output(folder, format));
   diagnosis.optional = find_diagrams();
+  diagnosis.optional.push_back(find_text());
   return diagnosis;
 }
 

@@ -53,7 +53,7 @@ std::string to_text(const Diagnosis& d) {
 
   text += "\noutputs\n" + line(d.codecs);
   for (const Finding& output : d.outputs) text += line(output);
-  text += "\nfor drape study\n";
+  text += "\nfor captions and drape study\n";
   for (const Finding& finding : d.optional) text += line(finding);
 
   const std::vector<std::string> missing = d.missing_packages();

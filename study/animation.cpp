@@ -12,23 +12,24 @@
 #include "core/read_file.hpp"
 #include "core/text.hpp"
 #include "output/gif_encoder.hpp"
+#include "overlay/color_bar.hpp"
+#include "overlay/color_map.hpp"
+#include "overlay/pen.hpp"
 #include "render/montage.hpp"
 #include "render/renderer.hpp"
 #include "run/frame_sampler.hpp"
 #include "run/run_steps.hpp"
 #include "sim/flipped_pairs.hpp"
-#include "study/drawn_text.hpp"
 #include "study/reference.hpp"
 
 namespace drape {
 namespace {
 
-constexpr double most_frames_per_second = 10;  // a GIF that shows differences need not be smooth
-constexpr int picture_width = 340, gap = 6, band = 42, bar_height = 46, margin = 10;  // [pixels]
-constexpr double letters = 9;                                                         // height of a capital [pixels]
-constexpr double smallest = 1e-6, largest = 1;                                        // of the colour bar [m]
+constexpr double most_frames_per_second = 10;                        // a GIF that shows differences need not be smooth
+constexpr int picture_width = 340, gap = 6, band = 42, margin = 10;  // [pixels]
+constexpr int letters = 13;                                          // size of the font [pixels]
+constexpr double smallest = 1e-6, largest = 1;                       // of the colour bar [m]
 constexpr std::uint8_t paper = 255;
-const Rgb ink{0.12, 0.12, 0.13};
 // The lines of the mesh show triangles that are folded over, on dark colours as on bright ones.
 const Rgb mesh_ink{0.05, 0.05, 0.06};
 
@@ -49,31 +50,11 @@ std::vector<Frame> frames_of(const SimulationSettings& settings, const Video& vi
 }
 
 /// The strip below the panels.
-Image color_bar(int width) {
-  Image strip(width, bar_height);
-  std::fill(strip.pixels.begin(), strip.pixels.end(), paper);
-  const std::string title = "distance to the reference";
-  const int left = 2 * margin + text_width(title, letters), right = width - 4 * margin, top = 8, bottom = 22;
-  draw_text(strip, margin, bottom - 2, title, letters, ink);
-  for (int x = left; x < right; ++x) {
-    const Rgb color = viridis(static_cast<double>(x - left) / (right - 1 - left));
-    for (int y = top; y < bottom; ++y) {
-      std::uint8_t* pixel = strip.at(x, y);
-      for (const double part : {color.r, color.g, color.b}) *pixel++ = static_cast<std::uint8_t>(255 * part);
-    }
-  }
-  for (const auto& [value, name] : std::initializer_list<std::pair<double, const char*>>{{1e-6, "1 µm"},
-                                                                                         {1e-5, "10 µm"},
-                                                                                         {1e-4, "0.1 mm"},
-                                                                                         {1e-3, "1 mm"},
-                                                                                         {1e-2, "1 cm"},
-                                                                                         {0.1, "0.1 m"},
-                                                                                         {1, "1 m"}}) {
-    const int x = left + static_cast<int>(std::lround(along_bar(value) * (right - 1 - left)));
-    for (int y = bottom; y < bottom + 4; ++y) std::fill_n(strip.at(std::min(x, right - 1), y), 3, std::uint8_t{90});
-    draw_text(strip, x - text_width(name, letters) / 2, bottom + 17, name, letters, ink);
-  }
-  return strip;
+Image distance_bar(Pen& pen, int width) {
+  const std::vector<Tick> marks{{along_bar(1e-6), "1 µm"}, {along_bar(1e-5), "10 µm"}, {along_bar(1e-4), "0.1 mm"},
+                                {along_bar(1e-3), "1 mm"}, {along_bar(1e-2), "1 cm"},  {along_bar(0.1), "0.1 m"},
+                                {along_bar(1), "1 m"}};
+  return color_bar(pen, width, letters, "distance to the reference", marks);
 }
 
 Image beneath(const Image& upper, const Image& lower) {
@@ -87,8 +68,9 @@ Image beneath(const Image& upper, const Image& lower) {
 /// Draws panels of one cloth.
 class PanelPainter {
  public:
-  PanelPainter(const Scene& scene, const View& view, const Eigen::Vector2i& size, GlBackend backend)
-      : pairs_(scene.simulation.cloth.triangles),
+  PanelPainter(const Scene& scene, const View& view, const Eigen::Vector2i& size, GlBackend backend, Pen& pen)
+      : pen_(pen),
+        pairs_(scene.simulation.cloth.triangles),
         renderer_(data_folder(), size, view, look_of(scene.look), scene.simulation.cloth.vertex_count(),
                   scene.simulation.cloth.triangles, {}, backend) {}
 
@@ -99,12 +81,12 @@ class PanelPainter {
     const Image cloth = renderer_.draw(frame, colors);
     Image head(cloth.width, band);
     std::fill(head.pixels.begin(), head.pixels.end(), paper);
-    draw_text(head, margin, 16, label, letters, ink);
+    pen_.write(head, margin, 16, label, letters, band_ink);
     const int flipped = pairs_.count(frame.positions);
-    draw_text(head, margin, 34,
-              fmt::format("error {}, {} flipped {}", readable_length(distances.maxCoeff()), flipped,
-                          flipped == 1 ? "pair" : "pairs"),
-              letters, ink);
+    pen_.write(head, margin, 34,
+               fmt::format("error {}, {} flipped {}", readable_length(distances.maxCoeff()), flipped,
+                           flipped == 1 ? "pair" : "pairs"),
+               letters, band_ink);
     return beneath(head, cloth);
   }
 
@@ -116,6 +98,7 @@ class PanelPainter {
     return look;
   }
 
+  Pen& pen_;
   FlippedPairs pairs_;
   Renderer renderer_;
 };
@@ -137,6 +120,7 @@ View view_of(const Scene& scene, const Eigen::Vector2i& size, const std::vector<
 std::optional<std::string> animate_errors(const Scene& scene, const SimulationSettings& reference,
                                           const std::vector<AnimationPanel>& panels, const std::filesystem::path& file,
                                           GlBackend backend, const std::stop_token& stop, Progress& progress) {
+  Pen pen;
   progress.begin("simulating for the animation", "motions", static_cast<std::int64_t>(panels.size()) + 1);
   Video video = scene.video;
   video.fps = std::min(video.fps, most_frames_per_second);
@@ -150,7 +134,7 @@ std::optional<std::string> animate_errors(const Scene& scene, const SimulationSe
   if (stop.stop_requested()) return std::nullopt;
 
   const Eigen::Vector2i size(picture_width, picture_width * scene.video.size.y() / scene.video.size.x());
-  PanelPainter painter(scene, view_of(scene, size, motions), size, backend);
+  PanelPainter painter(scene, view_of(scene, size, motions), size, backend, pen);
   const int columns = panels.size() == 3 ? 3 : 2;
   const std::unique_ptr<Encoder> encoder =
       std::make_unique<GifEncoder>(file, video.fps, std::function<void(int, int)>());
@@ -165,7 +149,7 @@ std::optional<std::string> animate_errors(const Scene& scene, const SimulationSe
     std::vector<const Image*> list;
     for (const Image& picture : pictures) list.push_back(&picture);
     const Image all = montage(list, columns, gap, paper);
-    if (bar.width == 0) bar = color_bar(all.width);
+    if (bar.width == 0) bar = distance_bar(pen, all.width);
     encoder->add(beneath(all, bar));
     ++progress.done;
   }

@@ -15,7 +15,7 @@ namespace drape {
 /// A motion in an animation, and what stands above it.
 struct AnimationPanel {
   StudyCase what;
-  std::string label;  ///< "liu13, tolerance 0.001: 190 µs per step": ASCII and µ
+  std::string label;  ///< "liu13, tolerance 0.001: 190 µs per step"
 };
 
 /// A GIF in which several motions of a scene run side by side, each vertex in the colour of its distance to a reference
@@ -25,7 +25,7 @@ struct AnimationPanel {
 /// @param panels    cases whose scenes have the same cloth; their steps are not asked
 /// @param file      where it is written
 /// @returns the file's bytes; nothing if it was stopped
-/// @throws OutputError, DivergedError
+/// @throws OutputError where nothing can be drawn or written, or there is no font; DivergedError
 std::optional<std::string> animate_errors(const Scene& scene, const SimulationSettings& reference,
                                           const std::vector<AnimationPanel>& panels, const std::filesystem::path& file,
                                           GlBackend backend, const std::stop_token& stop, Progress& progress);

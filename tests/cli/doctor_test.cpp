@@ -82,6 +82,32 @@ TEST(Doctor, NoticesThatTextWouldBeMissing) {
   EXPECT_EQ(without.at(1).at("name"), "fonts");
   EXPECT_FALSE(without.at(1).at("works")) << without;
   EXPECT_EQ(without.at(1).at("packages"), "fonts-dejavu-core");
+  EXPECT_EQ(without.at(2).at("name"), "text");
+  EXPECT_FALSE(without.at(2).at("works")) << without;
+}
+
+TEST(Doctor, SaysWhichFontCaptionsAreWrittenIn) {
+  const SceneFolder folder;
+  const auto optional = nlohmann::json::parse(drape(folder, "doctor --json").text).at("optional");
+  if (!optional.back().at("works")) GTEST_SKIP() << optional.back().at("problem");
+  EXPECT_NE(optional.back().at("detail").get<std::string>().find("; Chinese from "), std::string::npos) << optional;
+}
+
+TEST(Captions, WithoutAFontAreRefusedBeforeTheRun) {
+  const SceneFolder folder;
+  const auto file = folder.write("fonts.conf", "<fontconfig></fontconfig>");
+  folder.write("scene.toml", scene + "[caption]\ntext = \"t = {time}\"\n");
+  const std::string environment = "FONTCONFIG_FILE='" + file.string() + "'";
+  const Finished finished = drape(folder, "render scene.toml -o still.png", environment);
+  EXPECT_EQ(finished.code, 4) << finished.text;
+  EXPECT_NE(finished.text.find("scene.toml:10:8: cannot draw text: no font is found; on Debian: apt-get install "
+                               "fonts-dejavu-core"),
+            std::string::npos)
+      << finished.text;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "still.png"));
+  EXPECT_EQ(drape(folder, "simulate scene.toml", environment).code, 0) << "nothing is drawn";
+  folder.write("plain.toml", scene);
+  EXPECT_EQ(drape(folder, "render plain.toml -o still.png", environment).code, 0) << "there is no text";
 }
 
 TEST(Doctor, DrawsWithEglIfThereIsNoOsMesa) {

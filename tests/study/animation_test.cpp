@@ -4,7 +4,6 @@
 
 #include <fstream>
 
-#include "study/drawn_text.hpp"
 #include "study/reference.hpp"
 #include "tests/support/gif_file.hpp"
 #include "tests/support/scene_folder.hpp"
@@ -35,33 +34,6 @@ TEST(Animation, HasAPanelForEachMotionAndAFrameForEachMoment) {
   EXPECT_EQ(gif.delays.size(), 5U);  // 0 to 0.4 s, 10 a second
   EXPECT_EQ(gif.width, 2 * 340 + 6);
   EXPECT_GT(gif.height, 2 * 170);
-}
-
-TEST(DrawnText, StaysInThePictureAndHasTheWidthItSays) {
-  Image image(60, 20);
-  std::fill(image.pixels.begin(), image.pixels.end(), 255);
-  const Image blank = image;
-  draw_text(image, 200, 10, "outside", 9, {0, 0, 0});
-  EXPECT_EQ(image, blank);
-  draw_text(image, 0, 14, "5 µs", 9, {0, 0, 0});
-  int last = 0;
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      if (*image.at(x, y) < 200) last = std::max(last, x);
-    }
-  }
-  EXPECT_NEAR(last, text_width("5 µs", 9), 4);
-  EXPECT_GT(text_width("5 µs a step", 9), text_width("5 µs", 9));
-}
-
-TEST(Viridis, GetsBrighterAllTheWay) {
-  double before = -1;
-  for (int i = 0; i <= 10; ++i) {
-    const Rgb color = viridis(i / 10.0);
-    const double brightness = 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b;
-    EXPECT_GT(brightness, before);
-    before = brightness;
-  }
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+#include "overlay/axis_ticks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace drape {
+
+namespace {
+
+/// The largest such number that is not above one above 0.
+double round_down(double number) {
+  const double power = std::pow(10.0, std::floor(std::log10(number) + 1e-9));
+  for (const double factor : {5.0, 2.0}) {
+    if (number >= factor * power * (1 - 1e-9)) return factor * power;
+  }
+  return power;
+}
+
+}  // namespace
+
+double round_up(double number) {
+  const double power = std::pow(10.0, std::floor(std::log10(number)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (number <= factor * power * (1 + 1e-9)) return factor * power;
+  }
+  return 10 * power;
+}
+
+std::vector<Tick> ticks(double from, double to, int about) {
+  if (!(to > from)) return {{from, fmt::format("{:g}", from)}};
+  const double step = round_down((to - from) / about);
+  std::vector<Tick> marks;
+  for (double k = std::ceil(from / step - 1e-9); k * step <= to + 1e-9 * step; ++k) {
+    const double value = k == 0 ? 0 : k * step;  // not -0
+    marks.push_back({value, fmt::format("{:g}", value)});
+  }
+  return marks;
+}
+
+}  // namespace drape

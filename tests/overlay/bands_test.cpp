@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "overlay/color_bar.hpp"
+#include "overlay/color_map.hpp"
+#include "overlay/curve_band.hpp"
+
+namespace drape::overlay_bands {
+namespace {
+
+TEST(Viridis, IsThePublishedMap) {
+  cv::Mat grays(1, 256, CV_8UC1), colors;  // OpenCV has the whole table
+  for (int i = 0; i < 256; ++i) grays.at<std::uint8_t>(0, i) = static_cast<std::uint8_t>(i);
+  cv::applyColorMap(grays, colors, cv::COLORMAP_VIRIDIS);
+  for (int i = 0; i < 256; ++i) {
+    const auto bgr = colors.at<cv::Vec3b>(0, i);
+    const Rgb color = viridis(i / 255.0);
+    EXPECT_NEAR(255 * color.r, bgr[2], 1.01) << i;
+    EXPECT_NEAR(255 * color.g, bgr[1], 1.01) << i;
+    EXPECT_NEAR(255 * color.b, bgr[0], 1.01) << i;
+  }
+  EXPECT_EQ(viridis(-1), viridis(0));
+  EXPECT_EQ(viridis(2), viridis(1));
+}
+
+TEST(Ticks, AreMultiplesOfOneTwoOrFive) {
+  EXPECT_DOUBLE_EQ(round_up(0.3), 0.5);
+  EXPECT_DOUBLE_EQ(round_up(2), 2);
+  EXPECT_DOUBLE_EQ(round_up(51), 100);
+  std::vector<std::string> labels;
+  for (const Tick& tick : ticks(-4.3, 2, 3)) labels.push_back(tick.label);
+  EXPECT_EQ(labels, (std::vector<std::string>{"-4", "-2", "0", "2"}));
+}
+
+TEST(ColorBar, HasTheColourThatAMarkStandsFor) {
+  Pen pen;
+  const int size = 14;
+  const Image bar = color_bar(pen, 400, size, "speed [m/s]", {{0, "0"}, {0.5, "1"}, {1, "2"}});
+  EXPECT_EQ(bar.height, color_bar_height(size));
+  const auto has = [&](const Rgb& color) {
+    for (int y = 0; y < bar.height; ++y) {
+      for (int x = 0; x < bar.width; ++x) {
+        const std::uint8_t* p = bar.at(x, y);
+        if (std::abs(p[0] - 255 * color.r) < 2 && std::abs(p[1] - 255 * color.g) < 2 &&
+            std::abs(p[2] - 255 * color.b) < 2)
+          return true;
+      }
+    }
+    return false;
+  };
+  EXPECT_TRUE(has(viridis(0)));
+  EXPECT_TRUE(has(viridis(0.5)));
+  EXPECT_TRUE(has(viridis(1)));
+}
+
+/// The columns that have a pixel of nearly this colour, from the first to the last.
+std::pair<int, int> columns_of(const Image& image, const Rgb& color) {
+  std::pair<int, int> columns{image.width, -1};
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* p = image.at(x, y);
+      if (std::abs(p[0] - 255 * color.r) > 3 || std::abs(p[1] - 255 * color.g) > 3 ||
+          std::abs(p[2] - 255 * color.b) > 3)
+        continue;
+      columns = {std::min(columns.first, x), std::max(columns.second, x)};
+    }
+  }
+  return columns;
+}
+
+TEST(CurveBand, EndsWhereTheFilmIsAndKeepsItsAxes) {
+  Pen pen;
+  const Rgb blue{0, 0, 1};
+  std::vector<double> times, values;
+  for (int i = 0; i <= 100; ++i) {
+    times.push_back(0.02 * i);
+    values.push_back(std::sin(0.1 * i));
+  }
+  const CurveBand band(600, 14, "J", times, {{"a name of some length that has no place of its own", blue, values}});
+  const Image half = band.draw(pen, 1), whole = band.draw(pen, 2);
+  EXPECT_EQ(half.height, CurveBand::height(14));
+  const auto [from, to] = columns_of(half, blue);
+  const auto [whole_from, whole_to] = columns_of(whole, blue);
+  EXPECT_EQ(from, whole_from);
+  EXPECT_NEAR(to, (whole_from + whole_to) / 2.0, 8);
+  // What is drawn once does not move: left of where the half film is, both are the same but for the dot at its end.
+  for (int y = 0; y < half.height; ++y) {
+    for (int x = 0; x < to - 10; ++x) ASSERT_TRUE(std::equal(half.at(x, y), half.at(x, y) + 3, whole.at(x, y)));
+  }
+}
+
+TEST(CurveBand, TakesAFilmOfOneFrameAndEnergiesOfZero) {
+  Pen pen;
+  const CurveBand band(200, 12, "J", {0}, {{"total", {0, 0, 0}, {0}}});
+  EXPECT_EQ(band.draw(pen, 0).width, 200);
+}
+
+}  // namespace
+}  // namespace drape::overlay_bands
