@@ -17,6 +17,7 @@
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
 #include "render/texture_image.hpp"
+#include "run/annotations.hpp"
 #include "run/outputs.hpp"
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
@@ -91,7 +92,9 @@ void look_ahead(const std::vector<Scene>& scenes, const std::vector<RunOptions>&
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const Scene& scene = scenes[i];
     attempt([&] { require_outputs(scene, options[i]); });
-    if (needs_drawing(options[i])) attempt([&] { require_texture(scene, largest_texture); });
+    if (!needs_drawing(options[i])) continue;
+    attempt([&] { require_texture(scene, largest_texture); });
+    if (Annotations::wanted(scene)) attempt([&] { const Annotations fonts_are_there(scene); });
   }
   if (worst != ExitCode::ok) throw Error(worst, problems);
 }

@@ -21,6 +21,10 @@ struct Camera {
   double margin = 0.06;       ///< free border around the motion, as a fraction of the picture
 };
 
+/// What the colours of a cloth's vertices show, in place of its texture and its colour. The order is that of the names
+/// in a scene.
+enum class ColorBy { stretch, speed, curvature };
+
 /// What things look like. Colours are sRGB.
 struct Look {
   std::filesystem::path texture;  ///< an image file; empty: the plain `color`
@@ -35,6 +39,8 @@ struct Look {
   Rgb ground_color{0.84, 0.83, 0.81};
   double ground_grid = 0.5;  ///< distance of the lines on the ground, 0 without lines [m]
   int samples = 4;           ///< per pixel: 1 (off), 2, 4
+  std::optional<ColorBy> color_by;
+  std::optional<double> color_limit;  ///< what the last colour stands for: as a part of 1, [m/s] or [1/m]
 };
 
 /// The film: its size in pixels, its frames per second, and how much faster than the scene's time it plays.

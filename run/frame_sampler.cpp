@@ -64,7 +64,8 @@ void FrameSampler::begin(const Simulation& simulation) {
   emit_until(simulation);
 }
 
-void FrameSampler::after_step(const Simulation& simulation, const StepReport&, double) {
+void FrameSampler::after_step(const Simulation& simulation, const StepReport& report, double) {
+  iterations_ = report.iterations;
   emit_until(simulation);
   keep(simulation);
 }
@@ -85,7 +86,8 @@ Frame FrameSampler::frame(int index, const Simulation& simulation) const {
               .positions = positions_at(time, simulation, previous_),
               .colliders = simulation.colliders(time),
               .velocities = {},
-              .energies = {}};
+              .energies = {},
+              .iterations = iterations_};
   if (contents_ == FrameContents::motion) {
     const double back = part_back(time, simulation);
     frame.velocities = between(simulation.state().v, previous_velocities_, back);

@@ -67,6 +67,7 @@ class FrameSampler final : public StepObserver {
   Receiver receiver_;
   FrameContents contents_;
   int next_;
+  int iterations_ = 0;  // of the last step
   Vertices previous_, previous_velocities_;
   Energies previous_energies_;
 };

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "output/registry.hpp"
+#include "run/annotations.hpp"
 
 namespace drape {
 namespace {
@@ -31,8 +32,9 @@ FilmInfo film_info(const Scene& scene, const RunOptions& options) {
   film.seconds_per_frame = extent.seconds_per_frame;
   film.first_frame = extent.frames.first;
   film.expected_frames = extent.frames.count();
-  film.width = scene.video.size.x();
-  film.height = scene.video.size.y();
+  const Eigen::Vector2i size = Annotations::film_size(scene);
+  film.width = size.x();
+  film.height = size.y();
   film.cloth = &scene.simulation.cloth;
   film.uvs = &scene.uvs;
   film.look = &scene.look;

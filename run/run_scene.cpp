@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "render/renderer.hpp"
 #include "render/view.hpp"
+#include "run/annotations.hpp"
 #include "run/bounded_queue.hpp"
 #include "run/outputs.hpp"
 #include "run/run_steps.hpp"
@@ -49,6 +50,7 @@ class Pipeline {
         outputs_(options.outputs, with_progress(film_info(scene, options), progress)),
         drawn_(outputs_.drawn()),
         records_(options.records) {
+    if (drawn_ && Annotations::wanted(scene)) annotations_.emplace(scene);
     result_.steps_wanted = extent_.steps;
     if (!outputs_.none()) result_.frames_wanted = extent_.frames.count();
   }
@@ -115,7 +117,8 @@ class Pipeline {
         film_.push({std::move(frame), std::nullopt});
       }
     };
-    FrameSampler sampler(extent_, send, outputs_.contents());
+    const FrameContents shown = annotations_ ? annotations_->contents() : FrameContents::places;
+    FrameSampler sampler(extent_, send, std::max(outputs_.contents(), shown));
     StepCounter counter(progress_);
     if (result_.frames_wanted > 0) {
       if (drawn_ && !find_view()) return close_queues();
@@ -144,17 +147,22 @@ class Pipeline {
   }
 
   /// Hands the camera's view to the drawing thread. One that has to show the whole motion is found by running the
-  /// motion once before: all of it, so that a frame looks the same whichever range of frames is drawn.
+  /// motion once before: all of it, so that a frame looks the same whichever range of frames is drawn. So is what
+  /// annotations must know of it.
   /// @returns whether there is one: not if the run was interrupted before it was known
   bool find_view() {
-    if (!needs_motion(scene_.camera)) return view_.push(fixed_view(scene_.camera));
+    const bool annotated = annotations_ && annotations_->needs_motion();
+    const bool framed = needs_motion(scene_.camera);
+    if (!framed && !annotated) return view_.push(fixed_view(scene_.camera));
     Framing framing(scene_.camera, static_cast<double>(scene_.video.size[0]) / scene_.video.size[1]);
     const FilmExtent whole(scene_.video, scene_.simulation.step, options_.steps.value_or(scene_.step_count()), {},
                            options_.every);
-    FrameSampler sampler(whole, [&](const Frame& frame) {
+    const auto look_at = [&](const Frame& frame) {
       framing.add(frame.positions);
       for (const Collider& collider : frame.colliders) framing.add(collider);
-    });
+      if (annotated) annotations_->survey(frame);
+    };
+    FrameSampler sampler(whole, look_at, annotated ? annotations_->contents() : FrameContents::places);
     StepCounter counter(progress_);
     progress_.begin("framing", "steps", whole.steps);
     const std::array<StepObserver*, 2> observers{&sampler, &counter};
@@ -164,24 +172,31 @@ class Pipeline {
     } catch (const DivergedError&) {
       // The run itself will say so; up to here there is something to see.
     }
-    return !stop_.stop_requested() && view_.push(framing.view());
+    return !stop_.stop_requested() && view_.push(framed ? framing.view() : fixed_view(scene_.camera));
   }
 
   void draw() {
     const std::optional<View> view = view_.pop();
     if (!view) return film_.close();
-    Renderer renderer(data_folder(), scene_.video.size, *view, scene_.look, simulation_.cloth().vertex_count(),
-                      simulation_.cloth().triangles, scene_.uvs, options_.backend);
+    Renderer renderer(data_folder(), scene_.video.size, *view, Annotations::look(scene_),
+                      simulation_.cloth().vertex_count(), simulation_.cloth().triangles, scene_.uvs, options_.backend);
     result_.renderer = renderer.description();
     while (std::optional<Frame> frame = frames_.pop()) {
       const auto begin = Clock::now();
       FilmFrame shown;
-      if (!undrawn_.stop_requested()) shown.image = renderer.draw(*frame);
+      if (!undrawn_.stop_requested()) shown.image = picture(renderer, *frame);
       result_.draw_seconds += seconds_since(begin);
       shown.frame = std::move(*frame);
       film_.push(std::move(shown));
     }
     film_.close();
+  }
+
+  /// The film's picture of a frame.
+  Image picture(Renderer& renderer, const Frame& frame) {
+    if (!annotations_) return renderer.draw(frame);
+    const std::vector<Rgb> colors = annotations_->colors(frame);
+    return annotations_->annotate(colors.empty() ? renderer.draw(frame) : renderer.draw(frame, colors), frame);
   }
 
   void write() {
@@ -220,6 +235,7 @@ class Pipeline {
   Outputs outputs_;
   const bool drawn_;  // whether there is anything to draw
   Records records_;
+  std::optional<Annotations> annotations_;  // where there is anything to draw, and the scene asks for them
 
   BoundedQueue<View> view_{1};
   BoundedQueue<Frame> frames_{queue_capacity};

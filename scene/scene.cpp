@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "scene/caption.hpp"
 #include "scene/cloth_reader.hpp"
 #include "scene/digest.hpp"
 #include "scene/effects_reader.hpp"
@@ -170,6 +171,13 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
 
   for (const ReadEffect& read : effects) scene.simulation.effects.add(read.effect);
 
+  scene.fields = scene_fields(scene.name, scene_tables(cloth_table, scene), effects, document);
+  if (const TomlValue* caption = find_path(document, "caption")) {
+    const Place place = place_of(*caption, "text");
+    scene.caption.filled = fill_caption(scene.caption.text, scene.fields, place, problems);
+    scene.caption_place = problems.text(place);
+  }
+
   // A rule between keys means nothing where one of them could not be read: the default stands in its place.
   const Checks checks(scene, document, problems);
   if (reader.good("time") && reader.good("video")) checks.length();
@@ -186,7 +194,7 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   if (reader.good("check")) checks.compared_frames();
   if (reader.good("check") && reader.good("time") && reader.good("video")) checks.compared_frames_exist();
   problems.throw_if_any();
-  scene.digest = digest(document, {"check"});
+  scene.digest = digest(document, {"check", "caption", "overlay"});
   checks.stability();
   problems.throw_if_any();
   return scene;

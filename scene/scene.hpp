@@ -4,11 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "overlay/settings.hpp"
 #include "render/settings.hpp"
 #include "scene/check_settings.hpp"
 #include "sim/settings.hpp"
 
 namespace drape {
+
+/// A value that a text about a scene can name: "integrator.tolerance".
+struct SceneField {
+  std::string path;
+  FieldValue value;
+  bool operator==(const SceneField&) const = default;
+};
 
 /// A scene: plain data, complete and checked.
 struct Scene {
@@ -20,11 +28,15 @@ struct Scene {
   Camera camera;
   Look look;
   Video video;
+  CaptionSettings caption;
+  OverlaySettings overlay;
   CheckSettings check;
   std::vector<std::filesystem::path> inputs;  ///< every file that it is read from: itself, meshes, tracks, the texture
   std::string texture_place;                  ///< where the texture is named, for messages: "scene.toml:9:11"
-  /// A hash of what the file and the overrides say, but for [check]: comments, the order of keys and the way in which a
-  /// number is written do not change it. 16 hexadecimal digits.
+  std::vector<SceneField> fields;             ///< every key, and what holds for it
+  std::string caption_place;                  ///< where the caption's text is, for messages
+  /// A hash of what the file and the overrides say, but for [check], [caption] and [overlay]: comments, the order of
+  /// keys and the way in which a number is written do not change it. 16 hexadecimal digits.
   std::string digest;
 
   /// The number of steps that cover the duration: duration/step, rounded to the nearest whole number.

@@ -91,6 +91,15 @@ Keys look_keys(Look& look) {
   Keys keys;
   keys.add("texture", &look.texture, "", "The picture on the cloth, which needs a mesh with texture coordinates.");
   keys.add("color", &look.color, "", "Of the cloth, where it has no texture.");
+  keys.choice(
+      "color_by", look.color_by, {"stretch", "speed", "curvature"},
+      "Colours the cloth by what it does, in place of texture and color, with a bar below the picture that says "
+      "what they mean; see [captions.md](captions.md#colours). `drape check` draws the cloth without.");
+  keys.add(
+          "color_limit", &look.color_limit, "1, m/s or 1/m",
+          "What the last of these colours stands for; the first is 0. A stretch of 0.1 is 10 %. Without it 95 % of the "
+          "cloth stay below it in the whole motion.")
+      .above(0);
   keys.add("anisotropy", &look.anisotropy, "",
            "How much finer the texture is filtered across a slanted view than along it, where OpenGL can; 1 is off. In "
            "software it takes about nine times as long.")
@@ -113,6 +122,32 @@ Keys video_keys(Video& video) {
   keys.add("fps", &video.fps, "1/s", "Frames per second.").above(0).at_most(1000);
   keys.add("speed", &video.speed, "", "How many seconds of the scene pass in one second of the film.").above(0);
   keys.add("size", &video.size, "pixels", "Width and height.").at_least(16).at_most(8192);
+  return keys;
+}
+
+Keys caption_keys(CaptionSettings& caption) {
+  Keys keys;
+  keys.add("text", &caption.text, "",
+           "What it says, with names in braces: `t = {time:.2f} s`, see [captions.md](captions.md).")
+      .must_be_given();
+  keys.choice("place", caption.place, {"top-left", "top", "top-right", "bottom-left", "bottom", "bottom-right"},
+              "Where in the picture.");
+  keys.add("size", &caption.size, "pixels", "Of the letters. Without it a 22nd of the picture's height.")
+      .at_least(6)
+      .at_most(512);
+  keys.add("color", &caption.color, "",
+           "Of the letters. Without it black or white, whichever is read better on the background.");
+  keys.choice(
+      "backing", caption.backing, {"none", "halo", "panel"},
+      "What is behind the letters, in black or white, so that they are read on anything: nothing, a soft rim, or "
+      "a rectangle.");
+  return keys;
+}
+
+Keys overlay_keys(OverlaySettings& overlay) {
+  Keys keys;
+  keys.add("energies", &overlay.energies, "",
+           "The energies' curves, in a band below the picture, by which the film is higher than `size` says.");
   return keys;
 }
 
@@ -158,6 +193,9 @@ std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene) {
   add("camera", "Where the picture is taken from.", camera_keys(scene.camera));
   add("look", "What things look like.", look_keys(scene.look));
   add("video", "The film.", video_keys(scene.video));
+  add("caption", "A text on every picture of a film. `drape check` draws none.", caption_keys(scene.caption));
+  add("overlay", "What goes along with the film, see [captions.md](captions.md). `drape check` draws none of it.",
+      overlay_keys(scene.overlay));
   add("check", "What `drape check` compares, see [regression.md](regression.md). Nothing else reads it.",
       check_keys(scene.check))
       .replaced = {{"window", "the whole motion is compared now, in windows of 'window_time' seconds"}};

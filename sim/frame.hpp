@@ -17,6 +17,7 @@ struct Frame {
   std::vector<Collider> colliders;        ///< in the order of the scene
   Vertices velocities = {};               ///< n×3 [m/s]; empty where nobody has asked for them
   std::optional<Energies> energies = {};  ///< likewise absent
+  int iterations = 0;                     ///< of the step that it is in, or ends with
 };
 
 }  // namespace drape

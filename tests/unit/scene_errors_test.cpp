@@ -70,7 +70,7 @@ TEST(SceneErrors, AnUnknownTableNamesTheNearest) {
             "scene.toml:4:2: unknown table 'effect'; did you mean 'effects'?");
   EXPECT_EQ(folder.problems(with("renderer", "")),
             "scene.toml:4:2: unknown table 'renderer'; the tables are 'cloth', 'time', 'integrator', 'camera', 'look', "
-            "'video', 'check', 'effects'");
+            "'video', 'caption', 'overlay', 'check', 'effects'");
 }
 
 TEST(SceneErrors, AnUnknownEffectNamesTheNearest) {

@@ -1,0 +1,113 @@
+#include "run/annotations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "overlay/caption.hpp"
+#include "overlay/color_bar.hpp"
+#include "scene/caption.hpp"
+
+namespace drape {
+namespace {
+
+/// Told apart with any kind of colour vision (M. Okabe and K. Ito 2008), whatever the method.
+const Rgb total_color{0, 0, 0}, kinetic_color{0.835, 0.369, 0}, gravity_color{0, 0.447, 0.698},
+    elastic_color{0, 0.620, 0.451};
+
+/// Of the bands: a little smaller than a caption.
+int band_text_size(const Scene& scene) { return std::max(11, text_size(scene.video.size.y()) * 5 / 6); }
+
+/// Does something with the scene's text; an error names where it is.
+auto attributed(const Scene& scene, const auto& work) {
+  try {
+    return work();
+  } catch (const OutputError& error) {
+    throw OutputError(
+        fmt::format("{}: {}", scene.caption_place.empty() ? scene.file.string() : scene.caption_place, error.what()));
+  }
+}
+
+/// Adds rows to a picture, below it.
+void append(Image& picture, const Image& band) {
+  picture.height += band.height;
+  picture.pixels.insert(picture.pixels.end(), band.pixels.begin(), band.pixels.end());
+}
+
+}  // namespace
+
+Annotations::Annotations(const Scene& scene) : scene_(scene), pen_(attributed(scene, [] { return Pen(); })) {
+  const Look& look = scene.look;
+  if (look.color_by) coloring_.emplace(*look.color_by, look.color_limit, scene.simulation.cloth);
+  if (scene.overlay.energies) {
+    energies_ = {{"total", total_color, {}},
+                 {"kinetic", kinetic_color, {}},
+                 {"gravity", gravity_color, {}},
+                 {"elastic", elastic_color, {}}};
+  }
+  for (const TextTemplate::Piece& piece : scene.caption.filled.pieces()) {
+    if (!piece.is_field) attributed(scene, [&] { pen_.fonts().require(piece.text); });
+  }
+}
+
+bool Annotations::wanted(const Scene& scene) {
+  return !scene.caption.filled.empty() || scene.overlay.energies || scene.look.color_by;
+}
+
+Eigen::Vector2i Annotations::film_size(const Scene& scene) {
+  const int size = band_text_size(scene);
+  Eigen::Vector2i film = scene.video.size;
+  if (scene.look.color_by) film.y() += color_bar_height(size);
+  if (scene.overlay.energies) film.y() += CurveBand::height(size);
+  return film;
+}
+
+Look Annotations::look(const Scene& scene) {
+  Look look = scene.look;
+  if (look.color_by) look.texture.clear();
+  return look;
+}
+
+FrameContents Annotations::contents() const {
+  if (scene_.overlay.energies || needs_motion_facts(scene_.caption.filled)) return FrameContents::motion;
+  return coloring_ ? coloring_->contents() : FrameContents::places;
+}
+
+bool Annotations::needs_motion() const { return scene_.overlay.energies || (coloring_ && coloring_->needs_motion()); }
+
+void Annotations::survey(const Frame& frame) {
+  if (coloring_) coloring_->survey(frame);
+  if (!scene_.overlay.energies || !frame.energies) return;
+  const Energies& now = *frame.energies;
+  times_.push_back(frame.time);
+  const std::array values{now.total(), now.kinetic, now.gravity, now.elastic};
+  for (std::size_t i = 0; i < values.size(); ++i) energies_[i].values.push_back(values[i]);
+}
+
+std::vector<Rgb> Annotations::colors(const Frame& frame) const {
+  return coloring_ ? coloring_->colors(frame) : std::vector<Rgb>{};
+}
+
+Image Annotations::annotate(Image drawn, const Frame& frame) {
+  const Look& look = scene_.look;
+  const CaptionSettings& caption = scene_.caption;
+  if (!caption.filled.empty()) {
+    const auto value = [&](const std::string& name) { return moment_value(name, frame, scene_.simulation.step); };
+    const bool at_top = caption.place < CaptionPlace::bottom_left;
+    draw_caption(drawn, pen_, caption, caption.filled.fill(value),
+                 at_top ? look.background_top.value_or(look.background) : look.background);
+  }
+  const int size = band_text_size(scene_);
+  if (coloring_) {
+    if (!bar_) bar_ = color_bar(pen_, drawn.width, size, coloring_->title(), coloring_->marks());
+    append(drawn, *bar_);
+  }
+  if (scene_.overlay.energies) {
+    if (!curves_) curves_.emplace(drawn.width, size, "J", times_, energies_);
+    append(drawn, curves_->draw(pen_, frame.time));
+  }
+  return drawn;
+}
+
+}  // namespace drape
