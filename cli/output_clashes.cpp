@@ -27,6 +27,7 @@ std::vector<Writer> writers(std::size_t number, const Scene& scene, const RunOpt
   for (const std::string& path : options.outputs) {
     result.push_back({number, "-o " + path, output_files(path, film)});
   }
+  if (options.poster) result.push_back({number, "--poster", poster_files(options.outputs, film)});
   const RecordPaths& r = options.records;
   for (const auto& [option, file] : {std::pair{"--stats", r.stats}, std::pair{"--energies", r.energies},
                                      std::pair{"--positions", r.positions}, std::pair{"--trace", r.trace}}) {

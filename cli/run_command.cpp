@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "cli/byte_count.hpp"
 #include "cli/command_line.hpp"
 #include "cli/interruption.hpp"
 #include "cli/number_option.hpp"
@@ -32,8 +33,9 @@ struct RunArguments {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
   std::vector<std::string> outputs;
-  std::string frames;
+  std::string frames, max_size;
   std::optional<std::int64_t> steps, every;
+  bool poster = false;
   RecordPaths records;
   GlBackend backend = GlBackend::automatic;
   bool step_by_step = false;
@@ -68,6 +70,8 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
   options.steps = arguments.steps;
   if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
   options.every = arguments.every;
+  if (!arguments.max_size.empty()) options.largest_file = parse_byte_count("--max-size", arguments.max_size);
+  options.poster = arguments.poster;
   options.backend = arguments.backend;
   options.time_effects = verbose || !arguments.records.stats.empty();
   return options;
@@ -106,6 +110,18 @@ void require_no_drawing(const std::vector<std::string>& outputs) {
     if (format == nullptr || !format->drawn()) continue;
     throw UsageError(fmt::format("drape simulate draws nothing, and -o {} must be drawn: use drape render", path));
   }
+}
+
+/// @throws UsageError if what is asked of a film is asked where there is none
+void require_a_film(const RunArguments& arguments) {
+  if (arguments.max_size.empty() && !arguments.poster) return;
+  const auto is_film = [](const std::string& path) {
+    const OutputFormat* format = find_format(path);
+    return format != nullptr && format->drawn() && !format->file_per_frame();
+  };
+  if (std::ranges::any_of(arguments.outputs, is_film)) return;
+  throw UsageError(fmt::format("{} is for films, and no -o is one, such as .gif, .webp or .mp4",
+                               arguments.poster ? "--poster" : "--max-size"));
 }
 
 /// Says how a run ended, and returns its exit code.
@@ -151,6 +167,7 @@ ExitCode run(const Scene& scene, RunOptions options, bool step_by_step, const Co
 ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
   interruption();  // from here on, a signal ends what there is in good order
   if (!arguments.drawing) require_no_drawing(arguments.outputs);
+  require_a_film(arguments);
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, arguments.overrides);
   std::vector<RunOptions> options;
   for (const Scene& scene : scenes) options.push_back(run_options(arguments, scene, common.verbose));
@@ -203,6 +220,9 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
   CLI::App* render = app.add_subcommand("render", "Simulate scenes and draw them into films");
   add_outputs(*render, *arguments, "repeatable; default out/{scene}.gif", true);
   add_backend_option(*render, arguments->backend);
+  render->add_option("--max-size", arguments->max_size,
+                     "5MB: make a film's pictures smaller until it has no more bytes; also kB, GB, kiB, MiB, GiB");
+  render->add_flag("--poster", arguments->poster, "Put FILM.poster.png beside each film: the frame that shows most");
   add_shared_options(*render, *arguments);
   render->callback([arguments, &common, &command] {
     if (arguments->outputs.empty()) arguments->outputs = {"out/{scene}.gif"};

@@ -119,6 +119,7 @@ std::string summarize(const RunResult& result) {
     for (const OutputFile& file : files) size += file.size;
     text += fmt::format("\n{}  {}{}", name(files), files.size() > 1 ? fmt::format("{} files, ", files.size()) : "",
                         bytes(size));
+    if (!files.front().note.empty()) text += ", " + files.front().note;
   }
   for (const std::string& record : result.records) text += "\n" + record;
   return text;

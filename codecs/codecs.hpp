@@ -13,7 +13,11 @@ namespace drape {
 /// Takes the next picture of a video: blue, green, red, all of one size. The video is complete when it is destroyed.
 using VideoPen = std::function<void(const cv::Mat& bgr)>;
 
-/// What encodes and decodes pictures and videos: OpenCV, in a module of ours beside the program
+/// Takes the next picture of an animation; null, once: there is none, and the file is to be completed.
+/// @throws std::runtime_error why it cannot be written
+using AnimationPen = std::function<void(const cv::Mat* rgb)>;
+
+/// What encodes and decodes pictures and videos: OpenCV and FFmpeg, in a module of ours beside the program
 /// (codecs/opencv_codecs.cpp), because starting with the two hundred libraries that it needs takes ten times as long as
 /// starting without. Functions, not a class: what the two would know of its type are two things to the sanitizers.
 struct Codecs {
@@ -32,6 +36,11 @@ struct Codecs {
   /// @param size   even numbers
   /// @returns nothing if it cannot be written
   VideoPen (*begin_video)(const std::string& file, const std::string& fourcc, double fps, cv::Size size);
+
+  /// Begins an animation that repeats for ever.
+  /// @param form "webp", which is not quite exact, or "apng", which is
+  /// @throws std::runtime_error why it cannot be written
+  AnimationPen (*begin_animation)(const std::string& file, const std::string& form, double fps, cv::Size size);
 
   /// How many frames a player would find in a video or GIF.
   int (*readable_frames)(const std::string& file);

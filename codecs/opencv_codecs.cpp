@@ -3,6 +3,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "codecs/codecs.hpp"
+#include "codecs/libav_animation.hpp"
 #include "codecs/quiet.hpp"
 
 // The module: what drape links nothing of, and finds by the one name at the end.
@@ -50,6 +51,7 @@ int readable_frames(const std::string& file) {
 }  // namespace drape
 
 extern "C" const drape::Codecs* drape_codecs() {
-  static constexpr drape::Codecs codecs{drape::encode_png, drape::decode, drape::begin_video, drape::readable_frames};
+  static constexpr drape::Codecs codecs{drape::encode_png, drape::decode, drape::begin_video, drape::begin_animation,
+                                        drape::readable_frames};
   return &codecs;
 }

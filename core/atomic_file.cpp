@@ -135,6 +135,21 @@ void PartialFile::overwrite(std::uint64_t offset, std::string_view bytes) {
   if (::lseek(descriptor_, 0, SEEK_END) < 0) fail(errno);
 }
 
+void PartialFile::adopt(const fs::path& other) {
+  struct stat status {};
+  const int descriptor = ::open(other.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (descriptor < 0 || ::fstat(descriptor_, &status) != 0) fail(errno);
+  static_cast<void>(lock(descriptor, other));
+  static_cast<void>(::fchmod(descriptor, status.st_mode & 07777));
+  if (::rename(other.c_str(), temporary_.c_str()) != 0) {
+    const int error_number = errno;
+    ::close(descriptor);
+    fail(error_number);
+  }
+  ::close(descriptor_);
+  descriptor_ = descriptor;
+}
+
 void PartialFile::require_space() {
   // More than the end of the last block, which is free on a full disk too.
   const std::string bytes(1 << 20, '\0');

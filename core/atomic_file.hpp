@@ -42,6 +42,9 @@ class PartialFile {
   /// Writes over bytes that are there already. @throws OutputError with the system's reason
   void overwrite(std::uint64_t offset, std::string_view bytes);
 
+  /// Takes over the bytes of another file in its folder, which is gone then. @throws OutputError
+  void adopt(const std::filesystem::path& other);
+
   /// Throws the system's reason why nothing more can be written, if there is one: for libraries that fail without a
   /// word. What was in the temporary file is lost.
   /// @throws OutputError

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -22,6 +24,9 @@ struct FilmInfo {
   int first_frame = 0;              ///< number of the first frame added
   int expected_frames = 0;          ///< how many will be added; fewer is no error
   int width = 64, height = 64;      ///< of the pictures, to try beforehand what can be tried [pixels]
+
+  std::optional<std::uint64_t> largest_file =
+      {};  ///< of a film that is drawn [bytes]; its pictures become smaller for it
 
   /// The cloth before the first step, its texture coordinates as in Mesh, and what things look like. They outlive the
   /// sinks.

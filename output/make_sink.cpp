@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/nearest.hpp"
 #include "output/beside.hpp"
+#include "output/fitted_film.hpp"
 #include "output/frame_files.hpp"
 #include "output/path_template.hpp"
 #include "output/registry.hpp"
@@ -21,6 +22,9 @@ struct AtFile {
 
   template <class Item>
   AnySink operator()(const FilmMaker<Item>& make) const {
+    if constexpr (std::is_same_v<Item, Image>) {
+      if (film.largest_file) return std::make_unique<FittedFilm>(make, file, film);
+    }
     return make(file, film);
   }
   template <class Item>

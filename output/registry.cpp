@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
+#include "output/animation_encoder.hpp"
 #include "output/gif_encoder.hpp"
 #include "output/npz_writer.hpp"
 #include "output/obj_writer.hpp"
@@ -22,6 +23,8 @@ namespace drape {
 const std::vector<OutputFormat>& output_formats() {
   static const std::vector<OutputFormat> formats{
       gif_format(),   //
+      webp_format(),  //
+      apng_format(),  //
       png_format(),   //
       mp4_format(),   //
       webm_format(),  //

@@ -15,6 +15,7 @@ namespace drape {
 struct OutputFile {
   std::filesystem::path path;
   std::uintmax_t size = 0;  ///< [bytes]
+  std::string note = {};    ///< what is to be said of it: "412x343 pixels instead of 480x400"
 };
 
 /// Takes the frames of a film, one after the other, and makes files of them. A file appears under its name only when it

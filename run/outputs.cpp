@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "output/png_encoder.hpp"
 #include "output/registry.hpp"
 #include "run/annotations.hpp"
 
@@ -38,6 +39,7 @@ FilmInfo film_info(const Scene& scene, const RunOptions& options) {
   film.cloth = &scene.simulation.cloth;
   film.uvs = &scene.uvs;
   film.look = &scene.look;
+  film.largest_file = options.largest_file;
   return film;
 }
 
@@ -49,7 +51,7 @@ bool needs_drawing(const RunOptions& options) {
 }
 
 void require_outputs(const Scene& scene, const RunOptions& options) {
-  const Outputs outputs(options.outputs, film_info(scene, options));
+  const Outputs outputs(options.outputs, film_info(scene, options), options.poster);
   const Records records(options.records);
 }
 
@@ -62,8 +64,12 @@ void require_texture(const Scene& scene, int largest) {
   }
 }
 
-Outputs::Outputs(const std::vector<std::string>& paths, const FilmInfo& film) {
+Outputs::Outputs(const std::vector<std::string>& paths, const FilmInfo& film, bool poster) {
   for (const std::string& path : paths) outputs_.push_back({path, make_sink(path, film)});
+  if (!poster) return;
+  poster_.emplace(film);
+  poster_files_ = poster_files(paths, film);
+  for (const std::string& file : poster_files_) require_writable(file);
 }
 
 bool Outputs::none() const {
@@ -98,6 +104,19 @@ void Outputs::attempt(Output& output, Work work) {
 
 void Outputs::add(const FilmFrame& frame) {
   for (Output& output : outputs_) attempt(output, [&](auto& sink) { add_to(sink, frame); });
+  if (poster_ && frame.image) poster_->see(frame.frame, *frame.image);
+}
+
+std::vector<OutputFile> Outputs::write_poster(const std::string& name, Ending ending) {
+  try {
+    PartialFile file(name);
+    file.write(encode_png(*poster_->image()));
+    const std::uintmax_t size = file.commit(ending);
+    return {{file.name(ending), size, fmt::format("frame {}", poster_->frame())}};
+  } catch (const Error& error) {
+    problems_.emplace_back(error.what());
+    return {};
+  }
 }
 
 std::vector<std::vector<OutputFile>> Outputs::finish(Ending ending) {
@@ -107,6 +126,11 @@ std::vector<std::vector<OutputFile>> Outputs::finish(Ending ending) {
       std::vector<OutputFile> files = sink.finish(ending);
       if (!files.empty()) written.push_back(std::move(files));
     });
+  }
+  for (const std::string& file : poster_files_) {
+    if (!poster_->image()) break;
+    std::vector<OutputFile> files = write_poster(file, ending);
+    if (!files.empty()) written.push_back(std::move(files));
   }
   return written;
 }

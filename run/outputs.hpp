@@ -7,6 +7,7 @@
 
 #include "output/make_sink.hpp"
 #include "render/texture_image.hpp"
+#include "run/poster.hpp"
 #include "run/run_scene.hpp"
 
 namespace drape {
@@ -40,8 +41,9 @@ struct FilmFrame {
 /// The outputs of a run. One that cannot be written is given up, and does not keep the others from being completed.
 class Outputs {
  public:
+  /// @param poster whether each film that is drawn gets one
   /// @throws UsageError, OutputError as make_sink()
-  Outputs(const std::vector<std::string>& paths, const FilmInfo& film);
+  Outputs(const std::vector<std::string>& paths, const FilmInfo& film, bool poster = false);
 
   /// Whether no output takes frames (any more).
   [[nodiscard]] bool none() const;
@@ -72,7 +74,12 @@ class Outputs {
   template <class Work>
   void attempt(Output& output, Work work);
 
+  /// @returns what was written
+  std::vector<OutputFile> write_poster(const std::string& file, Ending ending);
+
   std::vector<Output> outputs_;
+  std::optional<Poster> poster_;
+  std::vector<std::string> poster_files_;
   std::vector<std::string> problems_;
 };
 

@@ -47,7 +47,7 @@ class Pipeline {
         progress_(progress),
         extent_(film_extent(scene, options)),
         simulation_(scene.simulation, options.time_effects ? Timing::effects : Timing::none),
-        outputs_(options.outputs, with_progress(film_info(scene, options), progress)),
+        outputs_(options.outputs, with_progress(film_info(scene, options), progress), options.poster),
         drawn_(outputs_.drawn()),
         records_(options.records) {
     if (drawn_ && Annotations::wanted(scene)) annotations_.emplace(scene);

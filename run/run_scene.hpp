@@ -19,9 +19,11 @@ namespace drape {
 struct RunOptions {
   std::vector<std::string> outputs;  ///< films, frames and stills, see make_sink()
   RecordPaths records;
-  std::optional<std::int64_t> steps;  ///< instead of the scene's duration
-  std::optional<FrameRange> frames;   ///< draw only these, and simulate no further than they need
-  std::optional<std::int64_t> every;  ///< steps from a frame to the next; absent: as the scene's video says
+  std::optional<std::int64_t> steps;          ///< instead of the scene's duration
+  std::optional<FrameRange> frames;           ///< draw only these, and simulate no further than they need
+  std::optional<std::int64_t> every;          ///< steps from a frame to the next; absent: as the scene's video says
+  std::optional<std::uint64_t> largest_file;  ///< that a film may become [bytes], see FittedFilm
+  bool poster = false;                        ///< put a picture beside each film, see Poster
   GlBackend backend = GlBackend::automatic;
   bool time_effects = false;         ///< measure which part of the steps' time each effect takes
   StepObserver* observer = nullptr;  ///< told of every step too, on the thread that simulates, after it is recorded

@@ -133,6 +133,39 @@ TEST(CommandLine, TakesAFrameAfterEverySoManySteps) {
   EXPECT_EQ(drape(folder, "simulate scene.toml -o x.obj --every 0").code, 2);
 }
 
+TEST(CommandLine, MakesAFilmNoLargerThanItMayBe) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const std::string render = "render scene.toml -o x.gif --set 'video.size=[160,120]' --max-size ";
+  const Finished finished = drape(folder, render + "12kB");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  EXPECT_LE(fs::file_size(folder.path() / "x.gif"), 12000U);
+  EXPECT_NE(finished.text.find(" pixels instead of 160x120"), std::string::npos) << finished.text;
+  EXPECT_EQ(drape(folder, render + "100B").code, 4);
+  for (const char* nonsense : {"5XB", "MB", "0", "-3kB", "nan"}) {
+    const Finished refused = drape(folder, render + nonsense);
+    EXPECT_EQ(refused.code, 2) << nonsense;
+    EXPECT_NE(refused.text.find("--max-size takes a number of bytes such as 5MB"), std::string::npos) << refused.text;
+  }
+  EXPECT_EQ(drape(folder, "render scene.toml -o x.png --max-size 5MB").code, 2);
+}
+
+TEST(CommandLine, PutsAPosterBesideEachFilm) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const Finished finished = drape(folder, "render scene.toml -o a.gif -o b.avi -o {frame}.png --poster");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  const std::size_t at = finished.text.find(", frame ");
+  ASSERT_NE(at, std::string::npos) << finished.text;
+  char number[3] = {};
+  std::snprintf(number, sizeof number, "%02d", std::stoi(finished.text.substr(at + 8)));
+  const std::string picture = test::content(folder.path(std::string(number) + ".png"));
+  EXPECT_FALSE(picture.empty());
+  EXPECT_EQ(test::content(folder.path("a.poster.png")), picture);
+  EXPECT_EQ(test::content(folder.path("b.poster.png")), picture);
+  EXPECT_EQ(drape(folder, "render scene.toml -o a.gif -o a.avi --poster").code, 2);  // one poster for both
+}
+
 TEST(CommandLine, StepByStepPrintsEveryStepAndEndsAtQ) {
   const test::SceneFolder folder;
   folder.write("scene.toml", scene);

@@ -73,7 +73,7 @@ class MakeSink : public drape::test::InScratchFolder {
 
 TEST_F(MakeSink, NamesTheValidExtensions) {
   const std::string valid =
-      "the valid ones are '.gif', '.png', '.mp4', '.webm', '.avi', '.obj', '.ply', '.npz', "
+      "the valid ones are '.gif', '.webp', '.apng', '.png', '.mp4', '.webm', '.avi', '.obj', '.ply', '.npz', "
       "'.usda', '.pvd', '.vtp', '.pc2'";
   EXPECT_EQ(error("x.gfi"),
             "the output " + path("x.gfi") + " has the unknown extension '.gfi'; did you mean '.gif'? " + valid);

@@ -1,0 +1,61 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "run/poster.hpp"
+
+namespace drape {
+namespace {
+
+/// A strip of three squares, whose ends are bent up by an angle.
+Vertices bent(double angle) {
+  Vertices x(8, 3);
+  for (int i = 0; i < 2; ++i) {
+    x.row(4 * i) << -std::cos(angle), i, std::sin(angle);
+    x.row(4 * i + 1) << 0, i, 0;
+    x.row(4 * i + 2) << 1, i, 0;
+    x.row(4 * i + 3) << 1 + std::cos(angle), i, std::sin(angle);
+  }
+  return x;
+}
+
+int chosen_of(const std::vector<double>& angles) {
+  Cloth cloth;
+  for (int i = 0; i < 3; ++i) {
+    cloth.triangles.push_back({i, i + 1, i + 4});
+    cloth.triangles.push_back({i + 5, i + 4, i + 1});
+  }
+  FilmInfo film;
+  film.cloth = &cloth;
+  Poster poster(film);
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    Frame frame;
+    frame.index = static_cast<int>(k);
+    frame.positions = bent(angles[k]);
+    Image image(1, 1);
+    image.pixels[0] = static_cast<std::uint8_t>(k);
+    poster.see(frame, image);
+  }
+  EXPECT_EQ(poster.image()->pixels[0], poster.frame());
+  return poster.frame();
+}
+
+TEST(Poster, IsOfTheFrameInWhichTheClothIsBentMost) {
+  EXPECT_EQ(chosen_of({0, 0.3, 1.2, 0.7}), 2);
+  EXPECT_EQ(chosen_of({0, -0.3, -2.5, 0.7}), 2);  // up or down, and beyond a right angle
+}
+
+TEST(Poster, IsOfTheFirstFrameOfSeveral) {
+  EXPECT_EQ(chosen_of({0, 0, 0}), 0);
+  EXPECT_EQ(chosen_of({0, 0.5, 0.5 + 1e-13}), 1);
+}
+
+TEST(Poster, GoesBesideEachFilm) {
+  FilmInfo film;
+  film.scene = "flag";
+  EXPECT_EQ(poster_files({"out/{scene}.gif", "a.b.webp", "{frame}.png", "still.png", "x.npz"}, film),
+            (std::vector<std::string>{"out/flag.poster.png", "a.b.poster.png"}));
+}
+
+}  // namespace
+}  // namespace drape
