@@ -152,16 +152,20 @@ TEST_F(Interop, ThreeAndTinyusdzReadTheStage) {
 }
 
 TEST_F(Interop, BlenderShowsTheCacheOnItsMeshAndTheMeshes) {
-  const test::WrittenMotion written = write({"x.pc2", "{frame}.ply"});
-  std::string meshes;
-  for (std::size_t k = 0; k < written.frames.size(); ++k) meshes += quoted(std::to_string(k) + ".ply");
+  const test::WrittenMotion written = write({"x.pc2", "{frame}.ply", "{frame}.obj"});
+  const std::size_t count = written.frames.size();
+  std::string arguments = quoted("x.pc2") + " " + std::to_string(count);
+  for (const std::string extension : {".ply", ".obj"}) {
+    for (std::size_t k = 0; k < count; ++k) arguments += quoted(std::to_string(k) + extension);
+  }
   const Found found = read_by("blender --background --factory-startup --python-exit-code 1 --python " +
-                              reader("read_blender.py") + " --" + quoted("x.pc2") + meshes);
+                              reader("read_blender.py") + " --" + arguments);
   EXPECT_EQ(found.triangles, scene_.simulation.cloth.triangles);
-  ASSERT_EQ(found.moments.size(), 2 * written.frames.size());
-  const auto middle = found.moments.begin() + static_cast<std::ptrdiff_t>(written.frames.size());
-  expect_same({found.moments.begin(), middle}, written.frames, single_precision);
-  expect_same({middle, found.moments.end()}, written.frames, single_precision);
+  ASSERT_EQ(found.moments.size(), 3 * count);
+  for (std::size_t form = 0; form < 3; ++form) {  // the cache, .ply, .obj
+    const auto first = found.moments.begin() + static_cast<std::ptrdiff_t>(form * count);
+    expect_same({first, first + static_cast<std::ptrdiff_t>(count)}, written.frames, single_precision);
+  }
 }
 
 }  // namespace
