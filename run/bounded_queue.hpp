@@ -30,7 +30,7 @@ class BoundedQueue {
     std::unique_lock lock(mutex_);
     not_empty_.wait(lock, [&] { return !items_.empty() || closed_; });
     if (items_.empty()) return std::nullopt;
-    T item = std::move(items_.front());
+    std::optional<T> item(std::move(items_.front()));
     items_.pop_front();
     not_full_.notify_one();
     return item;

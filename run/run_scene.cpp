@@ -183,11 +183,10 @@ class Pipeline {
     result_.renderer = renderer.description();
     while (std::optional<Frame> frame = frames_.pop()) {
       const auto begin = Clock::now();
-      FilmFrame shown;
-      if (!undrawn_.stop_requested()) shown.image = picture(renderer, *frame);
+      std::optional<Image> image;
+      if (!undrawn_.stop_requested()) image.emplace(picture(renderer, *frame));
       result_.draw_seconds += seconds_since(begin);
-      shown.frame = std::move(*frame);
-      film_.push(std::move(shown));
+      film_.push({std::move(*frame), std::move(image)});
     }
     film_.close();
   }
