@@ -34,6 +34,7 @@ Spool::Spool(const PartialFile& output, std::string kept) : file_(output.file())
 }
 
 void Spool::append(std::string_view bytes) {
+  if (bytes.empty()) return;  // of which there may be no address
   if (std::fwrite(bytes.data(), 1, bytes.size(), stream_.get()) != bytes.size()) fail(errno);
   size_ += bytes.size();
 }
