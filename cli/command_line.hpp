@@ -20,6 +20,9 @@ using Command = std::function<ExitCode()>;
 /// Adds the subcommands that run scenes, render and simulate. The one that is chosen sets `command`.
 void add_run_commands(CLI::App& app, const CommonOptions& common, Command& command);
 
+/// Adds compare, which draws motions side by side.
+void add_compare_command(CLI::App& app, const CommonOptions& common, Command& command);
+
 /// Add check, accept and bless likewise.
 void add_check_command(CLI::App& app, const CommonOptions& common, Command& command);
 void add_accept_command(CLI::App& app, const CommonOptions& common, Command& command);

@@ -2,10 +2,11 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "cli/byte_count.hpp"
 #include "cli/command_line.hpp"
+#include "cli/frame_list.hpp"
+#include "cli/grid_option.hpp"
 #include "cli/interruption.hpp"
 #include "cli/number_option.hpp"
 #include "cli/output_clashes.hpp"
@@ -33,7 +34,7 @@ struct RunArguments {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
   std::vector<std::string> outputs;
-  std::string frames, max_size;
+  std::string frames, max_size, sheet;
   std::optional<std::int64_t> steps, every;
   bool poster = false;
   RecordPaths records;
@@ -41,18 +42,6 @@ struct RunArguments {
   bool step_by_step = false;
   bool drawing = true;  ///< render; simulate draws nothing
 };
-
-FrameRange parse_frames(const std::string& text) {
-  FrameRange range;
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, range.first);
-  const bool two = first.ec == std::errc() && std::string_view(first.ptr, end).starts_with("..");
-  const auto last = two ? std::from_chars(first.ptr + 2, end, range.last) : first;
-  if (!two || last.ec != std::errc() || last.ptr != end || range.first < 0 || range.last < range.first) {
-    throw UsageError(fmt::format("--frames takes A..B, two frame numbers with 0 ≤ A ≤ B, found '{}'", text));
-  }
-  return range;
-}
 
 RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool verbose) {
   const auto expanded = [&](const std::string& text) {
@@ -72,6 +61,7 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
   options.every = arguments.every;
   if (!arguments.max_size.empty()) options.largest_file = parse_byte_count("--max-size", arguments.max_size);
   options.poster = arguments.poster;
+  options.sheet = parse_sheet(arguments.sheet, options.outputs);
   options.backend = arguments.backend;
   options.time_effects = verbose || !arguments.records.stats.empty();
   return options;
@@ -219,13 +209,15 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
 
   CLI::App* render = app.add_subcommand("render", "Simulate scenes and draw them into films");
   add_outputs(*render, *arguments, "repeatable; default out/{scene}.gif", true);
+  render->add_option("--sheet", arguments->sheet, sheet_help);
   add_backend_option(*render, arguments->backend);
   render->add_option("--max-size", arguments->max_size,
                      "5MB: make a film's pictures smaller until it has no more bytes; also kB, GB, kiB, MiB, GiB");
   render->add_flag("--poster", arguments->poster, "Put FILM.poster.png beside each film: the frame that shows most");
   add_shared_options(*render, *arguments);
   render->callback([arguments, &common, &command] {
-    if (arguments->outputs.empty()) arguments->outputs = {"out/{scene}.gif"};
+    if (arguments->outputs.empty())
+      arguments->outputs = {arguments->sheet.empty() ? "out/{scene}.gif" : "out/{scene}.png"};
     command = [arguments, &common] { return run_all(*arguments, common); };
   });
 

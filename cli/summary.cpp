@@ -89,6 +89,18 @@ std::vector<std::string> doubts(const RunResult& result) {
   return found;
 }
 
+std::string describe_files(const std::vector<std::vector<OutputFile>>& outputs) {
+  std::string text;
+  for (const std::vector<OutputFile>& files : outputs) {
+    std::uintmax_t size = 0;
+    for (const OutputFile& file : files) size += file.size;
+    text += fmt::format("{}{}  {}{}", text.empty() ? "" : "\n", name(files),
+                        files.size() > 1 ? fmt::format("{} files, ", files.size()) : "", bytes(size));
+    if (!files.front().note.empty()) text += ", " + files.front().note;
+  }
+  return text;
+}
+
 std::string summarize(const RunResult& result) {
   const Statistics& s = result.statistics;
   std::string text = fmt::format("{} steps", s.steps());
@@ -114,13 +126,7 @@ std::string summarize(const RunResult& result) {
     text += fmt::format(", write {}", duration(result.write_seconds));
   }
   text += fmt::format(", total {}", duration(result.elapsed_seconds));
-  for (const std::vector<OutputFile>& files : result.outputs) {
-    std::uintmax_t size = 0;
-    for (const OutputFile& file : files) size += file.size;
-    text += fmt::format("\n{}  {}{}", name(files), files.size() > 1 ? fmt::format("{} files, ", files.size()) : "",
-                        bytes(size));
-    if (!files.front().note.empty()) text += ", " + files.front().note;
-  }
+  if (!result.outputs.empty()) text += "\n" + describe_files(result.outputs);
   for (const std::string& record : result.records) text += "\n" + record;
   return text;
 }

@@ -20,6 +20,9 @@ std::string describe_end(const RunResult& result);
 /// Why the result of a run should not be trusted, a sentence for each reason.
 std::vector<std::string> doubts(const RunResult& result);
 
+/// The files of each output with their sizes, a line each.
+std::string describe_files(const std::vector<std::vector<OutputFile>>& outputs);
+
 /// What a run did, in a few lines without a final line end.
 std::string summarize(const RunResult& result);
 

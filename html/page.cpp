@@ -27,13 +27,13 @@ std::string render(const Page& page) {
                       meta("viewport", "width=device-width, initial-scale=1") + meta("color-scheme", "light dark") +
                       meta("generator", "drape " + build_info().version) + element("title", page.title) +
                       element("link", {{"rel", "icon"}, {"href", "data:,"}}) +
-                      element("style", Markup::trusted(std::string(diagram_css) + std::string(page_css)));
+                      element("style", Markup::trusted(fmt::format("{}{}{}", diagram_css, page_css, film_css)));
   const Markup header =
       element("header", element("p", {{"class", "kind"}}, page.kind) + element("h1", page.heading) + page.introduction);
   const Markup footer = element("footer", element("h2", "How this was made") + facts(page.foot));
   const Markup body = header + element("main", page.content) + footer +
                       element("div", {{"id", "tip"}, {"role", "status"}, {"hidden?", "hidden"}}) +
-                      element("script", Markup::trusted(std::string(page_js)));
+                      element("script", Markup::trusted(fmt::format("{}{}", page_js, film_js)));
   return "<!doctype html>\n" + element("html", {{"lang", "en"}}, element("head", head) + element("body", body)).html() +
          "\n";
 }

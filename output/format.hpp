@@ -16,6 +16,12 @@
 
 namespace drape {
 
+/// How many pictures a contact sheet has in a row, and how many rows.
+struct SheetGrid {
+  int columns = 1, rows = 1;
+  bool labelled = true;  ///< the time stands below each picture
+};
+
 /// What is known of a film before its first frame.
 struct FilmInfo {
   std::string scene;                ///< the scene's name
@@ -33,6 +39,9 @@ struct FilmInfo {
   const Cloth* cloth = nullptr;  ///< null: there is none
   const std::vector<std::array<float, 2>>* uvs = nullptr;
   const Look* look = nullptr;
+
+  /// Where one picture is asked for, it is a contact sheet of several moments instead; absent: it is the last.
+  std::optional<SheetGrid> sheet = {};
 
   /// Called in Sink::finish() while it has frames left to encode: how many are done, and of how many.
   std::function<void(int done, int total)> progress = {};

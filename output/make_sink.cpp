@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/nearest.hpp"
 #include "output/beside.hpp"
+#include "output/contact_sheet.hpp"
 #include "output/fitted_film.hpp"
 #include "output/frame_files.hpp"
 #include "output/path_template.hpp"
@@ -85,7 +86,11 @@ std::vector<std::string> output_files(const std::string& path, const FilmInfo& f
 AnySink make_sink(const std::string& path, const FilmInfo& film) {
   const PathTemplate path_template(path);
   const OutputFormat& format = format_of(path);
-  if (!path_template.has_frame()) return make_sink(format, path_template.path(film.scene, 0, 1), film);
+  if (!path_template.has_frame()) {
+    const std::filesystem::path file = path_template.path(film.scene, 0, 1);
+    if (film.sheet && format.drawn() && format.file_per_frame()) return std::make_unique<ContactSheet>(file, film);
+    return make_sink(format, file, film);
+  }
   return std::visit(AtFiles{path, path_template, format, film}, format.make);
 }
 

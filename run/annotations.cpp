@@ -71,10 +71,12 @@ Look Annotations::look(const Scene& scene) {
 
 FrameContents Annotations::contents() const {
   if (scene_.overlay.energies || needs_motion_facts(scene_.caption.filled)) return FrameContents::motion;
-  return coloring_ ? coloring_->contents() : FrameContents::places;
+  return coloring_ ? coloring_->measure().contents() : FrameContents::places;
 }
 
-bool Annotations::needs_motion() const { return scene_.overlay.energies || (coloring_ && coloring_->needs_motion()); }
+bool Annotations::needs_motion() const {
+  return scene_.overlay.energies || (coloring_ && coloring_->scale().needs_motion());
+}
 
 void Annotations::survey(const Frame& frame) {
   if (coloring_) coloring_->survey(frame);
@@ -100,7 +102,7 @@ Image Annotations::annotate(Image drawn, const Frame& frame) {
   }
   const int size = band_text_size(scene_);
   if (coloring_) {
-    if (!bar_) bar_ = color_bar(pen_, drawn.width, size, coloring_->title(), coloring_->marks());
+    if (!bar_) bar_ = color_bar(pen_, drawn.width, size, coloring_->measure().title(), coloring_->marks());
     append(drawn, *bar_);
   }
   if (scene_.overlay.energies) {

@@ -40,6 +40,7 @@ FilmInfo film_info(const Scene& scene, const RunOptions& options) {
   film.uvs = &scene.uvs;
   film.look = &scene.look;
   film.largest_file = options.largest_file;
+  film.sheet = options.sheet;
   return film;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "output/sink.hpp"
+#include "output/format.hpp"
 #include "render/backend.hpp"
 #include "run/frame_sampler.hpp"
 #include "run/progress.hpp"
@@ -24,6 +24,7 @@ struct RunOptions {
   std::optional<std::int64_t> every;          ///< steps from a frame to the next; absent: as the scene's video says
   std::optional<std::uint64_t> largest_file;  ///< that a film may become [bytes], see FittedFilm
   bool poster = false;                        ///< put a picture beside each film, see Poster
+  std::optional<SheetGrid> sheet;             ///< what a picture without {frame} in its path shows instead of the last
   GlBackend backend = GlBackend::automatic;
   bool time_effects = false;         ///< measure which part of the steps' time each effect takes
   StepObserver* observer = nullptr;  ///< told of every step too, on the thread that simulates, after it is recorded

@@ -97,7 +97,7 @@ TEST(VertexColoring, TakesItsLimitFromTheMotion) {
   const Mesh grid = make_grid(9, 9);
   const Cloth cloth = make_cloth(grid, grid, 1, 10, {});
   VertexColoring coloring(ColorBy::speed, std::nullopt, cloth);
-  EXPECT_TRUE(coloring.needs_motion());
+  EXPECT_TRUE(coloring.scale().needs_motion());
   Frame frame;
   frame.positions = cloth.rest;
   for (const double speed : {0.5, 3.0, 1.0}) {
@@ -106,8 +106,8 @@ TEST(VertexColoring, TakesItsLimitFromTheMotion) {
     frame.velocities(7, 2) = 40;  // one vertex in a hundred does not count
     coloring.survey(frame);
   }
-  EXPECT_EQ(coloring.limit(), 5);
-  EXPECT_EQ(coloring.title(), "speed [m/s]");
+  EXPECT_EQ(coloring.scale().limit(), 5);
+  EXPECT_EQ(coloring.measure().title(), "speed [m/s]");
   EXPECT_EQ(coloring.marks().back().label, "≥ 5");
 }
 

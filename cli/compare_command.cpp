@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+
+#include "cli/command_line.hpp"
+#include "cli/frame_list.hpp"
+#include "cli/grid_option.hpp"
+#include "cli/interruption.hpp"
+#include "cli/number_option.hpp"
+#include "cli/output_clashes.hpp"
+#include "cli/scene_files.hpp"
+#include "cli/summary.hpp"
+#include "cli/watched.hpp"
+#include "compare/compare_scenes.hpp"
+#include "core/console.hpp"
+#include "core/shell.hpp"
+#include "output/registry.hpp"
+#include "render/gl/inspect.hpp"
+
+namespace drape {
+namespace {
+
+struct CompareArguments {
+  std::vector<std::string> scenes, overrides, varied;
+  std::string grid, sheet, frames;
+  CompareOptions options;
+};
+
+/// Splits at commas that are not within brackets, braces or quotes.
+std::vector<std::string> split_values(const std::string& text) {
+  std::vector<std::string> values(1);
+  int depth = 0;
+  char quote = 0;
+  for (const char c : text) {
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    } else if (c == ',' && depth == 0) {
+      values.emplace_back();
+      continue;
+    }
+    values.back() += c;
+  }
+  return values;
+}
+
+/// Every combination of what varies, as overrides. One, of nothing, where nothing does.
+std::vector<std::vector<std::string>> variations(const std::vector<std::string>& varied) {
+  std::vector<std::vector<std::string>> all(1);
+  for (const std::string& text : varied) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw UsageError(fmt::format("--vary takes key.path=value,value…, found '{}'", text));
+    }
+    std::vector<std::vector<std::string>> longer;
+    for (const std::vector<std::string>& before : all) {
+      for (const std::string& value : split_values(text.substr(equals + 1))) {
+        longer.push_back(before);
+        longer.back().push_back(text.substr(0, equals + 1) + value);
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+/// The scenes, each in all its variations.
+std::vector<Scene> load_variations(const CompareArguments& arguments) {
+  std::vector<Scene> scenes;
+  const std::vector<std::vector<std::string>> all = variations(arguments.varied);
+  for (const std::string& file : arguments.scenes) {
+    for (const std::vector<std::string>& some : all) {
+      std::vector<std::string> overrides = arguments.overrides;
+      overrides.insert(overrides.end(), some.begin(), some.end());
+      for (Scene& scene : load_scenes({file}, overrides)) scenes.push_back(std::move(scene));
+    }
+  }
+  constexpr std::size_t most = 36;
+  if (scenes.size() > most) {
+    throw UsageError(fmt::format("{} motions side by side are more than {}", scenes.size(), most));
+  }
+  return scenes;
+}
+
+std::string command_line(const CompareArguments& arguments) {
+  std::string text = "drape compare";
+  for (const std::string& scene : arguments.scenes) text += " " + shell_word(scene);
+  for (const std::string& value : arguments.overrides) text += " --set " + shell_word(value);
+  for (const std::string& value : arguments.varied) text += " --vary " + shell_word(value);
+  for (const std::string& path : arguments.options.outputs) text += " -o " + shell_word(path);
+  if (!arguments.grid.empty()) text += " --grid " + arguments.grid;
+  if (arguments.options.difference) text += " --difference";
+  if (arguments.options.steps) text += fmt::format(" --steps {}", *arguments.options.steps);
+  if (!arguments.frames.empty()) text += " --frames " + arguments.frames;
+  if (!arguments.sheet.empty()) text += " --sheet " + arguments.sheet;
+  return text;
+}
+
+ExitCode conclude(const CompareResult& result) {
+  for (const std::string& problem : result.problems) spdlog::error(problem);
+  ExitCode code = result.problems.empty() ? ExitCode::ok : ExitCode::output;
+  for (const ComparedMotion& motion : result.motions) {
+    if (motion.divergence.empty()) continue;
+    spdlog::error("{}: {}", motion.label, motion.divergence);
+    code = std::max(code, ExitCode::diverged);
+  }
+  if (!result.interrupted) return code;
+  spdlog::error("interrupted after {} of {} frames", result.times.size(), result.frames_wanted);
+  return ExitCode::interrupted;
+}
+
+ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& common) {
+  interruption();
+  CompareOptions options = arguments.options;
+  if (!arguments.grid.empty()) {
+    const SheetGrid grid = parse_grid("--grid", arguments.grid);
+    options.columns = grid.columns;
+    options.rows = grid.rows;
+  }
+  if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
+  if (options.outputs.empty()) options.outputs = {arguments.sheet.empty() ? "out/compare.gif" : "out/compare.png"};
+  options.sheet = parse_sheet(arguments.sheet, options.outputs);
+  options.command = command_line(arguments);
+  const std::vector<Scene> scenes = load_variations(arguments);
+  std::vector<RunOptions> files(scenes.size());
+  files.front().outputs = options.outputs;
+  require_files_of_their_own(scenes, files);
+  inspect_backend(options.backend);
+  require_comparison(scenes, options);
+
+  CompareResult result;
+  run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) {
+    result = compare_scenes(scenes, options, stop, progress);
+  });
+  if (!common.quiet) {
+    for (const ComparedMotion& motion : result.motions) spdlog::info(motion.label);
+    if (!result.outputs.empty()) print_text(stderr, describe_files(result.outputs) + "\n");
+  }
+  return conclude(result);
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, const CommonOptions& common, Command& command) {
+  auto arguments = std::make_shared<CompareArguments>();
+  CompareOptions& options = arguments->options;
+  CLI::App* sub = app.add_subcommand("compare", "Draw motions side by side");
+  const auto one_each = [](CLI::Option* option) { option->allow_extra_args(false); };
+  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
+  one_each(sub->add_option("-o,--output", options.outputs,
+                           fmt::format("Where to, and by the extension in which form; repeatable; default "
+                                       "out/compare.gif.\n.html a self-contained page: the motions in step, their "
+                                       "figures and differences\n{}",
+                                       output_help(true))));
+  one_each(
+      sub->add_option("--set", arguments->overrides, "key.path=value: replaces a value of all scenes; repeatable"));
+  one_each(sub->add_option("--vary", arguments->varied,
+                           "key.path=value,value…: each scene once with each of these values; repeatable"));
+  sub->add_option("--grid", arguments->grid, "COLUMNSxROWS of the panels");
+  sub->add_flag("--difference", options.difference, "Colour each cloth by its distance to the first, vertex by vertex");
+  sub->add_option("--sheet", arguments->sheet, sheet_help);
+  sub->add_option("--steps", options.steps, "Simulate this many steps instead of the scenes' durations")
+      ->check(whole_number_in({0, 1e9}));
+  sub->add_option("--frames", arguments->frames, "A..B: only these frames of the film");
+  add_backend_option(*sub, options.backend);
+  sub->callback(
+      [arguments, &common, &command] { command = [arguments, &common] { return run_compare(*arguments, common); }; });
+}
+
+}  // namespace drape

@@ -1,0 +1,262 @@
+#include "compare/compare_scenes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <memory>
+
+#include "compare/page.hpp"
+#include "compare/panels.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "output/contact_sheet.hpp"
+#include "output/png_encoder.hpp"
+#include "output/registry.hpp"
+#include "render/view.hpp"
+#include "run/frame_player.hpp"
+#include "run/outputs.hpp"
+
+namespace drape {
+namespace {
+
+constexpr int most_page_pictures = 75, most_page_moments = 25;
+
+bool is_page(const std::string& path) { return std::filesystem::path(path).extension() == ".html"; }
+
+/// Those of the outputs that are pages, or those that are not.
+std::vector<std::string> outputs_that(bool pages, const CompareOptions& options) {
+  std::vector<std::string> chosen;
+  for (const std::string& path : options.outputs) {
+    if (is_page(path) == pages) chosen.push_back(path);
+  }
+  return chosen;
+}
+
+/// The moments of a scene's motion that the first scene's film shows.
+FilmExtent extent_of(const Scene& scene, const Scene& first, const CompareOptions& options) {
+  return FilmExtent(first.video, scene.simulation.step, options.steps.value_or(scene.step_count()), std::nullopt);
+}
+
+/// Of the whole comparison: until the last motion is over.
+FrameRange frames_of(const std::vector<Scene>& scenes, const CompareOptions& options) {
+  FrameRange all;
+  for (const Scene& scene : scenes) {
+    all.last = std::max(all.last, extent_of(scene, scenes.front(), options).frames.last);
+  }
+  const FrameRange wanted = options.frames.value_or(all);
+  if (wanted.last > all.last) {
+    throw UsageError(fmt::format("--frames {}..{}: the film ends with frame {}", wanted.first, wanted.last, all.last));
+  }
+  return wanted;
+}
+
+PanelLayout layout_of(Pen& pen, const std::vector<Scene>& scenes, const CompareOptions& options, bool bar) {
+  return PanelLayout(pen, labels(scenes, differences(scenes)), scenes.front().video.size, options.columns, options.rows,
+                     options.difference ? 1 : 0, bar);
+}
+
+class Comparison {
+ public:
+  Comparison(const std::vector<Scene>& scenes, const CompareOptions& options, const std::stop_token& stop,
+             Progress& progress)
+      : scenes_(scenes),
+        options_(options),
+        stop_(stop),
+        progress_(progress),
+        first_(scenes.front()),
+        frames_(frames_of(scenes, options)),
+        colors_(scenes, labels(scenes, differences(scenes)), options.difference),
+        layout_(layout_of(pen_, scenes, options, colors_.wanted())),
+        outputs_(outputs_that(false, options), comparison_info(scenes, options)) {
+    for (const Scene& scene : scenes) {
+      comparable_ = comparable_ && scene.simulation.cloth.vertex_count() == first_.simulation.cloth.vertex_count();
+    }
+    result_.differences = differences(scenes);
+    result_.frames_wanted = frames_.count();
+    for (const std::string& label : labels(scenes, result_.differences))
+      result_.motions.push_back({label, {}, {}, {}, {}, {}});
+  }
+
+  CompareResult run() {
+    const std::optional<View> view = find_view();
+    if (view) draw(*view);
+    result_.interrupted = stop_.stop_requested();
+    const Ending ending = result_.interrupted ? Ending::early : Ending::complete;
+    if (!result_.times.empty()) {
+      result_.outputs = outputs_.finish(ending);
+      for (const std::string& path : outputs_that(true, options_)) write_page(path, ending);
+    }
+    for (const std::string& problem : outputs_.problems()) result_.problems.push_back(problem);
+    return std::move(result_);
+  }
+
+ private:
+  using Moment = std::vector<const Frame*>;
+
+  /// Plays all motions from their start, and tells of every moment of them up to the last that is drawn.
+  template <class Work>
+  void play(FrameContents contents, int last, Work work) {
+    std::deque<FramePlayer> players;  // which cannot be moved
+    for (const Scene& scene : scenes_) players.emplace_back(scene, extent_of(scene, first_, options_), contents);
+    Moment moment(players.size());
+    for (int k = 0; k <= last && !stop_.stop_requested(); ++k) {
+      for (std::size_t i = 0; i < players.size(); ++i) moment[i] = &players[i].next();
+      work(k, moment);
+      progress_.done = k + 1;
+    }
+    for (std::size_t i = 0; i < players.size() && !stop_.stop_requested(); ++i) {
+      players[i].next();  // a motion is over when there is no frame any more
+      if (players[i].over()) result_.motions[i].statistics = players[i].statistics();
+      result_.motions[i].divergence = players[i].divergence();
+    }
+  }
+
+  /// @returns nothing if it was interrupted
+  std::optional<View> find_view() {
+    const bool framed = needs_motion(first_.camera);
+    if (!framed && !colors_.needs_motion()) return fixed_view(first_.camera);
+    CompareOptions whole = options_;
+    whole.frames.reset();
+    const int last = frames_of(scenes_, whole).last;
+    progress_.begin("framing", "frames", last + 1);
+    Framing framing(first_.camera, static_cast<double>(first_.video.size.x()) / first_.video.size.y());
+    play(colors_.contents(), last, [&](int, const Moment& moment) {
+      for (const Frame* frame : moment) {
+        framing.add(frame->positions);
+        for (const Collider& collider : frame->colliders) framing.add(collider);
+      }
+      colors_.survey(moment);
+    });
+    if (stop_.stop_requested()) return std::nullopt;
+    return framed ? framing.view() : fixed_view(first_.camera);
+  }
+
+  void draw(const View& view) {
+    for (const Scene& scene : scenes_) {
+      Look look = scene.look;
+      if (colors_.wanted() && !(options_.difference && &scene == &first_)) look.texture.clear();
+      renderers_.emplace_back(data_folder(), first_.video.size, view, look, scene.simulation.cloth.vertex_count(),
+                              scene.simulation.cloth.triangles, scene.uvs, options_.backend);
+    }
+    if (colors_.wanted()) bar_ = colors_.bar(pen_, layout_.size().x(), layout_.text_size());
+    progress_.begin("drawing", "frames", frames_.last + 1);
+    play(FrameContents::motion, frames_.last, [&](int k, const Moment& moment) {
+      if (k >= frames_.first) add_frame(k, moment);
+    });
+  }
+
+  void add_frame(int index, const Moment& moment) {
+    const double time = index * first_.video.speed / first_.video.fps;
+    take_figures(time, moment);
+    std::vector<Image> panels;
+    std::vector<std::string> extra;
+    for (std::size_t i = 0; i < moment.size(); ++i) {
+      const std::vector<Rgb> colors = colors_.colors(moment, i);
+      panels.push_back(colors.empty() ? renderers_[i].draw(*moment[i]) : renderers_[i].draw(*moment[i], colors));
+      if (!options_.difference) continue;
+      extra.push_back(i == 0 ? "" : "at most " + readable_length(*result_.motions[i].most.back()) + " from the first");
+    }
+    if (on_page(index)) {
+      moments_.push_back({time, {}});
+      for (const Image& panel : panels) moments_.back().pictures.push_back(encode_png(panel));
+    }
+    outputs_.add({*moment.front(), layout_.compose(pen_, panels, extra, fmt::format("t = {:.2f} s", time), bar_)});
+  }
+
+  void take_figures(double time, const Moment& moment) {
+    result_.times.push_back(time);
+    for (std::size_t i = 0; i < moment.size(); ++i) {
+      ComparedMotion& motion = result_.motions[i];
+      motion.total_energy.push_back(moment[i]->energies.value_or(Energies{}).total());
+      motion.most.emplace_back();
+      motion.mean.emplace_back();
+      if (!comparable_) continue;
+      const Eigen::VectorXd away = distances(*moment[i], *moment.front());
+      motion.most.back() = away.maxCoeff();
+      motion.mean.back() = away.mean();
+    }
+  }
+
+  /// Whether a page shows this frame: so many, evenly spread, the first and the last among them.
+  [[nodiscard]] bool on_page(int index) const {
+    if (outputs_that(true, options_).empty()) return false;
+    const int moments = std::clamp(most_page_pictures / static_cast<int>(scenes_.size()), 2, most_page_moments);
+    return is_spread(index - frames_.first, frames_.count(), moments);
+  }
+
+  void write_page(const std::string& path, Ending ending) {
+    try {
+      PartialFile file(path);
+      file.write(comparison_page(result_, moments_, bar_ ? encode_png(*bar_) : "", options_.command));
+      const std::uintmax_t size = file.commit(ending);
+      result_.outputs.push_back({{file.name(ending), size}});
+    } catch (const OutputError& error) {
+      result_.problems.emplace_back(error.what());
+    }
+  }
+
+  const std::vector<Scene>& scenes_;
+  const CompareOptions& options_;
+  const std::stop_token& stop_;
+  Progress& progress_;
+  const Scene& first_;
+  Pen pen_;
+  FrameRange frames_;
+  PanelColors colors_;
+  PanelLayout layout_;
+  Outputs outputs_;
+  bool comparable_ = true;  // vertex by vertex
+  std::vector<Renderer> renderers_;
+  std::optional<Image> bar_;
+  std::vector<PageMoment> moments_;
+  CompareResult result_;
+};
+
+}  // namespace
+
+FilmInfo comparison_info(const std::vector<Scene>& scenes, const CompareOptions& options) {
+  Pen pen;
+  const FrameRange frames = frames_of(scenes, options);
+  const Scene& first = scenes.front();
+  const Eigen::Vector2i size = layout_of(pen, scenes, options, options.difference || first.look.color_by).size();
+  FilmInfo film;
+  film.scene = first.name;
+  film.fps = first.video.fps;
+  film.seconds_per_frame = first.video.speed / first.video.fps;
+  film.first_frame = frames.first;
+  film.expected_frames = frames.count();
+  film.width = size.x();
+  film.height = size.y();
+  film.sheet = options.sheet;
+  if (film.sheet) film.sheet->labelled = false;  // every picture says its time
+  return film;
+}
+
+void require_comparison(const std::vector<Scene>& scenes, const CompareOptions& options) {
+  if (scenes.size() < 2) throw UsageError("drape compare needs two motions at least");
+  for (const std::string& path : outputs_that(false, options)) {
+    if (!format_of(path).drawn()) {
+      throw UsageError(fmt::format("drape compare draws pictures, and -o {} holds none", path));
+    }
+  }
+  const int vertices = scenes.front().simulation.cloth.vertex_count();
+  for (const Scene& scene : scenes) {
+    if (!options.difference || scene.simulation.cloth.vertex_count() == vertices) continue;
+    throw UsageError(fmt::format("--difference compares vertex by vertex: {} has {} of them, {} has {}",
+                                 scenes.front().file.string(), vertices, scene.file.string(),
+                                 scene.simulation.cloth.vertex_count()));
+  }
+  for (const Scene& scene : scenes) require_texture(scene);
+  const Outputs films(outputs_that(false, options), comparison_info(scenes, options));
+  for (const std::string& path : outputs_that(true, options)) require_writable(path);
+}
+
+CompareResult compare_scenes(const std::vector<Scene>& scenes, const CompareOptions& options,
+                             const std::stop_token& stop, Progress& progress) {
+  return Comparison(scenes, options, stop, progress).run();
+}
+
+}  // namespace drape

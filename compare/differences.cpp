@@ -1,0 +1,94 @@
+#include "compare/differences.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <string_view>
+
+namespace drape {
+namespace {
+
+constexpr std::size_t most_named = 4;  // differences in a label; the page has all of them
+constexpr const char *absent = "–", *present = "there";
+
+bool counts(const std::string& key) {
+  constexpr std::array<std::string_view, 5> taken_from_first{"camera.", "video.", "caption.", "overlay.", "check."};
+  return key != "scene" && std::ranges::none_of(taken_from_first, [&](auto table) { return key.starts_with(table); });
+}
+
+/// Of a key of an effect, the effect: "effects.sphere"; else nothing.
+std::string effect_of(const std::string& key) {
+  return key.starts_with("effects.") ? key.substr(0, key.rfind('.')) : std::string();
+}
+
+bool has_effect(const Scene& scene, const std::string& effect) {
+  return std::ranges::any_of(scene.fields, [&](const SceneField& field) { return effect_of(field.path) == effect; });
+}
+
+std::string text_of(const Scene& scene, const std::string& key) {
+  const auto field = std::ranges::find(scene.fields, key, &SceneField::path);
+  return field == scene.fields.end() ? absent : format_field(field->value, "");
+}
+
+bool all_same(const std::vector<std::string>& values) {
+  return std::ranges::all_of(values, [&](const std::string& value) { return value == values.front(); });
+}
+
+/// "method = liu13"; a method needs no name.
+std::string difference_text(const KeyDifference& difference, std::size_t scene) {
+  const std::string& value = difference.values[scene];
+  if (effect_of(difference.key) == "effects") {
+    return (value == absent ? "no " : "") + difference.key.substr(std::string_view("effects.").size());
+  }
+  const std::string name = difference.key.substr(difference.key.rfind('.') + 1);
+  if (name == "method" || name == "scheme") return value;
+  const bool effect = difference.key.starts_with("effects.");
+  return (effect ? difference.key.substr(std::string_view("effects.").size()) : name) + " = " + value;
+}
+
+}  // namespace
+
+std::vector<KeyDifference> differences(const std::vector<Scene>& scenes) {
+  std::vector<std::string> keys;
+  for (const Scene& scene : scenes) {
+    for (const SceneField& field : scene.fields) {
+      // Of an effect that not all of them have, there is nothing else to say.
+      const std::string effect = effect_of(field.path);
+      const bool shared =
+          effect.empty() || std::ranges::all_of(scenes, [&](const Scene& other) { return has_effect(other, effect); });
+      const std::string& key = shared ? field.path : effect;
+      if (counts(key) && std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
+    }
+  }
+  std::vector<KeyDifference> found;
+  for (const std::string& key : keys) {
+    KeyDifference difference{key, {}};
+    const bool is_effect = effect_of(key) == "effects";
+    for (const Scene& scene : scenes) {
+      difference.values.push_back(!is_effect ? text_of(scene, key) : has_effect(scene, key) ? present : absent);
+    }
+    if (!all_same(difference.values)) found.push_back(std::move(difference));
+  }
+  return found;
+}
+
+std::vector<std::string> labels(const std::vector<Scene>& scenes, const std::vector<KeyDifference>& differences) {
+  std::vector<std::string> names;
+  for (const Scene& scene : scenes) names.push_back(scene.name);
+  std::vector<KeyDifference> told;  // what things look like is seen
+  std::ranges::copy_if(differences, std::back_inserter(told),
+                       [](const KeyDifference& difference) { return !difference.key.starts_with("look."); });
+  const bool named = told.empty() || !all_same(names);
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    std::string label = named ? names[i] : "", rest;
+    for (std::size_t d = 0; d < std::min(told.size(), most_named); ++d) {
+      rest += (rest.empty() ? "" : ", ") + difference_text(told[d], i);
+    }
+    if (told.size() > most_named) rest += ", …";
+    labels.push_back(label.empty() || rest.empty() ? label + rest : label + ": " + rest);
+  }
+  return labels;
+}
+
+}  // namespace drape

@@ -1,0 +1,128 @@
+#include "compare/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/text.hpp"
+#include "html/chart.hpp"
+#include "html/components.hpp"
+#include "html/film.hpp"
+#include "html/page.hpp"
+
+namespace drape {
+namespace {
+
+using html::Markup;
+
+Markup films(const CompareResult& result, const std::vector<PageMoment>& moments, const std::string& bar) {
+  std::vector<std::string> names;
+  for (const ComparedMotion& motion : result.motions) names.push_back(motion.label);
+  std::vector<html::FilmMoment> shown;
+  for (const PageMoment& moment : moments) shown.push_back({fmt::format("t = {:.2f} s", moment.time), moment.pictures});
+  Markup content = html::film("film", names, shown);
+  if (!bar.empty()) content += html::figure(html::picture("image/png", bar, "What the colours mean"), {});
+  return html::section(2, "motions", "The motions in step", content);
+}
+
+Markup differences_table(const CompareResult& result) {
+  if (result.differences.empty()) return html::paragraph("They differ in nothing that a scene can say.");
+  html::Table table{"Keys in which they differ", {{"key"}}, {}};
+  for (const ComparedMotion& motion : result.motions) table.columns.push_back({motion.label});
+  for (const KeyDifference& difference : result.differences) {
+    std::vector<Markup> cells{html::code(difference.key)};
+    for (const std::string& value : difference.values) cells.emplace_back(value);
+    table.rows.push_back(std::move(cells));
+  }
+  return html::table(table);
+}
+
+/// The largest of numbers by frame; nothing where there are none.
+std::optional<double> largest(const std::vector<std::optional<double>>& values) {
+  std::optional<double> most;
+  for (const auto& value : values) {
+    if (value && (!most || *value > *most)) most = value;
+  }
+  return most;
+}
+
+Markup figures_table(const CompareResult& result) {
+  html::Table table{"Figures of the motions",
+                    {{"motion"},
+                     {"steps", true},
+                     {"iterations a step", true},
+                     {"µs a step", true},
+                     {"energy at the end [J]", true},
+                     {"farthest from the first", true},
+                     {"mean distance at the end", true}},
+                    {}};
+  for (const ComparedMotion& motion : result.motions) {
+    const Statistics& s = motion.statistics;
+    const bool first = &motion == &result.motions.front(), known = s.steps() > 0;
+    const auto length = [&](const std::optional<double>& metres) -> Markup {
+      return first || !metres ? "–" : readable_length(*metres);
+    };
+    table.rows.push_back({motion.label, known ? fmt::format("{}", s.steps()) : "–",
+                          known && s.mean_iterations() > 0 ? fmt::format("{:.2f}", s.mean_iterations()) : "–",
+                          known ? fmt::format("{:.1f}", s.median_microseconds()) : "–",
+                          fmt::format("{:.4g}", motion.total_energy.back()), length(largest(motion.most)),
+                          length(motion.mean.back())});
+  }
+  return html::table(table) +
+         html::note("The times are medians of a run with all motions at once: compare them with drape study.");
+}
+
+/// Lines over time, one for each motion.
+/// @param of a motion's numbers by frame
+template <class Of>
+Markup lines(const CompareResult& result, const std::string& title, const std::string& y_title, Of of) {
+  html::Chart chart{.title = title, .x_title = "time [s]", .y_title = y_title, .series = {}, .levels = {}};
+  const std::size_t every = std::max<std::size_t>(1, result.times.size() / 200);
+  for (const ComparedMotion& motion : result.motions) {
+    html::ChartSeries series{.name = motion.label, .points = {}, .markers = false};
+    series.style = static_cast<std::size_t>(&motion - result.motions.data());
+    for (std::size_t k = 0; k < result.times.size(); k += every) {
+      const std::optional<double> y = of(motion, k);
+      if (y) series.points.push_back({result.times[k], *y, fmt::format("{:.2f} s: {:.4g}", result.times[k], *y), {}});
+    }
+    if (!series.points.empty()) chart.series.push_back(std::move(series));
+  }
+  return chart.series.empty() ? Markup() : html::chart(chart);
+}
+
+Markup curves(const CompareResult& result) {
+  const Markup energy = lines(result, "The total energy over time", "total energy [J]",
+                              [](const ComparedMotion& m, std::size_t k) { return std::optional(m.total_energy[k]); });
+  const Markup distance = lines(
+      result, "The mean distance of the vertices to the first motion's", "mean distance [m]",
+      [&](const ComparedMotion& m, std::size_t k) { return &m == &result.motions.front() ? std::nullopt : m.mean[k]; });
+  return energy + distance;
+}
+
+}  // namespace
+
+std::string comparison_page(const CompareResult& result, const std::vector<PageMoment>& moments, const std::string& bar,
+                            const std::string& command) {
+  std::vector<html::Finding> found;
+  for (const ComparedMotion& motion : result.motions) {
+    if (!motion.divergence.empty()) found.push_back({html::Tone::bad, motion.label + ": " + motion.divergence});
+    const std::optional<double> most = largest(motion.most);
+    if (&motion != &result.motions.front() && most) {
+      found.push_back(
+          {html::Tone::neutral, fmt::format("{}: at most {} from the first, {} on average at the end", motion.label,
+                                            readable_length(*most), readable_length(motion.mean.back().value_or(0)))});
+    }
+  }
+  html::Page page;
+  page.title = "drape compare";
+  page.kind = "drape compare";
+  page.heading = fmt::format("{} motions side by side", result.motions.size());
+  page.introduction = html::findings(found) + html::command("Make it again", command);
+  page.content = films(result, moments, bar) + html::section(2, "figures", "Figures", figures_table(result)) +
+                 html::section(2, "differences", "In what they differ", differences_table(result)) +
+                 html::section(2, "curves", "Over time", curves(result));
+  page.foot = html::provenance();
+  return html::render(page);
+}
+
+}  // namespace drape

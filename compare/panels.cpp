@@ -1,0 +1,138 @@
+#include "compare/panels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "overlay/caption.hpp"
+#include "overlay/color_bar.hpp"
+#include "render/montage.hpp"
+
+namespace drape {
+namespace {
+
+constexpr int gap = 6;  // between panels [pixels]
+constexpr std::uint8_t paper = 255;
+
+/// A unit in which a length has few digits, and how many of it are a metre.
+std::pair<const char*, double> unit_of(double length) {
+  if (length >= 0.5) return {"m", 1};
+  return length >= 5e-4 ? std::pair{"mm", 1e3} : std::pair{"µm", 1e6};
+}
+
+/// Puts a picture below another of the same width.
+void append_below(Image& upper, const Image& lower) {
+  upper.height += lower.height;
+  upper.pixels.insert(upper.pixels.end(), lower.pixels.begin(), lower.pixels.end());
+}
+
+}  // namespace
+
+Eigen::VectorXd distances(const Frame& frame, const Frame& other) {
+  return (frame.positions - other.positions).rowwise().norm();
+}
+
+PanelColors::PanelColors(const std::vector<Scene>& scenes, const std::vector<std::string>& labels, bool difference)
+    : difference_(difference), first_(labels.front()) {
+  const Look& look = scenes.front().look;
+  if (difference) {
+    scale_.emplace(std::nullopt);
+  } else if (look.color_by) {
+    for (const Scene& scene : scenes) measures_.emplace_back(*look.color_by, scene.simulation.cloth);
+    scale_.emplace(look.color_limit);
+  }
+}
+
+FrameContents PanelColors::contents() const {
+  return measures_.empty() ? FrameContents::places : measures_.front().contents();
+}
+
+Eigen::VectorXd PanelColors::values(const std::vector<const Frame*>& frames, std::size_t panel) const {
+  return difference_ ? distances(*frames[panel], *frames.front()) : measures_[panel](*frames[panel]);
+}
+
+void PanelColors::survey(const std::vector<const Frame*>& frames) {
+  if (!scale_) return;
+  for (std::size_t i = 0; i < frames.size(); ++i) scale_->survey(values(frames, i));
+}
+
+std::vector<Rgb> PanelColors::colors(const std::vector<const Frame*>& frames, std::size_t panel) const {
+  // The first one is what the others are compared with: it looks as it does.
+  if (!scale_ || (difference_ && panel == 0)) return {};
+  return scale_->colors(values(frames, panel));
+}
+
+Image PanelColors::bar(Pen& pen, int width, int size) const {
+  if (!difference_) {
+    return color_bar(pen, width, size, measures_.front().title(), scale_->marks(measures_.front().factor()));
+  }
+  const auto [unit, count] = unit_of(scale_->limit());
+  return color_bar(pen, width, size, fmt::format("distance to the first, {} [{}]", first_, unit), scale_->marks(count));
+}
+
+PanelLayout::PanelLayout(Pen& pen, const std::vector<std::string>& labels, const Eigen::Vector2i& panel, int columns,
+                         int rows, int extra, bool bar)
+    : panel_(panel),
+      columns_(columns),
+      rows_(rows),
+      text_(std::max(11, drape::text_size(panel.y()) * 5 / 6)),
+      bar_(bar) {
+  const int count = static_cast<int>(labels.size());
+  if (columns_ == 0) columns_ = count <= 3 ? count : static_cast<int>(std::ceil(std::sqrt(count)));
+  if (rows_ == 0) rows_ = (count + columns_ - 1) / columns_;
+  if (columns_ * rows_ < count) {
+    throw UsageError(fmt::format("--grid {}x{} has {} places, and {} motions are compared", columns_, rows_,
+                                 columns_ * rows_, count));
+  }
+  for (const std::string& label : labels) {
+    heads_.push_back(pen.wrap(label, text_, panel.x() - text_));
+    lines_ = std::max(lines_, static_cast<int>(heads_.back().size()));
+  }
+  lines_ += extra;
+}
+
+int PanelLayout::head_height() const { return lines_ * Pen::line_height(text_) + text_ / 2; }
+int PanelLayout::foot_height() const { return Pen::line_height(text_) + text_ / 2; }
+
+Eigen::Vector2i PanelLayout::size() const {
+  return {columns_ * panel_.x() + (columns_ - 1) * gap, rows_ * (panel_.y() + head_height()) + (rows_ - 1) * gap +
+                                                            foot_height() + (bar_ ? color_bar_height(text_) : 0)};
+}
+
+Image PanelLayout::under_head(Pen& pen, const Image& panel, const std::vector<std::string>& lines) const {
+  Image whole(panel.width, head_height());
+  Pen::fill(whole, {0, 0, whole.width, whole.height}, band_paper);
+  int base = text_ + text_ / 4;
+  for (const std::string& line : lines) {
+    pen.write(whole, text_ / 2, base, line, text_, band_ink);
+    base += Pen::line_height(text_);
+  }
+  append_below(whole, panel);
+  return whole;
+}
+
+Image PanelLayout::compose(Pen& pen, const std::vector<Image>& panels, const std::vector<std::string>& extra,
+                           const std::string& time, const std::optional<Image>& bar) const {
+  std::vector<Image> pictures;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    std::vector<std::string> lines = heads_[i];
+    if (!extra.empty()) lines.push_back(extra[i]);
+    pictures.push_back(under_head(pen, panels[i], lines));
+  }
+  Image blank(panel_.x(), panel_.y() + head_height());
+  std::fill(blank.pixels.begin(), blank.pixels.end(), paper);
+  pictures.resize(static_cast<std::size_t>(columns_ * rows_), blank);
+  std::vector<const Image*> list;
+  for (const Image& picture : pictures) list.push_back(&picture);
+  Image whole = montage(list, columns_, gap, paper);
+  Image foot(whole.width, foot_height());
+  Pen::fill(foot, {0, 0, foot.width, foot.height}, band_paper);
+  pen.write(foot, text_ / 2, text_ + text_ / 4, time, text_, band_ink);
+  append_below(whole, foot);
+  if (bar) append_below(whole, *bar);
+  return whole;
+}
+
+}  // namespace drape

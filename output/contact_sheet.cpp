@@ -1,0 +1,68 @@
+#include "output/contact_sheet.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "core/atomic_file.hpp"
+#include "output/png_encoder.hpp"
+#include "overlay/color_bar.hpp"
+#include "render/montage.hpp"
+
+namespace drape {
+namespace {
+
+constexpr int gap = 6;  // [pixels]
+constexpr std::uint8_t paper = 255;
+
+}  // namespace
+
+bool is_spread(int index, int count, int shown) {
+  if (count <= shown) return true;
+  if (shown < 2) return index == 0;
+  const auto place = [&](std::int64_t k) { return static_cast<int>(k * (count - 1) / (shown - 1)); };
+  const int near = static_cast<int>(std::int64_t{index} * (shown - 1) / (count - 1));
+  return place(near) == index || (near + 1 < shown && place(near + 1) == index);
+}
+
+ContactSheet::ContactSheet(std::filesystem::path file, const FilmInfo& film)
+    : file_(std::move(file)),
+      grid_(film.sheet.value()),
+      first_frame_(film.first_frame),
+      expected_frames_(std::max(1, film.expected_frames)),
+      seconds_per_frame_(film.seconds_per_frame) {
+  require_writable(file_);
+}
+
+Image ContactSheet::labelled(Image picture, double time) {
+  const int size = std::clamp(picture.height / 24, 12, 96), margin = size / 2;
+  Image label(picture.width, Pen::line_height(size) + margin);
+  std::fill(label.pixels.begin(), label.pixels.end(), paper);
+  pen_.write(label, margin, size + margin / 2, fmt::format("t = {:.2f} s", time), size, band_ink);
+  picture.height += label.height;
+  picture.pixels.insert(picture.pixels.end(), label.pixels.begin(), label.pixels.end());
+  return picture;
+}
+
+void ContactSheet::add(const Image& image) {
+  const int index = added_++;
+  if (!is_spread(index, expected_frames_, grid_.columns * grid_.rows)) return;
+  if (!pictures_.empty() && pictures_.front().width != image.width) {
+    throw std::invalid_argument("the frames of a film must have one size");
+  }
+  pictures_.push_back(grid_.labelled ? labelled(image, (first_frame_ + index) * seconds_per_frame_) : image);
+}
+
+std::vector<OutputFile> ContactSheet::finish(Ending ending) {
+  if (pictures_.empty()) return {};
+  std::vector<const Image*> list;
+  for (const Image& picture : pictures_) list.push_back(&picture);
+  PartialFile file(file_);
+  file.write(encode_png(montage(list, grid_.columns, gap, paper)));
+  const std::uintmax_t size = file.commit(ending);
+  return {{file.name(ending), size}};
+}
+
+}  // namespace drape

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "output/format.hpp"
+#include "overlay/pen.hpp"
+
+namespace drape {
+
+/// Whether an item is among `shown` evenly spread ones of `count`, of which the first and the last are two.
+bool is_spread(int index, int count, int shown);
+
+/// One picture of several moments of a film, evenly spread, the first and the last among them.
+class ContactSheet final : public Encoder {
+ public:
+  /// @param film whose `sheet` says how many there are
+  /// @throws OutputError if the file cannot be written, or there is no font
+  ContactSheet(std::filesystem::path file, const FilmInfo& film);
+
+  void add(const Image& image) override;
+  std::vector<OutputFile> finish(Ending ending) override;
+
+ private:
+  /// @param time [s]
+  Image labelled(Image picture, double time);
+
+  std::filesystem::path file_;
+  SheetGrid grid_;
+  int first_frame_, expected_frames_;
+  double seconds_per_frame_;
+  Pen pen_;
+  int added_ = 0;
+  std::vector<Image> pictures_;
+};
+
+}  // namespace drape

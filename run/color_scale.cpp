@@ -1,0 +1,41 @@
+#include "run/color_scale.hpp"
+
+#include <algorithm>
+
+#include "overlay/color_map.hpp"
+
+namespace drape {
+namespace {
+
+constexpr double shown_part = 0.95;  // of a frame's vertices, within the limit
+
+}  // namespace
+
+void ColorScale::survey(Eigen::VectorXd values) {
+  if (values.size() == 0) return;
+  const auto place = static_cast<Eigen::Index>(shown_part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + place, values.end());
+  seen_ = std::max(seen_, values[place]);
+}
+
+double ColorScale::limit() const {
+  constexpr double least = 1e-9;  // of a cloth that does nothing of the kind: all of it has the first colour
+  return limit_ ? *limit_ : round_up(std::max(seen_, least));
+}
+
+std::vector<Rgb> ColorScale::colors(const Eigen::VectorXd& values) const {
+  std::vector<Rgb> colors;
+  const double top = limit();
+  for (const double value : values) colors.push_back(viridis(value / top));
+  return colors;
+}
+
+std::vector<Tick> ColorScale::marks(double factor) const {
+  const double top = limit() * factor;
+  std::vector<Tick> marks = ticks(0, top, 5);
+  for (Tick& mark : marks) mark.value /= top;
+  if (marks.back().value > 1 - 1e-6) marks.back().label = "≥ " + marks.back().label;
+  return marks;
+}
+
+}  // namespace drape

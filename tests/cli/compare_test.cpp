@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/cli/run_drape.hpp"
+
+namespace drape::compare_cli {
+namespace {
+
+using test::drape;
+using test::Finished;
+using test::SceneFolder;
+
+const std::string scene = test::least_scene + "duration = 0.1\n[video]\nsize = [64, 48]\n[effects.gravity]\n";
+
+TEST(Compare, WritesEveryFormInOnePass) {
+  const SceneFolder folder;
+  folder.write("a.toml", scene);
+  folder.write("b.toml", scene + "[cloth.transform]\ntranslate = [0, 0, 1]\n");
+  const Finished finished =
+      drape(folder, "compare a.toml b.toml -o ab.gif -o ab.html -o ab.png --sheet 2x1 --difference");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  for (const char* file : {"ab.gif", "ab.html", "ab.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path(file))) << file;
+}
+
+TEST(Compare, VariesASceneByItsKeys) {
+  const SceneFolder folder;
+  folder.write("a.toml", scene);
+  const Finished finished = drape(
+      folder, "compare a.toml --vary integrator.method=liu13,implicit --vary 'camera.up=[0, 0, 1],[0, 1, 1]' -o a.png");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  std::size_t motions = 0;
+  for (std::size_t at = 0; (at = finished.text.find("drape: ", at)) != std::string::npos; ++at) ++motions;
+  EXPECT_EQ(motions, 4U) << finished.text;
+}
+
+TEST(Compare, RefusesInOneMessageWithExitCode2) {
+  const SceneFolder folder;
+  folder.write("a.toml", scene);
+  const auto message = [&](const std::string& arguments) {
+    const Finished finished = drape(folder, "compare " + arguments);
+    EXPECT_EQ(finished.code, 2) << arguments << finished.text;
+    return finished.text;
+  };
+  EXPECT_EQ(message("a.toml"), "drape: drape compare needs two motions at least\n");
+  EXPECT_EQ(message("a.toml a.toml --grid 3"),
+            "drape: --grid takes COLUMNSxROWS, each from 1 to 100, as in 4x3; found '3'\n");
+  EXPECT_EQ(message("a.toml a.toml -o x.gif --sheet 2x2"), "drape: --sheet 2x2 needs an output for it: -o NAME.png\n");
+  EXPECT_EQ(message("a.toml --vary integrator -o x.gif"),
+            "drape: --vary takes key.path=value,value…, found 'integrator'\n");
+  EXPECT_NE(message("a.toml --vary integrater.method=liu13,implicit").find("did you mean 'integrator'?"),
+            std::string::npos);
+  EXPECT_NE(message("a.toml a.toml -o a.toml").find("a.toml"), std::string::npos);
+}
+
+TEST(Sheet, IsMadeOfASingleFilmToo) {
+  const SceneFolder folder;
+  folder.write("a.toml", scene);
+  ASSERT_EQ(drape(folder, "render a.toml -o a.gif -o sheet.png --sheet 3x1").code, 0);
+  EXPECT_EQ(cv::imread(folder.path("sheet.png")).cols, 3 * 64 + 2 * 6);
+  EXPECT_EQ(drape(folder, "render a.toml --sheet 2x1").code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder.path("out/a.png")));
+  EXPECT_EQ(drape(folder, "render a.toml -o a.gif --sheet 3x1").code, 2);
+}
+
+}  // namespace
+}  // namespace drape::compare_cli

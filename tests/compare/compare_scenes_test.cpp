@@ -1,0 +1,155 @@
+#include "compare/compare_scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+
+#include "overlay/color_map.hpp"
+#include "run/run_scene.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/scene_folder.hpp"
+#include "tests/support/usage_error.hpp"
+
+namespace drape::compare_scenes_tests {
+namespace {
+
+constexpr const char* swinging = R"(
+[cloth]
+mesh = { grid = [6, 6] }
+stiffness = 50
+pins = ["corner:x-y-"]
+[time]
+step = 0.02
+duration = 0.2
+[video]
+size = [120, 100]
+[camera]
+position = [3, -4, 3]
+target = [0, 0, -0.5]
+[effects.gravity]
+)";
+
+CompareResult compare(const std::vector<Scene>& scenes, const CompareOptions& options) {
+  require_comparison(scenes, options);
+  Progress progress;
+  return compare_scenes(scenes, options, {}, progress);
+}
+
+/// Whether a picture is somewhere within another.
+bool contains(const cv::Mat& whole, const cv::Mat& part) {
+  for (int y = 0; y + part.rows <= whole.rows; ++y) {
+    for (int x = 0; x + part.cols <= whole.cols; x += 6) {
+      const cv::Mat here = whole(cv::Rect(x, y, part.cols, part.rows));
+      if (cv::norm(here.row(part.rows / 2), part.row(part.rows / 2), cv::NORM_INF) == 0 &&
+          cv::norm(here, part, cv::NORM_INF) == 0)
+        return true;
+    }
+  }
+  return false;
+}
+
+TEST(CompareScenes, ShowsEachMotionAsItsOwnFilmWould) {
+  const test::SceneFolder folder;
+  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.stiffness=5"})};
+  CompareOptions options;
+  options.outputs = {folder.path("both.png")};
+  const CompareResult result = compare(scenes, options);
+  EXPECT_EQ(result.times.size(), 6U);
+  const cv::Mat both = cv::imread(options.outputs[0]);
+  for (const Scene& scene : scenes) {
+    RunOptions run;
+    run.outputs = {folder.path("one.png")};
+    Progress progress;
+    run_scene(scene, run, {}, progress);
+    EXPECT_TRUE(contains(both, cv::imread(run.outputs[0])));
+  }
+  EXPECT_EQ(both.cols, comparison_info(scenes, options).width);
+  EXPECT_EQ(both.rows, comparison_info(scenes, options).height);
+}
+
+TEST(CompareScenes, OneCameraHasAllOfThemInView) {
+  const test::SceneFolder folder;
+  std::string free = swinging;
+  free.replace(free.find("position"), free.find("[effects") - free.find("position"), "");
+  const std::vector<Scene> scenes{folder.load(free), folder.load(free, {"cloth.transform.translate=[4, 0, 0]"})};
+  CompareOptions options;
+  options.outputs = {folder.path("both.png")};
+  options.columns = 1;
+  compare(scenes, options);
+  const cv::Mat both = cv::imread(options.outputs[0]);
+  // Neither touches the sides of its panel, and the clothes stand at different places.
+  for (int y = 0; y < both.rows; ++y) {
+    EXPECT_EQ(both.at<cv::Vec3b>(y, 0), cv::Vec3b(255, 255, 255));
+    EXPECT_EQ(both.at<cv::Vec3b>(y, both.cols - 1), cv::Vec3b(255, 255, 255));
+  }
+}
+
+TEST(CompareScenes, AMotionThatIsOverStaysAsItWas) {
+  const test::SceneFolder folder;
+  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging, {"time.duration=0.04"})};
+  CompareOptions options;
+  const CompareResult result = compare(scenes, options);
+  EXPECT_EQ(result.times.size(), 6U);
+  EXPECT_EQ(result.motions[1].total_energy[1], result.motions[1].total_energy[5]);
+  EXPECT_NE(result.motions[0].total_energy[1], result.motions[0].total_energy[5]);
+  EXPECT_EQ(result.motions[0].statistics.steps(), 10);
+  EXPECT_EQ(result.motions[1].statistics.steps(), 2);
+}
+
+TEST(CompareScenes, TheSameMotionHasNoDistanceAndTheFirstColour) {
+  const test::SceneFolder folder;
+  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging, {"look.line_width=2"}),
+                                  folder.load(swinging, {"cloth.stiffness=5"})};
+  CompareOptions options;
+  options.difference = true;
+  const CompareResult result = compare(scenes, options);
+  EXPECT_EQ(*std::max_element(result.motions[1].most.begin(), result.motions[1].most.end()), 0);
+  EXPECT_GT(result.motions[2].most.back(), 0.01);
+  EXPECT_LE(result.motions[2].mean.back(), result.motions[2].most.back());
+}
+
+TEST(CompareScenes, RefusesWhatCannotBeCompared) {
+  const test::SceneFolder folder;
+  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.mesh={ grid = [4, 4] }"})};
+  CompareOptions options;
+  options.difference = true;
+  EXPECT_NE(test::usage_error([&] { require_comparison(scenes, options); }).find("has 49 of them, "),
+            std::string::npos);
+  options.difference = false;
+  options.columns = options.rows = 1;
+  EXPECT_EQ(test::usage_error([&] { require_comparison(scenes, options); }),
+            "--grid 1x1 has 1 places, and 2 motions are compared");
+  options.columns = options.rows = 0;
+  options.outputs = {folder.path("a.obj")};
+  EXPECT_NE(test::usage_error([&] { require_comparison(scenes, options); }).find("draws pictures"), std::string::npos);
+}
+
+TEST(CompareScenes, GivesTheSameBytesTwice) {
+  const test::SceneFolder folder;
+  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.stiffness=5"})};
+  CompareOptions options;
+  options.difference = true;
+  for (const char* name : {"1.gif", "2.gif"}) {
+    options.outputs = {folder.path(name)};
+    compare(scenes, options);
+  }
+  EXPECT_EQ(test::content(folder.path("1.gif")), test::content(folder.path("2.gif")));
+}
+
+TEST(CompareScenes, MakesAPageThatHoldsItsPictures) {
+  const test::SceneFolder folder;
+  const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.stiffness=5"})};
+  CompareOptions options;
+  options.outputs = {folder.path("page.html")};
+  options.command = "drape compare a b";
+  compare(scenes, options);
+  const std::string page = test::content(options.outputs[0]);
+  std::size_t pictures = 0;
+  for (std::size_t at = 0; (at = page.find("data:image/png", at)) != std::string::npos; ++at) ++pictures;
+  EXPECT_EQ(pictures, 12U);  // 6 frames of 2 motions
+  EXPECT_NE(page.find("cloth.stiffness"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace drape::compare_scenes_tests

@@ -1,0 +1,64 @@
+#include "compare/differences.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/scene_folder.hpp"
+
+namespace drape::compare_differences {
+namespace {
+
+using test::least_scene;
+using Labels = std::vector<std::string>;
+
+std::vector<Scene> scenes(const test::SceneFolder& folder, const std::vector<std::vector<std::string>>& overrides,
+                          const std::string& more = "") {
+  std::vector<Scene> all;
+  for (const std::vector<std::string>& some : overrides) all.push_back(folder.load(least_scene + more, some));
+  return all;
+}
+
+TEST(Differences, AreTheKeysWithOtherValuesGivenOrNot) {
+  const test::SceneFolder folder;
+  const auto all = scenes(folder, {{}, {"integrator.method=liu13", "integrator.tolerance=0.001"}});
+  const std::vector<KeyDifference> found = differences(all);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].key, "integrator.method");
+  EXPECT_EQ(found[0].values, (Labels{"quasi-newton", "liu13"}));
+  EXPECT_EQ(found[1].key, "integrator.tolerance");
+  EXPECT_EQ(found[1].values, (Labels{"default", "0.001"}));
+  EXPECT_EQ(labels(all, found), (Labels{"quasi-newton, tolerance = default", "liu13, tolerance = 0.001"}));
+}
+
+TEST(Differences, ADefaultThatIsGivenIsNone) {
+  const test::SceneFolder folder;
+  EXPECT_TRUE(differences(scenes(folder, {{}, {"integrator.method=quasi-newton", "cloth.mass=1"}})).empty());
+}
+
+TEST(Differences, WhatIsTakenFromTheFirstSceneIsNone) {
+  const test::SceneFolder folder;
+  EXPECT_TRUE(
+      differences(scenes(folder, {{}, {"camera.azimuth=3", "video.fps=5", "caption.text=a", "check.size=[32, 32]"}}))
+          .empty());
+}
+
+TEST(Differences, AnEffectThatIsNotThereIsOneDifference) {
+  const test::SceneFolder folder;
+  const auto all = scenes(folder, {{}, {"effects.damping.factor=0.1"}});
+  const std::vector<KeyDifference> found = differences(all);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].key, "effects.damping");
+  EXPECT_EQ(labels(all, found), (Labels{"no damping", "damping"}));
+  const auto both = scenes(folder, {{"effects.damping.factor=0.2"}, {"effects.damping.factor=0.1"}});
+  EXPECT_EQ(labels(both, differences(both)), (Labels{"damping.factor = 0.2", "damping.factor = 0.1"}));
+}
+
+TEST(Differences, WhatThingsLookLikeNeedsNoLabel) {
+  const test::SceneFolder folder;
+  const auto all = scenes(folder, {{}, {"look.mesh_lines=true"}});
+  const std::vector<KeyDifference> found = differences(all);
+  EXPECT_EQ(found.size(), 1U);
+  EXPECT_EQ(labels(all, found), (Labels{"scene", "scene"}));
+}
+
+}  // namespace
+}  // namespace drape::compare_differences

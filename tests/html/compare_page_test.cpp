@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include "compare/page.hpp"
+#include "output/png_encoder.hpp"
+#include "tests/html/html_page.hpp"
+
+namespace drape {
+namespace {
+
+class ComparePage : public test::InBrowser {
+ protected:
+  static std::string page() {
+    CompareResult result;
+    std::vector<PageMoment> moments;
+    for (const char* label : {"liu13, tolerance = 0.001", "implicit <exact>"}) {
+      result.motions.push_back({label, {}, {}, {}, {}, {}});
+    }
+    result.differences = {{"integrator.method", {"liu13", "implicit"}}};
+    for (int k = 0; k < 4; ++k) {
+      result.times.push_back(0.1 * k);
+      moments.push_back({0.1 * k, {}});
+      for (ComparedMotion& motion : result.motions) {
+        motion.total_energy.push_back(-k);
+        motion.most.emplace_back(0.02 * k);
+        motion.mean.emplace_back(0.01 * k);
+        Image image(480, 400);
+        std::fill(image.pixels.begin(), image.pixels.end(), static_cast<std::uint8_t>(60 * k));
+        moments.back().pictures.push_back(encode_png(image));
+      }
+    }
+    return comparison_page(result, moments, encode_png(Image(700, 60)), "drape compare a.toml b.toml");
+  }
+
+  /// Of the pictures that are seen: which moment they are of.
+  nlohmann::json shown() {
+    return browser_->run(
+        "return [...document.querySelectorAll('.shown-moment')].filter((m) => m.checkVisibility())"
+        ".map((m) => m.dataset.moment)");
+  }
+};
+
+TEST_F(ComparePage, ShowsOneMomentOfAllMotions) {
+  open(page());
+  expect_sound();
+  EXPECT_EQ(shown(), (nlohmann::json{"0", "0"}));
+  browser_->run("document.querySelector('.film input').focus()");
+  browser_->press(test::Browser::arrow_right);
+  EXPECT_EQ(shown(), (nlohmann::json{"1", "1"}));
+  EXPECT_EQ(browser_->run("return document.querySelector('.film output').textContent"), "t = 0.10 s");
+  keep_screenshots("compare");
+}
+
+TEST_F(ComparePage, PlaysAndPauses) {
+  open(page());
+  browser_->click(".film .play");
+  EXPECT_EQ(browser_->run("return document.querySelector('.film .play').textContent"), "Pause");
+  browser_->click(".film .play");
+  EXPECT_EQ(browser_->run("return document.querySelector('.film .play').textContent"), "Play");
+  const auto moments = shown();
+  EXPECT_EQ(moments.at(0), moments.at(1));
+}
+
+TEST_F(ComparePage, SaysInWhatTheMotionsDiffer) {
+  open(page());
+  EXPECT_EQ(
+      browser_->run("return [...document.querySelectorAll('#differences ~ .scroll td')].map((c) => c.textContent)"),
+      (nlohmann::json{"integrator.method", "liu13", "implicit"}));
+  EXPECT_EQ(browser_->run("return document.querySelector('.film figure:nth-child(2) figcaption').textContent"),
+            "implicit <exact>");
+  // Wide enough, the motions stand side by side; else below one another.
+  const char* tops = "return [...document.querySelectorAll('.film figure')].map((f) => f.getBoundingClientRect().top)";
+  const auto wide = browser_->run(tops);
+  EXPECT_EQ(wide.at(0), wide.at(1));
+  browser_->set_width(390);
+  const auto narrow = browser_->run(tops);
+  EXPECT_LT(narrow.at(0).get<double>(), narrow.at(1).get<double>());
+}
+
+}  // namespace
+}  // namespace drape
