@@ -1,6 +1,7 @@
 #include "check/animation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -50,16 +51,25 @@ std::vector<Pair> picture_pairs(const std::vector<FrameResult>& frames, int firs
   return pairs;
 }
 
+/// Where the camera stood in the compared frame that is nearest in time.
+const View& view_near(const Golden& golden, double time) {
+  const auto nearer = [time](const GoldenFrame& a, const GoldenFrame& b) {
+    return std::abs(a.time - time) < std::abs(b.time - time);
+  };
+  return std::min_element(golden.frames.begin(), golden.frames.end(), nearer)->view;
+}
+
 /// @param first the first window that is shown
 std::vector<Pair> motion_pairs(const Scene& scene, const Golden& golden, std::size_t first, const Eigen::Vector2i& size,
                                GlBackend backend) {
-  DrawFrames drawing(scene, size, golden.view, backend);
+  DrawFrames drawing(scene, size, backend);
   std::vector<Pair> pairs;
   for (std::size_t i = first; i < std::min(first + most_windows, golden.windows.size() - 1); ++i) {
     for (const WindowPositions& at : rerun_window(scene.simulation, golden, i)) {
       if (i > 0 && at.step == golden.windows[i].start.step) continue;  // where nothing differs
       const double time = static_cast<double>(at.step) * golden.step;
-      pairs.push_back({drawing.draw(0, time, at.golden), drawing.draw(0, time, at.actual)});
+      const View& view = view_near(golden, time);
+      pairs.push_back({drawing.draw(view, 0, time, at.golden), drawing.draw(view, 0, time, at.actual)});
     }
   }
   return pairs;

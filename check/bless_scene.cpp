@@ -13,7 +13,7 @@ std::optional<Recording> record_scene(const Scene& scene, const CheckSettings& s
   if (!plan) return std::nullopt;
   std::optional<Golden> golden = record_motion(scene, settings, *plan, stop, progress);
   if (!golden) return std::nullopt;
-  DrawFrames drawing(scene, golden->size, golden->view, backend);
+  DrawFrames drawing(scene, golden->size, backend);
   std::vector<Png> pictures = drawing.draw(golden->frames, stop, progress);
   if (stop.stop_requested()) return std::nullopt;
   golden->date = utc_now();

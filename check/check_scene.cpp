@@ -135,25 +135,24 @@ class SceneCheck {
     }
   }
 
-  /// The golden view, unless what it depends on has changed; then the motion is run to place the camera anew.
-  [[nodiscard]] View current_view() {
-    const Simulation simulation(scene_.simulation);
+  /// Places the camera anew where what the golden places depend on has changed, for which the motion is run.
+  void place_camera() {
     if (same_camera(scene_.camera, golden_.camera) &&
-        same_but_for_rounding(view_of_frames(scene_.camera, golden_.size, golden_.frames, simulation),
-                              golden_.frames_view)) {
-      return golden_.view;
+        same_but_for_rounding(views_of_frames(scene_, golden_.size, golden_.frames), golden_.frames_views)) {
+      return;
     }
-    if (!needs_motion(scene_.camera)) return fixed_view(scene_.camera);
-    const auto recorded =
-        record_motion(scene_, settings_, {.frames = {}, .window_steps = golden_.window_steps, .quanta = golden_.quanta},
-                      stop_, progress_);
-    return recorded ? recorded->view : golden_.view;
+    const auto recorded = record_motion(scene_, settings_, plan_of(golden_), stop_, progress_);
+    if (!recorded) return;
+    for (GoldenFrame& frame : frames_) {
+      const auto same = [&frame](const GoldenFrame& other) { return other.frame == frame.frame; };
+      frame.view = std::find_if(recorded->frames.begin(), recorded->frames.end(), same)->view;
+    }
   }
 
   void compare_golden_pictures() {
-    const View view = current_view();
+    place_camera();
     if (stop_.stop_requested()) return;
-    DrawFrames drawing(scene_, golden_.size, view, options_.backend);
+    DrawFrames drawing(scene_, golden_.size, options_.backend);
     result_.renderer = drawing.renderer();
     result_.windows.frames = drawing.compare(frames_, result_.golden, settings_, stop_, progress_);
     worst_picture(result_.windows);
@@ -186,7 +185,7 @@ class SceneCheck {
     if (whole.motion == MotionVerdict::changed) {
       result_.findings.push_back("end to end, " + describe_motion(whole.windows));
     }
-    DrawFrames drawing(scene_, golden_.size, recorded->view, options_.backend);
+    DrawFrames drawing(scene_, golden_.size, options_.backend);
     std::vector<GoldenFrame> frames = chosen_frames(*recorded, options_.frames, result_.golden);
     for (std::size_t i = 0; i < frames.size(); ++i) frames[i].pixels = frames_[i].pixels;
     whole.frames = drawing.compare(frames, result_.golden, settings_, stop_, progress_);

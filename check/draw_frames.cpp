@@ -40,12 +40,13 @@ FrameResult compare_frame(const GoldenFrame& golden, const std::filesystem::path
 
 }  // namespace
 
-DrawFrames::DrawFrames(const Scene& scene, const Eigen::Vector2i& size, const View& view, GlBackend backend)
+DrawFrames::DrawFrames(const Scene& scene, const Eigen::Vector2i& size, GlBackend backend)
     : simulation_(scene.simulation),
-      renderer_(data_folder(), size, view, scene.look, scene.simulation.cloth.vertex_count(),
+      renderer_(data_folder(), size, View{}, scene.look, scene.simulation.cloth.vertex_count(),
                 scene.simulation.cloth.triangles, scene.uvs, backend) {}
 
-Image DrawFrames::draw(int frame, double time, const Vertices& positions) {
+Image DrawFrames::draw(const View& view, int frame, double time, const Vertices& positions) {
+  renderer_.look_from(view);
   return renderer_.draw(
       {.index = frame, .time = time, .positions = positions, .colliders = simulation_.colliders(time)});
 }
@@ -56,7 +57,7 @@ std::vector<Png> DrawFrames::draw(const std::vector<GoldenFrame>& frames, const 
   std::vector<Png> pictures;
   for (const GoldenFrame& frame : frames) {
     if (stop.stop_requested()) break;
-    pictures.push_back(encode_png(draw(frame.frame, frame.time, frame.x)));
+    pictures.push_back(encode_png(draw(frame.view, frame.frame, frame.time, frame.x)));
     ++progress.done;
   }
   return pictures;
@@ -69,8 +70,8 @@ std::vector<FrameResult> DrawFrames::compare(const std::vector<GoldenFrame>& fra
   std::vector<FrameResult> results;
   for (const GoldenFrame& frame : frames) {
     if (stop.stop_requested()) break;
-    results.push_back(
-        compare_frame(frame, golden_picture(folder, frame.frame), draw(frame.frame, frame.time, frame.x), settings));
+    const Image actual = draw(frame.view, frame.frame, frame.time, frame.x);
+    results.push_back(compare_frame(frame, golden_picture(folder, frame.frame), actual, settings));
     ++progress.done;
   }
   return results;

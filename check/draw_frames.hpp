@@ -18,13 +18,13 @@ namespace drape {
 class DrawFrames {
  public:
   /// @throws UsageError, OutputError as Renderer
-  DrawFrames(const Scene& scene, const Eigen::Vector2i& size, const View& view, GlBackend backend);
+  DrawFrames(const Scene& scene, const Eigen::Vector2i& size, GlBackend backend);
 
   /// What draws.
   [[nodiscard]] std::string renderer() const { return renderer_.description(); }
 
-  /// One picture.
-  Image draw(int frame, double time, const Vertices& positions);
+  /// One picture, from where the camera is then.
+  Image draw(const View& view, int frame, double time, const Vertices& positions);
 
   /// A picture of each frame; fewer if it is stopped.
   std::vector<Png> draw(const std::vector<GoldenFrame>& frames, const std::stop_token& stop, Progress& progress);

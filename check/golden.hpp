@@ -38,6 +38,7 @@ struct GoldenFrame {
   int frame = 0;            ///< its number
   double time = 0;          ///< of the scene [s]
   std::string why;          ///< it was chosen: "first contact with the sphere"
+  View view = {};           ///< where the camera stood: the whole motion need not be run to know
   Vertices x;               ///< positions that the picture shows, rounded as Quanta says [m]
   std::string pixels = {};  ///< hash of the picture, see pixel_hash(); set when it is written
 };
@@ -57,8 +58,7 @@ struct Golden {
   double seconds_per_frame = 0;  ///< of the scene's time
   Quanta quanta;
   Camera camera;                      ///< what the scene said
-  View view;                          ///< and where it stood: the whole motion need not be run to know
-  View frames_view;                   ///< where it would stand if the compared frames were the whole motion
+  std::vector<View> frames_views;     ///< where it would stand if the compared frames were the whole motion
   std::vector<GoldenWindow> windows;  ///< they tile the motion; the last one is its end
   std::vector<GoldenFrame> frames;    ///< ascending
 };

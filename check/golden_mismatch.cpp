@@ -45,10 +45,14 @@ std::string picture_mismatch(const Scene& scene, const CheckSettings& settings, 
   return {};
 }
 
-bool same_but_for_rounding(const View& a, const View& b) {
-  constexpr double rounding = 1e-9;
-  return a.position.isApprox(b.position, rounding) && (a.target - b.target).norm() <= rounding * a.position.norm() &&
-         a.up.isApprox(b.up, rounding) && std::abs(a.field_of_view - b.field_of_view) <= rounding * a.field_of_view;
+bool same_but_for_rounding(const std::vector<View>& a, const std::vector<View>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const View& one, const View& other) {
+    constexpr double rounding = 1e-9;
+    return one.position.isApprox(other.position, rounding) &&
+           (one.target - other.target).norm() <= rounding * one.position.norm() &&
+           one.up.isApprox(other.up, rounding) &&
+           std::abs(one.field_of_view - other.field_of_view) <= rounding * one.field_of_view;
+  });
 }
 
 }  // namespace drape

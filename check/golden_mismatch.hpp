@@ -14,7 +14,7 @@ std::string motion_mismatch(const Scene& scene, const Golden& golden);
 /// @param some_frames only some of the golden frames are compared
 std::string picture_mismatch(const Scene& scene, const CheckSettings& settings, const Golden& golden, bool some_frames);
 
-/// Whether two views are the same but for rounding, which may differ between processors.
-bool same_but_for_rounding(const View& a, const View& b);
+/// Whether the views of two lists are the same but for rounding, which may differ between processors.
+bool same_but_for_rounding(const std::vector<View>& a, const std::vector<View>& b);
 
 }  // namespace drape

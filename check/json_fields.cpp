@@ -44,6 +44,11 @@ std::string Fields::text(const char* key) const {
   return at(key).get<std::string>();
 }
 
+bool Fields::flag(const char* key) const {
+  if (!at(key).is_boolean()) fail(key, "true or false");
+  return at(key).get<bool>();
+}
+
 double Fields::positive(const char* key, double least) const {
   const double value = number(key);
   if (!(value >= least)) fail(key, fmt::format("a number from {:g} on, found {:g}", least, value));

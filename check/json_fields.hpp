@@ -29,6 +29,10 @@ class Fields {
   [[nodiscard]] std::vector<Fields> objects(const char* key) const;
   [[nodiscard]] std::string text(const char* key) const;
   [[nodiscard]] double number(const char* key) const { return number(at(key), key); }
+  [[nodiscard]] std::optional<double> number_or_nothing(const char* key) const {
+    return is_null(key) ? std::nullopt : std::optional(number(key));
+  }
+  [[nodiscard]] bool flag(const char* key) const;
   [[nodiscard]] double positive(const char* key, double least = std::numeric_limits<double>::min()) const;
 
   template <class T>

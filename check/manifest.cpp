@@ -14,7 +14,7 @@
 namespace drape {
 namespace {
 
-constexpr int format_version = 2;
+constexpr int format_version = 3;
 
 template <int n, class T>
 Json array_of(const Eigen::Matrix<T, n, 1>& v) {
@@ -23,14 +23,18 @@ Json array_of(const Eigen::Matrix<T, n, 1>& v) {
 
 Json point_or_null(const std::optional<Eigen::Vector3d>& point) { return point ? array_of<3>(*point) : Json(nullptr); }
 
+Json number_or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
+
 Json to_json(const Camera& camera) {
   return {{"position", point_or_null(camera.position)},
           {"target", point_or_null(camera.target)},
           {"up", array_of<3>(camera.up)},
           {"field_of_view", camera.field_of_view},
-          {"azimuth", camera.azimuth},
-          {"elevation", camera.elevation},
-          {"margin", camera.margin}};
+          {"azimuth", number_or_null(camera.azimuth)},
+          {"elevation", number_or_null(camera.elevation)},
+          {"margin", camera.margin},
+          {"follow", camera.follow},
+          {"orbit", camera.orbit}};
 }
 
 Json to_json(const View& view) {
@@ -41,7 +45,11 @@ Json to_json(const View& view) {
 }
 
 Json to_json(const GoldenFrame& frame) {
-  return {{"frame", frame.frame}, {"time", frame.time}, {"why", frame.why}, {"pixels", frame.pixels}};
+  return {{"frame", frame.frame},
+          {"time", frame.time},
+          {"why", frame.why},
+          {"view", to_json(frame.view)},
+          {"pixels", frame.pixels}};
 }
 
 Camera camera_from(const Fields& fields) {
@@ -50,9 +58,11 @@ Camera camera_from(const Fields& fields) {
   camera.target = fields.point_or_nothing("target");
   camera.up = fields.point("up");
   camera.field_of_view = fields.number("field_of_view");
-  camera.azimuth = fields.number("azimuth");
-  camera.elevation = fields.number("elevation");
+  camera.azimuth = fields.number_or_nothing("azimuth");
+  camera.elevation = fields.number_or_nothing("elevation");
   camera.margin = fields.number("margin");
+  camera.follow = fields.flag("follow");
+  camera.orbit = fields.number("orbit");
   return camera;
 }
 
@@ -85,6 +95,7 @@ std::vector<GoldenFrame> frames_from(const std::vector<Fields>& list) {
     frames.push_back({.frame = fields.whole<int>("frame", least, std::numeric_limits<int>::max() - 1),
                       .time = fields.number("time"),
                       .why = fields.text("why"),
+                      .view = view_from(fields.object("view")),
                       .x = {},
                       .pixels = fields.text("pixels")});
   }
@@ -120,8 +131,7 @@ Manifest manifest_from(const Fields& fields) {
   golden.quanta.velocity = quantum_from(quanta, "velocity");
   golden.quanta.compared = quanta.positive("compared", least_quantum);
   golden.camera = camera_from(fields.object("camera"));
-  golden.view = view_from(fields.object("view"));
-  golden.frames_view = view_from(fields.object("frames_view"));
+  for (const Fields& view : fields.objects("frames_views")) golden.frames_views.push_back(view_from(view));
   golden.frames = frames_from(fields.objects("frames"));
   manifest.motion_hash = fields.text("motion");
   return manifest;
@@ -158,8 +168,9 @@ void require_own(const Json& json, std::string_view bytes) {
 bool same_camera(const Camera& a, const Camera& b) { return to_json(a) == to_json(b); }
 
 std::string manifest_text(const Golden& golden, const std::string& motion_hash) {
-  Json frames = Json::array();
+  Json frames = Json::array(), frames_views = Json::array();
   for (const GoldenFrame& frame : golden.frames) frames.push_back(to_json(frame));
+  for (const View& view : golden.frames_views) frames_views.push_back(to_json(view));
   const Quanta& quanta = golden.quanta;
   return sealed(
       {{"format", format_version},
@@ -176,8 +187,7 @@ std::string manifest_text(const Golden& golden, const std::string& motion_hash) 
        {"seconds_per_frame", golden.seconds_per_frame},
        {"quanta", {{"position", quanta.position}, {"velocity", quanta.velocity}, {"compared", quanta.compared}}},
        {"camera", to_json(golden.camera)},
-       {"view", to_json(golden.view)},
-       {"frames_view", to_json(golden.frames_view)},
+       {"frames_views", std::move(frames_views)},
        {"frames", std::move(frames)},
        {"motion", motion_hash}});
 }

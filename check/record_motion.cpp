@@ -10,7 +10,10 @@
 #include "check/chained_motion.hpp"
 #include "check/survey_motion.hpp"
 #include "core/error.hpp"
+#include "render/camera_path.hpp"
 #include "run/frame_sampler.hpp"
+#include "run/frame_tape.hpp"
+#include "run/known_film.hpp"
 #include "run/run_steps.hpp"
 
 namespace drape {
@@ -51,8 +54,6 @@ class Recorder final : public StepObserver {
   const std::vector<std::int64_t>& starts_;
   Quanta quanta_;
 };
-
-double aspect(const Eigen::Vector2i& size) { return static_cast<double>(size.x()) / size.y(); }
 
 /// The distance of vertices in the row beside, of a mesh that is a grid: the commonest one that is not 1.
 int row_of(const Cloth& cloth) {
@@ -116,28 +117,36 @@ RecordPlan plan_of(const Golden& golden) {
   return plan;
 }
 
-View view_of_frames(const Camera& camera, const Eigen::Vector2i& size, const std::vector<GoldenFrame>& frames,
-                    const Simulation& simulation) {
-  if (!needs_motion(camera)) return fixed_view(camera);
-  Framing framing(camera, aspect(size));
-  for (const GoldenFrame& frame : frames) {
-    framing.add(frame.x);
-    for (const Collider& collider : simulation.colliders(frame.time)) framing.add(collider);
-  }
-  return framing.view();
+std::vector<View> views_of_frames(const Scene& scene, const Eigen::Vector2i& size,
+                                  const std::vector<GoldenFrame>& frames) {
+  if (frames.empty()) return {};
+  const Simulation simulation(scene.simulation);
+  const auto pass = [&](const std::function<void(const Frame&)>& visit) {
+    for (const GoldenFrame& frame : frames) {
+      visit({.index = frame.frame,
+             .time = frame.time,
+             .positions = frame.x,
+             .colliders = simulation.colliders(frame.time)});
+    }
+  };
+  const int count = static_cast<int>(frames.size());
+  const CameraPath path = camera_path(scene.camera, known_film(scene, size, count, pass));
+  std::vector<View> views;
+  for (int i = 0; i < count; ++i) views.push_back(path.at(i));
+  return views;
 }
 
 std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& settings, const RecordPlan& plan,
                                     const std::stop_token& stop, Progress& progress) {
   Golden golden = described(scene, settings, plan);
   const FilmExtent film = whole_film(scene);
-  Framing framing(scene.camera, aspect(golden.size));
+  FrameTape tape;
   auto wanted = golden.frames.begin();
-  FrameSampler sampler(film, [&](const Frame& frame) {
-    framing.add(frame.positions);
-    for (const Collider& collider : frame.colliders) framing.add(collider);
-    if (wanted == golden.frames.end() || wanted->frame != frame.index) return;
-    wanted++->x = rounded(frame.positions, plan.quanta.position);
+  FrameSampler sampler(film, [&](Frame frame) {
+    if (wanted != golden.frames.end() && wanted->frame == frame.index) {
+      wanted++->x = rounded(frame.positions, plan.quanta.position);
+    }
+    tape.add(std::move(frame));
   });
   const std::vector<std::int64_t> starts = window_starts(film.steps, plan.window_steps);
   Recorder recorder(starts, plan.quanta);
@@ -148,12 +157,12 @@ std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& set
   run_chained(simulation, starts, plan.quanta, observers, stop);
   if (stop.stop_requested()) return std::nullopt;
 
-  golden.view = needs_motion(scene.camera) ? framing.view() : fixed_view(scene.camera);
+  const auto pass = [&tape](const auto& visit) { tape.for_each(visit); };
+  const CameraPath path = camera_path(scene.camera, known_film(scene, golden.size, tape.count(), pass));
+  for (GoldenFrame& frame : golden.frames) frame.view = path.at(frame.frame);
+  golden.frames_views = views_of_frames(scene, golden.size, golden.frames);
   golden.windows = std::move(recorder.windows);
   golden.body_count = recorder.body_count;
-  if (!golden.frames.empty()) {
-    golden.frames_view = view_of_frames(scene.camera, golden.size, golden.frames, simulation);
-  }
   return golden;
 }
 

@@ -39,7 +39,8 @@ Eigen::Vector2i picture_size(const Scene& scene, const CheckSettings& settings);
 
 /// Where the camera would stand if the compared frames were the whole motion: the same as long as neither the camera,
 /// nor what there is to see, nor the way in which the camera is placed changes.
-View view_of_frames(const Camera& camera, const Eigen::Vector2i& size, const std::vector<GoldenFrame>& frames,
-                    const Simulation& simulation);
+/// @returns the view in each of them
+std::vector<View> views_of_frames(const Scene& scene, const Eigen::Vector2i& size,
+                                  const std::vector<GoldenFrame>& frames);
 
 }  // namespace drape

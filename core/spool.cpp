@@ -26,8 +26,20 @@ int open_nameless(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Spool::Spool(const PartialFile& output, std::string kept) : file_(output.file()), kept_(std::move(kept)) {
-  const int descriptor = open_nameless(output.temporary().parent_path());
+Spool::Spool(const PartialFile& output, std::string kept)
+    : problem_(fmt::format("cannot write {}: {} have to be kept in its folder until the last one is there",
+                           output.file().string(), kept)) {
+  open(output.temporary().parent_path());
+}
+
+Spool::Spool(std::string kept) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  problem_ = fmt::format("cannot keep {} in {}", kept, folder.string());
+  open(folder);
+}
+
+void Spool::open(const std::filesystem::path& folder) {
+  const int descriptor = open_nameless(folder);
   if (descriptor < 0) fail(errno);
   stream_.reset(::fdopen(descriptor, "w+b"));
   if (!stream_) fail(errno);
@@ -58,8 +70,7 @@ void Spool::copy_to(PartialFile& file) {
 }
 
 void Spool::fail(int error_number) const {
-  throw OutputError(fmt::format("cannot write {}: {} have to be kept in its folder until the last one is there: {}",
-                                file_.string(), kept_, std::generic_category().message(error_number)));
+  throw OutputError(fmt::format("{}: {}", problem_, std::generic_category().message(error_number)));
 }
 
 }  // namespace drape

@@ -20,12 +20,17 @@ class Spool {
   /// @throws OutputError
   Spool(const PartialFile& output, std::string kept);
 
+  /// Bytes that belong nowhere: they lie in the system's folder for temporary files.
+  /// @param kept what they are: "the motion"
+  /// @throws OutputError
+  explicit Spool(std::string kept);
+
   /// @throws OutputError naming the system's reason, a full disk above all
   void append(std::string_view bytes);
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  /// Goes back to the first byte. Nothing can be appended after that.
+  /// Goes back to the first byte. Nothing can be appended after that; it can be gone back to again.
   void rewind();
 
   /// The next bytes. Never ask for more than there are.
@@ -40,8 +45,9 @@ class Spool {
   };
   [[noreturn]] void fail(int error_number) const;
 
-  std::filesystem::path file_;
-  std::string kept_;
+  void open(const std::filesystem::path& folder);
+
+  std::string problem_;  // what is said before the system's reason
   std::unique_ptr<std::FILE, Close> stream_;
   std::uint64_t size_ = 0;
 };

@@ -52,6 +52,8 @@ class Renderer::Implementation {
     }
   }
 
+  void look_from(const View& view) { view_ = view; }
+
   /// @param colors of the vertices, or none
   Image draw(const Frame& frame, std::span<const Rgb> colors) {
     context_->make_current();
@@ -97,6 +99,8 @@ Renderer::Renderer(const std::filesystem::path& data_folder, Eigen::Vector2i siz
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+void Renderer::look_from(const View& view) { implementation_->look_from(view); }
 
 Image Renderer::draw(const Frame& frame) { return implementation_->draw(frame, {}); }
 

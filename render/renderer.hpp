@@ -34,6 +34,9 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
+  /// Draws what comes next from another place.
+  void look_from(const View& view);
+
   /// @throws std::invalid_argument if the frame has another number of vertices
   /// @throws OutputError if OpenGL reports an error
   Image draw(const Frame& frame);

@@ -10,15 +10,20 @@
 namespace drape {
 
 /// Where the picture is taken from. With a position, the camera looks from there to `target`; without one it is placed
-/// so that the whole motion is in view, seen from the direction that `azimuth` and `elevation` give.
+/// so that the whole motion is in view, seen from the direction that `azimuth` and `elevation` give, or, where one of
+/// them is absent, from a direction that shows the motion well: see well_placed().
 struct Camera {
+  static constexpr double usual_azimuth = -60, usual_elevation = 20;  ///< where nothing says more [degrees]
+
   std::optional<Eigen::Vector3d> position;  ///< [m]
   std::optional<Eigen::Vector3d> target;    ///< [m]; absent: the middle of the motion
   Eigen::Vector3d up{0, 0, 1};
-  double field_of_view = 30;  ///< of the picture's height [degrees]
-  double azimuth = -60;       ///< direction from the target to the camera in the xy plane, from +x towards +y [degrees]
-  double elevation = 20;      ///< of that direction above the xy plane [degrees]
-  double margin = 0.06;       ///< free border around the motion, as a fraction of the picture
+  double field_of_view = 30;        ///< of the picture's height [degrees]
+  std::optional<double> azimuth;    ///< from the target to the camera in the xy plane, from +x towards +y [degrees]
+  std::optional<double> elevation;  ///< of that direction above the xy plane [degrees]
+  double margin = 0.06;             ///< free border around the motion, as a fraction of the picture
+  bool follow = false;              ///< stays near what moves, instead of where all of the motion is in view
+  double orbit = 0;                 ///< how far it goes around the target, about `up`, in the whole film [degrees]
 };
 
 /// What the colours of a cloth's vertices show, in place of its texture and its colour. The order is that of the names

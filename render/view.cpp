@@ -18,7 +18,8 @@ double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 /// From the target to the camera.
 Eigen::Vector3d direction(const Camera& camera) {
-  const double azimuth = radians(camera.azimuth), elevation = radians(camera.elevation);
+  const double azimuth = radians(camera.azimuth.value_or(Camera::usual_azimuth));
+  const double elevation = radians(camera.elevation.value_or(Camera::usual_elevation));
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
 }
 
@@ -26,7 +27,7 @@ Eigen::Vector3d direction(const Camera& camera) {
 Eigen::Vector3d usable_up(const Camera& camera) {
   const Eigen::Vector3d back = direction(camera);
   if (camera.up.normalized().cross(back).norm() > 1e-6) return camera.up;
-  const double azimuth = radians(camera.azimuth);
+  const double azimuth = radians(camera.azimuth.value_or(Camera::usual_azimuth));
   const double sign = camera.up.dot(back) > 0 ? -1 : 1;
   return {sign * std::cos(azimuth), sign * std::sin(azimuth), 0};
 }
@@ -100,6 +101,10 @@ DepthRange depth_range(const View& view, const Frame& frame) {
   return {std::max(nearest - room, 1e-3 * farthest), farthest};
 }
 
+View distant_view(const Camera& camera) {
+  return {direction(camera), Eigen::Vector3d::Zero(), usable_up(camera), camera.field_of_view};
+}
+
 bool needs_motion(const Camera& camera) { return !camera.position || !camera.target; }
 
 View fixed_view(const Camera& camera) {
@@ -108,7 +113,7 @@ View fixed_view(const Camera& camera) {
 }
 
 Framing::Framing(const Camera& camera, double aspect) : camera_(camera) {
-  axes_ = View{direction(camera), Eigen::Vector3d::Zero(), usable_up(camera), camera.field_of_view}.axes();
+  axes_ = distant_view(camera).axes();
   const double free = (1 - 2 * camera.margin) * std::tan(radians(camera.field_of_view) / 2);
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const Widths tangents = Widths::LinSpaced(1.0 / widths, 1) * (axis == 0 ? free * aspect : free);
@@ -144,12 +149,12 @@ void Framing::add_ball(const Eigen::Vector3d& center, double radius) {
 
 View Framing::view() const {
   if (!(lowest_[0] <= highest_[0])) throw std::logic_error("Framing::view() before anything was added");
-  const Eigen::Vector3d middle = (lowest_ + highest_) / 2;
-  if (camera_.position) return {*camera_.position, camera_.target.value_or(middle), camera_.up, camera_.field_of_view};
+  if (camera_.position)
+    return {*camera_.position, camera_.target.value_or(middle()), camera_.up, camera_.field_of_view};
 
   // In the camera's axes, e = (x, y, z): the planes at the right and left are cos·x + sin·z ≥ upper and
   // -cos·x + sin·z ≥ lower, and those at the top and bottom are the same with y.
-  Eigen::Vector3d target = axes_ * camera_.target.value_or(middle);
+  Eigen::Vector3d target = axes_ * camera_.target.value_or(middle());
   Eigen::Vector3d eye = target;
   constexpr int free = widths - 1;
   eye[2] += 1e-3;  // a single point is not looked at from where it is

@@ -35,6 +35,10 @@ struct View {
 /// The range that holds everything of the frame in front of the camera, with some room.
 DepthRange depth_range(const View& view, const Frame& frame);
 
+/// The view from 1 m in the direction in which a camera without a position stands, towards the origin. Where it looks
+/// along its `up`, the view's is another.
+View distant_view(const Camera& camera);
+
 /// Whether the motion must be known before the camera's view is: it must unless both position and target are given.
 bool needs_motion(const Camera& camera);
 
@@ -56,6 +60,9 @@ class Framing {
   void add(const Vertices& positions);
   /// A ground, which has no end, is not added.
   void add(const Collider& collider);
+
+  /// Of the box around everything added. [m]
+  [[nodiscard]] Eigen::Vector3d middle() const { return (lowest_ + highest_) / 2; }
 
   /// Whether nothing has been added.
   [[nodiscard]] bool empty() const { return lowest_[0] > highest_[0]; }

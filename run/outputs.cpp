@@ -25,6 +25,11 @@ FilmExtent film_extent(const Scene& scene, const RunOptions& options) {
                     options.every);
 }
 
+FilmExtent whole_extent(const Scene& scene, RunOptions options) {
+  options.frames.reset();
+  return film_extent(scene, options);
+}
+
 FilmInfo film_info(const Scene& scene, const RunOptions& options) {
   const FilmExtent extent = film_extent(scene, options);
   FilmInfo film;

@@ -16,6 +16,9 @@ namespace drape {
 /// @throws UsageError if the motion has no such frames
 FilmExtent film_extent(const Scene& scene, const RunOptions& options);
 
+/// The same without a range of frames: what the film of the whole motion shows.
+FilmExtent whole_extent(const Scene& scene, RunOptions options);
+
 /// What is known of a run's film before its first frame. Refers to the scene's cloth and look.
 /// @throws UsageError as film_extent()
 FilmInfo film_info(const Scene& scene, const RunOptions& options);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
 #include <chrono>
 #include <exception>
 #include <memory>
@@ -13,10 +12,12 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "render/camera_path.hpp"
 #include "render/renderer.hpp"
-#include "render/view.hpp"
 #include "run/annotations.hpp"
 #include "run/bounded_queue.hpp"
+#include "run/frame_tape.hpp"
+#include "run/known_film.hpp"
 #include "run/outputs.hpp"
 #include "run/run_steps.hpp"
 
@@ -92,14 +93,14 @@ class Pipeline {
     const std::scoped_lock lock(mutex_);
     if (!error_) error_ = std::current_exception();
     stop_.request_stop();
-    view_.close();
+    path_.close();
     frames_.close();
     film_.close();
   }
 
   void finish_records() {
     result_.problems = outputs_.problems();
-    if (!whole_ && result_.outcome == Outcome::completed) result_.outcome = Outcome::interrupted;
+    if ((!whole_ || cut_) && result_.outcome == Outcome::completed) result_.outcome = Outcome::interrupted;
     if (result_.outcome == Outcome::interrupted && result_.statistics.steps() == 0) return;
     result_.records = records_.finish(simulation_, result_.statistics, outcome_name(result_.outcome),
                                       whole_ ? Ending::complete : Ending::early, result_.problems);
@@ -110,6 +111,17 @@ class Pipeline {
     for (StepObserver* record : records_.observers()) observers.push_back(record);
     if (options_.observer != nullptr) observers.push_back(options_.observer);
 
+    const bool annotated = annotations_ && annotations_->needs_motion();
+    if (drawn_ && (annotated || needs_motion(scene_.camera))) {
+      simulate_then_draw(std::move(observers));
+    } else {
+      simulate_and_draw(std::move(observers));
+    }
+    close_queues();
+  }
+
+  /// Hands each frame on as soon as the motion has reached it.
+  void simulate_and_draw(std::vector<StepObserver*> observers) {
     const auto send = [this](Frame frame) {
       if (drawn_) {
         frames_.push(std::move(frame));
@@ -117,17 +129,49 @@ class Pipeline {
         film_.push({std::move(frame), std::nullopt});
       }
     };
-    const FrameContents shown = annotations_ ? annotations_->contents() : FrameContents::places;
-    FrameSampler sampler(extent_, send, std::max(outputs_.contents(), shown));
+    FrameSampler sampler(extent_, send, contents());
     StepCounter counter(progress_);
     if (result_.frames_wanted > 0) {
-      if (drawn_ && !find_view()) return close_queues();
+      if (drawn_) place_camera(whole_extent(scene_, options_).frames.count(), {});
       progress_.begin(drawn_ ? "drawing" : "simulating", "frames", extent_.frames.count());
       observers.push_back(&sampler);
     } else {
       progress_.begin("simulating", "steps", extent_.steps);
       observers.push_back(&counter);
     }
+    take_steps(observers);
+  }
+
+  /// For a camera or annotations that have to know the motion: all of it, so that a frame looks the same whichever
+  /// range of frames is drawn. Interrupted before that is known nothing is drawn, unless somebody looks at every step.
+  void simulate_then_draw(std::vector<StepObserver*> observers) {
+    FrameTape tape;
+    const FilmExtent whole = whole_extent(scene_, options_);
+    const auto keep = [&](Frame frame) {
+      if (annotations_ && annotations_->needs_motion()) annotations_->survey(frame);
+      tape.add(std::move(frame));
+    };
+    FrameSampler sampler(whole, keep, contents());
+    StepCounter counter(progress_);
+    observers.insert(observers.end(), {&sampler, &counter});
+    progress_.begin("simulating", "steps", whole.steps);
+    take_steps(observers);
+    if (whole_) run_on(scene_.simulation, simulation_.state(), whole.steps, {&sampler, &counter}, stop_.get_token());
+    const bool until_here = options_.observer != nullptr;
+    if (stop_.stop_requested() && !until_here) return;
+    place_camera(tape.count(), [&tape](const auto& visit) { tape.for_each(visit); });
+    progress_.begin("drawing", "frames", extent_.frames.count());
+    tape.for_each([&](const Frame& frame) {
+      if (frame.index < extent_.frames.first || frame.index > extent_.frames.last) return;
+      if (until_here || !stop_.stop_requested()) {
+        frames_.push(frame);
+      } else {
+        cut_ = true;
+      }
+    });
+  }
+
+  void take_steps(const std::vector<StepObserver*>& observers) {
     try {
       run_steps(simulation_, extent_.steps, observers, stop_.get_token());
       result_.statistics.finish(simulation_);
@@ -136,53 +180,33 @@ class Pipeline {
       result_.outcome = Outcome::diverged;
       result_.divergence = diverged.what();
     }
-    close_queues();
+  }
+
+  void place_camera(int count, decltype(KnownFilm::pass) pass) {
+    path_.push(camera_path(scene_.camera, known_film(scene_, scene_.video.size, count, std::move(pass))));
+  }
+
+  /// What the frames must hold.
+  [[nodiscard]] FrameContents contents() const {
+    return std::max(outputs_.contents(), annotations_ ? annotations_->contents() : FrameContents::places);
   }
 
   /// Ends the flow of frames where it begins. What is on its way is still drawn and written.
   void close_queues() {
-    view_.close();
+    path_.close();
     frames_.close();
     if (!drawn_) film_.close();
   }
 
-  /// Hands the camera's view to the drawing thread. One that has to show the whole motion is found by running the
-  /// motion once before: all of it, so that a frame looks the same whichever range of frames is drawn. So is what
-  /// annotations must know of it.
-  /// @returns whether there is one: not if the run was interrupted before it was known
-  bool find_view() {
-    const bool annotated = annotations_ && annotations_->needs_motion();
-    const bool framed = needs_motion(scene_.camera);
-    if (!framed && !annotated) return view_.push(fixed_view(scene_.camera));
-    Framing framing(scene_.camera, static_cast<double>(scene_.video.size[0]) / scene_.video.size[1]);
-    const FilmExtent whole(scene_.video, scene_.simulation.step, options_.steps.value_or(scene_.step_count()), {},
-                           options_.every);
-    const auto look_at = [&](const Frame& frame) {
-      framing.add(frame.positions);
-      for (const Collider& collider : frame.colliders) framing.add(collider);
-      if (annotated) annotations_->survey(frame);
-    };
-    FrameSampler sampler(whole, look_at, annotated ? annotations_->contents() : FrameContents::places);
-    StepCounter counter(progress_);
-    progress_.begin("framing", "steps", whole.steps);
-    const std::array<StepObserver*, 2> observers{&sampler, &counter};
-    Simulation scout(scene_.simulation);
-    try {
-      run_steps(scout, whole.steps, observers, stop_.get_token());
-    } catch (const DivergedError&) {
-      // The run itself will say so; up to here there is something to see.
-    }
-    return !stop_.stop_requested() && view_.push(framed ? framing.view() : fixed_view(scene_.camera));
-  }
-
   void draw() {
-    const std::optional<View> view = view_.pop();
-    if (!view) return film_.close();
-    Renderer renderer(data_folder(), scene_.video.size, *view, Annotations::look(scene_),
+    const std::optional<CameraPath> path = path_.pop();
+    if (!path) return film_.close();
+    Renderer renderer(data_folder(), scene_.video.size, path->at(0), Annotations::look(scene_),
                       simulation_.cloth().vertex_count(), simulation_.cloth().triangles, scene_.uvs, options_.backend);
     result_.renderer = renderer.description();
     while (std::optional<Frame> frame = frames_.pop()) {
       const auto begin = Clock::now();
+      renderer.look_from(path->at(frame->index));
       std::optional<Image> image;
       if (!undrawn_.stop_requested()) image.emplace(picture(renderer, *frame));
       result_.draw_seconds += seconds_since(begin);
@@ -236,7 +260,7 @@ class Pipeline {
   Records records_;
   std::optional<Annotations> annotations_;  // where there is anything to draw, and the scene asks for them
 
-  BoundedQueue<View> view_{1};
+  BoundedQueue<CameraPath> path_{1};
   BoundedQueue<Frame> frames_{queue_capacity};
   BoundedQueue<FilmFrame> film_{queue_capacity};
   std::stop_source stop_;
@@ -245,6 +269,7 @@ class Pipeline {
   std::mutex mutex_;
   std::exception_ptr error_;
   bool whole_ = false;         // every step was taken
+  bool cut_ = false;           // not every frame was drawn
   bool nothing_left_ = false;  // every output was given up, and there are no records
   RunResult result_;
 };

@@ -36,6 +36,18 @@ void run_steps(Simulation& simulation, std::int64_t steps, const std::stop_token
   run_steps(simulation, steps, std::array<StepObserver*, 1>{&watch}, stop);
 }
 
+void run_on(const SimulationSettings& settings, const State& state, std::int64_t steps,
+            const std::vector<StepObserver*>& observers, const std::stop_token& stop) {
+  if (state.step >= steps) return;
+  Simulation simulation(settings);
+  simulation.restore(state);
+  try {
+    run_steps(simulation, steps, observers, stop);
+  } catch (const DivergedError&) {
+    // Up to here there is something to see.
+  }
+}
+
 void StepCounter::after_step(const Simulation& simulation, const StepReport&, double) {
   progress_.done = simulation.state().step;
 }

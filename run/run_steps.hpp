@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 #include <stop_token>
+#include <vector>
 
 #include "run/progress.hpp"
 #include "run/step_observer.hpp"
@@ -19,6 +20,10 @@ void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserve
 /// The same, telling one function.
 void run_steps(Simulation& simulation, std::int64_t steps, const std::stop_token& stop,
                const std::function<void(const StepReport&)>& after_step = {});
+
+/// Goes on from a state, in a simulation of its own, until so many steps are done in all. Ends where that diverges.
+void run_on(const SimulationSettings& settings, const State& state, std::int64_t steps,
+            const std::vector<StepObserver*>& observers, const std::stop_token& stop);
 
 /// Shows how many steps are done.
 class StepCounter final : public StepObserver {

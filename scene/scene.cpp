@@ -73,6 +73,10 @@ class Checks {
   void camera() const {
     const Camera& camera = scene_.camera;
     if (camera.up.isZero(0)) add("camera", "up", "up: expected a direction, found [0, 0, 0]");
+    for (const auto& [key, given] : {std::pair("position", camera.position), std::pair("target", camera.target)}) {
+      if (camera.follow && given)
+        add("camera", "follow", std::string("follow: a camera with a ") + key + " cannot follow");
+    }
     if (camera.position && camera.position == camera.target) {
       add("camera", "target", "target: the camera's position and target are the same point");
     }

@@ -77,13 +77,22 @@ Keys camera_keys(Camera& camera) {
   keys.add("up", &camera.up, "", "A direction that points upwards in the picture.");
   keys.add("field_of_view", &camera.field_of_view, "degrees", "Of the picture's height.").at_least(1).at_most(170);
   keys.add("azimuth", &camera.azimuth, "degrees",
-           "Where a camera without a position looks from: the angle in the xy plane, from +x towards +y.");
+           "Where a camera without a position looks from: the angle in the xy plane, from +x towards +y. Without it, "
+           "that from which most is seen of the cloth, its front above all, of spheres and of the motion.");
   keys.add("elevation", &camera.elevation, "degrees", "The angle above the xy plane, likewise.")
       .at_least(-90)
       .at_most(90);
   keys.add("margin", &camera.margin, "", "What it leaves free around the motion, as a fraction of the picture.")
       .at_least(0)
       .at_most(0.45);
+  keys.add(
+      "follow", &camera.follow, "",
+      "Goes with what moves, and as near as it can: evenly, as it knows what comes. Otherwise the camera stays where "
+      "the whole motion is in view.");
+  keys.add(
+      "orbit", &camera.orbit, "degrees",
+      "How far it goes around its target during the film: 360 is a turntable, on which a film that repeats does not "
+      "halt.");
   return keys;
 }
 

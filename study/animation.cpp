@@ -18,6 +18,7 @@
 #include "render/montage.hpp"
 #include "render/renderer.hpp"
 #include "run/frame_sampler.hpp"
+#include "run/known_film.hpp"
 #include "run/run_steps.hpp"
 #include "sim/flipped_pairs.hpp"
 #include "study/reference.hpp"
@@ -103,16 +104,17 @@ class PanelPainter {
   Renderer renderer_;
 };
 
+/// A view that stays, of all motions.
 View view_of(const Scene& scene, const Eigen::Vector2i& size, const std::vector<std::vector<Frame>>& motions) {
-  if (!needs_motion(scene.camera)) return fixed_view(scene.camera);
-  Framing framing(scene.camera, static_cast<double>(size.x()) / size.y());
-  for (const std::vector<Frame>& motion : motions) {
-    for (const Frame& frame : motion) {
-      framing.add(frame.positions);
-      for (const Collider& collider : frame.colliders) framing.add(collider);
-    }
-  }
-  return framing.view();
+  Camera still = scene.camera;
+  still.follow = false;
+  still.orbit = 0;
+  std::size_t count = 0;
+  for (const std::vector<Frame>& motion : motions) count += motion.size();
+  const auto pass = [&motions](const std::function<void(const Frame&)>& visit) {
+    for (const std::vector<Frame>& motion : motions) std::for_each(motion.begin(), motion.end(), visit);
+  };
+  return camera_path(still, known_film(scene, size, static_cast<int>(count), pass)).at(0);
 }
 
 }  // namespace

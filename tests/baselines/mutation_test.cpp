@@ -101,7 +101,7 @@ Apply golden_picture_of(const std::function<void(cv::Mat&)>& change) {
 /// Moves the camera sideways by as much as moves the middle of the picture by some pixels.
 void shift_camera(Scene& scene, double pixels) {
   const Golden golden = read_golden(golden_folder(scene.file));
-  View view = golden.view;
+  const View view = golden.frames.front().view;
   const double distance = (view.position - view.target).norm();
   const double height = 2 * distance * std::tan(view.field_of_view / 2 * std::numbers::pi / 180);
   const Eigen::Vector3d aside = view.axes().row(0).transpose() * (pixels * height / golden.size.y());

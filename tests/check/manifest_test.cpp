@@ -70,10 +70,10 @@ TEST(Manifest, RefusesValuesThatMakeNoSense) {
   EXPECT_EQ(manifest_with("/size", {0, 24}), "'size': expected a whole number from 16 to 8192");
   EXPECT_NE(manifest_with("/size", {32, 100000}), "");
   EXPECT_EQ(manifest_with("/size", {32}), "'size': expected 2 numbers");
-  EXPECT_EQ(manifest_with("/view/position", {0, 0, nullptr}), "'view.position': expected a number");
-  EXPECT_NE(manifest_with("/view/position", {0, 0, 0}), "");  // where the target is
-  EXPECT_NE(manifest_with("/view/up", {0, 0, 0}), "");
-  EXPECT_NE(manifest_with("/view/field_of_view", 180), "");
+  EXPECT_EQ(manifest_with("/frames/0/view/position", {0, 0, nullptr}), "'frames[0].view.position': expected a number");
+  EXPECT_NE(manifest_with("/frames/0/view/position", {0, 0, 0}), "");  // where the target is
+  EXPECT_NE(manifest_with("/frames/0/view/up", {0, 0, 0}), "");
+  EXPECT_NE(manifest_with("/frames/0/view/field_of_view", 180), "");
   EXPECT_EQ(manifest_with("/camera/margin", "none"), "'camera.margin': expected a number");
   EXPECT_EQ(manifest_with("/machine", 7), "'machine.' is no JSON object");
   EXPECT_NE(manifest_with("/frames/0/frame", -1), "");

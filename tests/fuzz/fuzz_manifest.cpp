@@ -1,5 +1,6 @@
 // manifest.json of a golden.
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "check/manifest.hpp"
@@ -13,7 +14,9 @@ void read(std::string_view bytes) {
     const drape::Golden& golden = manifest.golden;
     const bool sound = golden.quanta.compared >= drape::least_quantum && golden.vertex_count > 0 && golden.step > 0 &&
                        golden.window_steps > 0 && golden.size.minCoeff() >= 16 && golden.size.maxCoeff() <= 8192 &&
-                       golden.view.position.allFinite() && golden.view.axes().allFinite();
+                       std::all_of(golden.frames.begin(), golden.frames.end(), [](const drape::GoldenFrame& frame) {
+                         return frame.view.position.allFinite() && frame.view.axes().allFinite();
+                       });
     if (!sound) std::abort();
   });
 }

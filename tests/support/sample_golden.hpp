@@ -24,7 +24,6 @@ inline Golden sample_golden(int vertices, std::int64_t steps, std::int64_t windo
   golden.body_count = 7;
   golden.seconds_per_frame = 0.04;
   golden.quanta = {0x1p-29, 0x1p-25, 0x1p-24};
-  golden.view.position = {1.0 / 7, 0, 3};
   const auto random = [&](double quantum) {
     const Vertices any = Vertices::NullaryExpr(vertices, 3, [&] { return uniform(generator); });
     return rounded(any, quantum);
@@ -48,6 +47,7 @@ inline Golden sample_golden(int vertices, std::int64_t steps, std::int64_t windo
   }
   for (const int frame : frames) {
     golden.frames.push_back({.frame = frame, .time = 0.04 * frame, .why = "the start", .x = random(0x1p-29)});
+    golden.frames.back().view.position = {1.0 / 7, 0, 3.0 + frame};
   }
   return golden;
 }
