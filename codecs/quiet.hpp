@@ -3,16 +3,14 @@
 namespace drape {
 
 /// While it lives, nothing that libraries print reaches the terminal: OpenCV 4.6 reports to stderr which tag it puts in
-/// place of the one asked for, and no setting stops it. For the whole process, so keep it short.
+/// place of the one asked for, and no setting stops it. For the whole process, so keep it short. Several may live at
+/// once.
 class QuietStderr {
  public:
   QuietStderr();
   ~QuietStderr();
   QuietStderr(const QuietStderr&) = delete;
   QuietStderr& operator=(const QuietStderr&) = delete;
-
- private:
-  int kept_ = -1;
 };
 
 /// Keeps FFmpeg, which OpenCV uses, from writing to the terminal: what goes wrong is reported by exceptions. For the

@@ -78,7 +78,7 @@ Keys camera_keys(Camera& camera) {
   keys.add("field_of_view", &camera.field_of_view, "degrees", "Of the picture's height.").at_least(1).at_most(170);
   keys.add("azimuth", &camera.azimuth, "degrees",
            "Where a camera without a position looks from: the angle in the xy plane, from +x towards +y. Without it, "
-           "that from which most is seen of the cloth, its front above all, of spheres and of the motion.");
+           "that from which most is seen of the cloth, of spheres and of the motion: see [camera.md](camera.md).");
   keys.add("elevation", &camera.elevation, "degrees", "The angle above the xy plane, likewise.")
       .at_least(-90)
       .at_most(90);

@@ -39,6 +39,21 @@ TEST_F(CheckScene, PassesWhatWasJustRecorded) {
   EXPECT_TRUE(result.windows.frames[1].actual.empty());
 }
 
+TEST_F(CheckScene, DrawsFromWhereAMovingCameraIsInEachFrame) {
+  const std::vector<std::string> moving{"camera.follow=true", "camera.orbit=90"};
+  const Scene recorded = scene(moving);
+  bless_scene(recorded, recorded.check, GlBackend::automatic, {}, progress_);
+  const Golden golden_now = read_golden(golden());
+  EXPECT_NE(golden_now.frames[0].view.position, golden_now.frames[1].view.position);
+  EXPECT_EQ(check(moving).windows.picture, PictureVerdict::exact);
+  EXPECT_EQ(check(moving, {.frames = {25}, .update = UpdateMode::none}).windows.picture, PictureVerdict::exact);
+  const SceneResult whole = check(moving, {.end_to_end = true, .update = UpdateMode::none});
+  EXPECT_EQ(whole.end_to_end->picture, PictureVerdict::exact);
+  EXPECT_EQ(check({"camera.follow=true", "camera.orbit=91"}).windows.picture, PictureVerdict::changed);
+  EXPECT_EQ(check({"camera.follow=true"}).windows.picture, PictureVerdict::changed);
+  EXPECT_EQ(check({"camera.orbit=90"}).windows.picture, PictureVerdict::changed);
+}
+
 TEST_F(CheckScene, WritesAMissingGoldenAndFailsAllTheSame) {
   EXPECT_EQ(check(as_written, {.update = UpdateMode::none}).verdict, SceneVerdict::missing);
   EXPECT_FALSE(fs::exists(golden()));

@@ -49,8 +49,8 @@ TEST(Manifest, KnowsItsOwnText) {
   EXPECT_EQ(manifest_refusal(text), "is not as it was recorded");
   EXPECT_EQ(manifest_refusal(manifest() + " "), "is not as it was recorded");
   EXPECT_EQ(manifest_refusal("{\"format\": 1}"),
-            "was recorded by an older drape, in format 1; this one reads format 2");
-  EXPECT_EQ(manifest_refusal("{\"format\": 3}"), "was recorded by a newer drape, in format 3; this one reads format 2");
+            "was recorded by an older drape, in format 1; this one reads format 3");
+  EXPECT_EQ(manifest_refusal("{\"format\": 4}"), "was recorded by a newer drape, in format 4; this one reads format 3");
 }
 
 TEST(Manifest, RefusesValuesThatMakeNoSense) {
@@ -79,7 +79,7 @@ TEST(Manifest, RefusesValuesThatMakeNoSense) {
   EXPECT_NE(manifest_with("/frames/0/frame", -1), "");
   EXPECT_NE(manifest_with("/frames/1/frame", 3), "");  // twice the same
   EXPECT_NE(manifest_with("/window_steps", 0), "");
-  EXPECT_NE(manifest_with("/format", 3), "");
+  EXPECT_NE(manifest_with("/format", 4), "");
 }
 
 TEST(Manifest, NeedsEveryValue) {
