@@ -43,7 +43,8 @@ TEST(Doctor, TriesEveryFormatWhateverTheFolderForTemporaryFilesIsCalled) {
     EXPECT_TRUE(output.at("works")) << output;
     formats.push_back(output.at("name"));
   }
-  EXPECT_EQ(formats, (std::vector<std::string>{".gif", ".png", ".mp4", ".webm", ".avi", ".obj"}));
+  EXPECT_EQ(formats, (std::vector<std::string>{".gif", ".webp", ".apng", ".png", ".mp4", ".webm", ".avi", ".obj",
+                                               ".ply", ".npz", ".usda", ".pvd", ".vtp", ".pc2"}));
 }
 
 TEST(Doctor, ObeysTheCapOnInstructionSets) {
