@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/console.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -23,6 +24,10 @@ void StepByStep::after_step(const Simulation& simulation, const StepReport& repo
                                  simulation.state().step, e.total(), e.kinetic, e.gravity, e.elastic);
   if (!is_explicit(simulation.settings().integrator.method)) {
     text += fmt::format(", {} iterations{}", report.iterations, report.converged ? "" : " (not converged)");
+  }
+  if (report.estimate) {
+    text += fmt::format(", {} substeps, an error of about {}{}", report.substeps, readable_length(*report.estimate),
+                        report.converged ? "" : ", more than asked");
   }
   print_text(stdout, text + fmt::format(", {:.1f} µs\n", 1e6 * seconds));
   wait_for_line();

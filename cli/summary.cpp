@@ -74,9 +74,11 @@ std::string describe_end(const RunResult& result) {
 }
 
 std::vector<std::string> doubts(const RunResult& result) {
-  constexpr const char* remedy =
-      "leave [integrator] tolerance and stop out with method = \"quasi-newton\", or take a smaller tolerance";
   const Exactness& exactness = result.statistics.exactness();
+  const char* remedy =
+      exactness.asked()
+          ? "ask for a smaller [time] accuracy"
+          : "leave [integrator] tolerance and stop out with method = \"quasi-newton\", or take a smaller tolerance";
   std::vector<std::string> found;
   if (exactness.coarse()) {
     found.push_back(fmt::format("the steps were solved to about {}, more than a hundredth of the cloth's size: {}",
@@ -104,9 +106,16 @@ std::string describe_files(const std::vector<std::vector<OutputFile>>& outputs) 
 std::string summarize(const RunResult& result) {
   const Statistics& s = result.statistics;
   std::string text = fmt::format("{} steps", s.steps());
+  const auto& asked = s.exactness().asked();
+  if (asked) {
+    text += fmt::format(", {:.3g} substeps each (at most {})", s.mean_substeps(), s.max_substeps());
+    if (s.not_converged() > 0) {
+      text += fmt::format(", {} steps less accurate than {}", s.not_converged(), readable_length(*asked));
+    }
+  }
   if (s.mean_iterations() > 0) {
     text += fmt::format(", {:.2f} iterations each (at most {})", s.mean_iterations(), s.max_iterations());
-    if (s.not_converged() > 0) {
+    if (!asked && s.not_converged() > 0) {
       text += fmt::format(", {} steps not converged (worst residual {:.2g} N)", s.not_converged(), s.worst_residual());
     }
   }

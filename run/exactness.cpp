@@ -14,17 +14,20 @@ constexpr double moment = 0.01;              // …as is what forces out of bala
 
 void Exactness::begin(const Simulation& simulation) {
   accuracy_ = simulation.accuracy();
+  asked_ = simulation.settings().accuracy;
   size_ = size_of(simulation.cloth());
 }
 
 void Exactness::after_step(const Simulation& simulation, const StepReport& report, double /*seconds*/) {
+  if (report.estimate) return note(simulation, *report.estimate);
   if (!accuracy_) return;
   const bool known = accuracy_->rule == StoppingRule::error && report.converged;
   if (known || simulation.state().step % between_looks == 0) look(simulation);
 }
 
-void Exactness::look(const Simulation& simulation) {
-  const double error = simulation.error();
+void Exactness::look(const Simulation& simulation) { note(simulation, simulation.error()); }
+
+void Exactness::note(const Simulation& simulation, double error) {
   sum_ += error;
   largest_ = std::max(largest_, error);
   last_ = simulation.state().step;

@@ -12,8 +12,8 @@ namespace drape {
 class Exactness final : public StepObserver {
  public:
   void begin(const Simulation& simulation) override;
-  /// Looks at every step that stopped at an error, which is known then, and else at every 128th, since it costs some
-  /// iterations.
+  /// Looks at every step whose error is known, because it stopped at one or an accuracy was asked for, and else at
+  /// every 128th, since it costs some iterations.
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
   /// Looks at the last step, and whether the cloth stands still.
   void finish(const Simulation& simulation);
@@ -21,7 +21,11 @@ class Exactness final : public StepObserver {
   /// When a step was accurate enough; nothing where nothing is minimised.
   [[nodiscard]] const std::optional<Accuracy>& accuracy() const { return accuracy_; }
 
-  /// The error of the steps that were looked at: how far their worst vertex is from the exact solution [m].
+  /// What a step was asked to add to the error at most [m]; nothing where it was not.
+  [[nodiscard]] const std::optional<double>& asked() const { return asked_; }
+
+  /// The error of the steps that were looked at: how far their worst vertex is from the exact solution [m]. That of the
+  /// time step is in it where an accuracy was asked for, and else is not.
   struct Errors {
     double mean, largest;
   };
@@ -42,8 +46,10 @@ class Exactness final : public StepObserver {
 
  private:
   void look(const Simulation& simulation);
+  void note(const Simulation& simulation, double error);
 
   std::optional<Accuracy> accuracy_;
+  std::optional<double> asked_;
   double size_ = 0;  // of the cloth [m]
   double sum_ = 0, largest_ = 0;
   std::int64_t looked_at_ = 0, last_ = 0;  // steps, and the number of the last of them

@@ -58,11 +58,17 @@ class Records::EnergyLog final : public StepObserver {
 
 class Records::TraceLog final : public StepObserver {
  public:
-  explicit TraceLog(const std::string& path) : file(path) { file.write("step,time,iterations,residual,step_us\n"); }
+  explicit TraceLog(const std::string& path) : file(path) {}
+
+  void begin(const Simulation& simulation) override {
+    file.write("step,time,iterations,residual,step_us");
+    file.write(simulation.settings().accuracy ? ",substeps,estimate\n" : "\n");
+  }
 
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override {
-    file.write(fmt::format("{},{:.12g},{},{:.6g},{:.3f}\n", simulation.state().step, simulation.time(),
-                           report.iterations, simulation.residual(), 1e6 * seconds));
+    file.write(fmt::format("{},{:.12g},{},{:.6g},{:.3f}", simulation.state().step, simulation.time(), report.iterations,
+                           simulation.residual(), 1e6 * seconds));
+    file.write(report.estimate ? fmt::format(",{},{:.6g}\n", report.substeps, *report.estimate) : "\n");
   }
 
   Record file;

@@ -22,6 +22,8 @@ void Statistics::after_step(const Simulation& simulation, const StepReport& repo
   effect_seconds_ = simulation.effect_seconds();
   microseconds_.push_back(static_cast<float>(1e6 * seconds));
   iterations_ += report.iterations;
+  substeps_ += report.substeps;
+  max_substeps_ = std::max(max_substeps_, report.substeps);
   max_iterations_ = std::max(max_iterations_, report.iterations);
   if (report.converged) return;
   ++not_converged_;
@@ -30,6 +32,10 @@ void Statistics::after_step(const Simulation& simulation, const StepReport& repo
 
 double Statistics::mean_iterations() const {
   return microseconds_.empty() ? 0 : static_cast<double>(iterations_) / static_cast<double>(steps());
+}
+
+double Statistics::mean_substeps() const {
+  return microseconds_.empty() ? 0 : static_cast<double>(substeps_) / static_cast<double>(steps());
 }
 
 double Statistics::mean_microseconds() const {
@@ -60,11 +66,19 @@ std::vector<Statistics::EffectShare> Statistics::effects() const {
 
 namespace {
 
-/// null where nothing is minimised, or nothing was looked at.
-nlohmann::ordered_json accuracy_json(const Exactness& exactness) {
-  const auto& accuracy = exactness.accuracy();
-  if (!accuracy) return nullptr;
-  nlohmann::ordered_json json = {{"stop", stopping_rule_name(accuracy->rule)}, {"tolerance", accuracy->tolerance}};
+/// null where no accuracy was asked for and nothing is minimised.
+nlohmann::ordered_json accuracy_json(const Statistics& statistics) {
+  const Exactness& exactness = statistics.exactness();
+  nlohmann::ordered_json json;
+  if (const auto& asked = exactness.asked()) {
+    json = {{"asked", *asked},
+            {"substeps", {{"mean", statistics.mean_substeps()}, {"max", statistics.max_substeps()}}},
+            {"steps_not_accurate", statistics.not_converged()}};
+  } else if (const auto& accuracy = exactness.accuracy()) {
+    json = {{"stop", stopping_rule_name(accuracy->rule)}, {"tolerance", accuracy->tolerance}};
+  } else {
+    return nullptr;
+  }
   if (const auto errors = exactness.errors()) {
     json["estimated_error"] = {{"mean", errors->mean}, {"largest", errors->largest}};
   }
@@ -96,7 +110,7 @@ std::string Statistics::to_json(const std::string& outcome) const {
                                          {"max", max_iterations_},
                                          {"steps_not_converged", not_converged_},
                                          {"worst_residual", worst_residual_}}},
-                                       {"accuracy", accuracy_json(exactness_)},
+                                       {"accuracy", accuracy_json(*this)},
                                        {"step_us", {{"mean", mean_microseconds()}, {"median", median_microseconds()}}},
                                        {"effects", names},
                                        {"effect_shares", shares},

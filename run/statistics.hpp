@@ -20,10 +20,13 @@ class Statistics final : public StepObserver {
   [[nodiscard]] std::int64_t steps() const { return static_cast<std::int64_t>(microseconds_.size()); }
   [[nodiscard]] double mean_iterations() const;
   [[nodiscard]] int max_iterations() const { return max_iterations_; }
-  /// Steps that ended at the cap without meeting the stopping rule.
+  /// Steps that ended at the cap without meeting the stopping rule, or the accuracy that was asked for.
   [[nodiscard]] std::int64_t not_converged() const { return not_converged_; }
   /// The largest ‖∇g‖ that such a step was left with [N].
   [[nodiscard]] double worst_residual() const { return worst_residual_; }
+  /// Into how many substeps a step was cut.
+  [[nodiscard]] double mean_substeps() const;
+  [[nodiscard]] std::int64_t max_substeps() const { return max_substeps_; }
   [[nodiscard]] const Exactness& exactness() const { return exactness_; }
   [[nodiscard]] double mean_microseconds() const;
   [[nodiscard]] double median_microseconds() const;
@@ -48,7 +51,7 @@ class Statistics final : public StepObserver {
   std::vector<std::string> effects_;
   std::vector<double> effect_seconds_;  // empty unless the simulation measures them
   std::vector<float> microseconds_;
-  std::int64_t iterations_ = 0, not_converged_ = 0;
+  std::int64_t iterations_ = 0, not_converged_ = 0, substeps_ = 0, max_substeps_ = 0;
   int max_iterations_ = 0;
   double worst_residual_ = 0;
   Exactness exactness_;

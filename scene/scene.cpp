@@ -51,6 +51,17 @@ class Checks {
                     method_name(integrator.method)));
   }
 
+  void accuracy() const {
+    if (!scene_.simulation.accuracy) return;
+    for (const char* key : {"tolerance", "stop"}) {
+      if (find_path(document_, std::string("integrator.") + key) == nullptr) continue;
+      add("integrator", key,
+          fmt::format("{}: with an accuracy in [time], that says when a step is solved well enough: leave out one of "
+                      "the two",
+                      key));
+    }
+  }
+
   /// Of the whole simulation, once nothing else is wrong with it.
   void stability() const {
     const SimulationSettings& settings = scene_.simulation;
@@ -188,6 +199,7 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   if (reader.good("integrator")) {
     checks.scheme();
     checks.stopping_rule();
+    if (reader.good("time")) checks.accuracy();
   }
   if (reader.good("camera")) checks.camera();
   if (reader.good("look")) checks.samples();

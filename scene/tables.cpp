@@ -30,6 +30,11 @@ Keys transform_keys(ClothTable& cloth) {
 Keys time_keys(Scene& scene) {
   Keys keys;
   keys.add("step", &scene.simulation.step, "s", "Length of a time step.").above(0);
+  keys.add(
+          "accuracy", &scene.simulation.accuracy, "m",
+          "The most that a step may add to the error of a vertex: it is cut into as many equal substeps as that takes, "
+          "see [accuracy.md](accuracy.md#asking-for-an-accuracy), and `tolerance` and `stop` follow from it.")
+      .above(0);
   keys.add("duration", &scene.duration, "s", "How long the scene lasts, rounded to whole steps.").at_least(0);
   return keys;
 }

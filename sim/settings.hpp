@@ -74,6 +74,11 @@ inline std::string step_method_name(StepMethod how) {
   return method_name(how.method) + (how.scheme == TimeScheme::sdirk2 ? "-sdirk2" : "");
 }
 
+/// The power of the step with which the error of a motion falls.
+inline constexpr int order_of(StepMethod how) {
+  return how.method == Method::verlet || how.scheme == TimeScheme::sdirk2 ? 2 : 1;
+}
+
 /// When an iterative step is accurate enough.
 enum class StoppingRule {
   change,  ///< the 2-norm of the change of all unknowns together is below the tolerance [m], from the second iteration
@@ -115,7 +120,8 @@ struct IntegratorSettings {
 /// Everything a simulation is made from.
 struct SimulationSettings {
   Cloth cloth;
-  double step = 0.01;  ///< h [s]
+  double step = 0.01;              ///< h [s]
+  std::optional<double> accuracy;  ///< the most that a step may add to the error of a vertex [m], see SubstepScheme
   IntegratorSettings integrator;
   Effects effects;
 };

@@ -3,20 +3,18 @@
 #include <cmath>
 
 #include "sim/schemes/registry.hpp"
+#include "sim/schemes/substep_guard.hpp"
+#include "sim/schemes/substeps.hpp"
 #include "sim/timed_effects.hpp"
 
 namespace drape {
 namespace {
 
-std::unique_ptr<StabilityGuard> make_guard(const SimulationSettings& settings, const System& system) {
-  auto guard = method_type(settings.integrator.method).make_guard(settings.integrator, system);
+std::unique_ptr<StabilityGuard> make_asked_guard(const SimulationSettings& settings, const System& system) {
+  auto guard = make_guard(settings, system);
   if (settings.integrator.allow_unstable) return guard;
   if (const auto problem = guard->problem()) throw UsageError(*problem);
   return guard;
-}
-
-std::unique_ptr<Scheme> make_scheme(const SimulationSettings& settings, const System& system) {
-  return method_type(settings.integrator.method).make(settings.integrator, system);
 }
 
 State initial_state(const Cloth& cloth) {
@@ -28,7 +26,11 @@ State initial_state(const Cloth& cloth) {
 }  // namespace
 
 System make_system(const SimulationSettings& settings, std::vector<double>* effect_seconds) {
-  System system(settings.cloth, settings.step);
+  return make_system(settings, settings.step, effect_seconds);
+}
+
+System make_system(const SimulationSettings& settings, double step, std::vector<double>* effect_seconds) {
+  System system(settings.cloth, step);
   for (std::size_t i = 0; i < settings.effects.size(); ++i) {
     const SystemSizes before(system);
     settings.effects[i].install(system);
@@ -40,12 +42,12 @@ System make_system(const SimulationSettings& settings, std::vector<double>* effe
 Simulation::Simulation(SimulationSettings settings, Timing timing)
     : settings_(std::move(settings)),
       effect_seconds_(timing == Timing::effects ? settings_.effects.size() : 0, 0.0),
-      system_(make_system(settings_, timing == Timing::effects ? &effect_seconds_ : nullptr)),
+      system_(make_system(settings_, measured())),
       phases_(pin_phases(settings_.cloth.pins, system_->pin_releases)),
       state_(initial_state(settings_.cloth)),
       forces_(*system_, state_),
-      guard_(make_guard(settings_, *system_)),
-      scheme_(make_scheme(settings_, *system_)),
+      guard_(make_asked_guard(settings_, *system_)),
+      scheme_(make_scheme()),
       springs_(system_->springs, settings_.cloth.vertex_count()),
       energy_([this] {
         const Energies now = energies();
@@ -63,8 +65,15 @@ void Simulation::enter_phase() {
   scheme_.reset();  // it refers to the system
   phase_ = now;
   settings_.cloth.pins = phases_[now].pins;
-  system_.emplace(make_system(settings_, effect_seconds_.empty() ? nullptr : &effect_seconds_));
-  scheme_ = make_scheme(settings_, *system_);
+  system_.emplace(make_system(settings_, measured()));
+  scheme_ = make_scheme();
+}
+
+std::unique_ptr<Scheme> Simulation::make_scheme() {
+  if (!settings_.accuracy) return method_type(settings_.integrator.method).make(settings_.integrator, *system_);
+  const auto make = [this](double step) { return make_system(settings_, step, measured()); };
+  const int fewest = SubstepGuard::fewest_halvings(settings_.step, guard_->longest_step());
+  return std::make_unique<SubstepScheme>(settings_, fewest, make);
 }
 
 StepReport Simulation::step() {

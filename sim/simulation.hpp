@@ -19,6 +19,8 @@ namespace drape {
 /// What acts on the cloth with the settings' effects. Refers to the settings, which must outlive it.
 /// @param effect_seconds if given, one number for each effect, to which the time that it takes is added from then on
 System make_system(const SimulationSettings& settings, std::vector<double>* effect_seconds = nullptr);
+/// The same in steps of another length [s].
+System make_system(const SimulationSettings& settings, double step, std::vector<double>* effect_seconds = nullptr);
 
 /// Whether a simulation measures what its effects take.
 enum class Timing { none, effects };
@@ -69,6 +71,10 @@ class Simulation {
  private:
   /// Makes the system and the scheme for the pins of the next step, unless they are those.
   void enter_phase();
+  /// Of the system, for the settings.
+  std::unique_ptr<Scheme> make_scheme();
+  /// Where to add what the effects take, if that is measured.
+  std::vector<double>* measured() { return effect_seconds_.empty() ? nullptr : &effect_seconds_; }
   /// @param growth of the energy, see BlowUpWatch; absent: the numbers are no longer finite
   [[nodiscard]] DivergedError diverged_by(std::optional<double> growth) const;
 

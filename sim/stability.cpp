@@ -73,6 +73,13 @@ int even_exponent(double size) {
   return std::isfinite(size) ? exponent / 2 * 2 : 0;
 }
 
+/// The sum of what bounds the forces that depend on the place [1/s²].
+double pushes_bound(const System& system) {
+  double pushes = 0;
+  for (const auto& force : system.forces) pushes += force->stiffness_bound();
+  return pushes;
+}
+
 }  // namespace
 
 double safe_step(const System& system) {
@@ -93,11 +100,12 @@ double safe_step(const System& system) {
   const double largest = largest_eigenvalue(bound, free.cwiseProduct(system.cloth.masses.unaryExpr(scale)));
   double frequency = std::ldexp(std::sqrt(largest), (unit_of_stiffness - unit_of_mass) / 2);
 
-  double pushes = 0;
-  for (const auto& force : system.forces) pushes += force->stiffness_bound();
+  const double pushes = pushes_bound(system);
   if (pushes > 0) frequency = std::hypot(frequency, std::sqrt(pushes));
   return frequency > 0 ? 2 / frequency : std::numeric_limits<double>::infinity();
 }
+
+double safe_step_of_pushes(const System& system) { return 2 / std::sqrt(pushes_bound(system)); }
 
 double condition_bound(const System& system) {
   const Eigen::VectorXd& masses = system.cloth.masses;

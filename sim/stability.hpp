@@ -13,6 +13,10 @@ namespace drape {
 /// λ_max is found by Lanczos iteration to a relative 1e-4 from below, and the error bound of that value is added to it.
 double safe_step(const System& system);
 
+/// That of a vertex without springs under the forces which depend on its place [s], with every scheme that evaluates
+/// them once in a step; infinite where there are none.
+double safe_step_of_pushes(const System& system);
+
 /// How much smaller the inertia of a vertex is than what holds it, 1 + h² max (2 Σ k + c)/m over the free vertices, k
 /// the stiffness of the springs and couplings there and c the bounds of energies of single vertices. By Gershgorin's
 /// theorem no eigenvalue of the implicit step's matrix M/h² + L exceeds its smallest possible one, m/h², by more, so it

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 namespace drape {
 
 /// How a step was computed.
@@ -8,6 +11,8 @@ struct StepReport {
   bool converged = true;  ///< whether the stopping rule was met within max_iterations, and every motion filter's too
   double kept = 1;        ///< the part of the way to the last iterate that the step went, see BackwardEuler
   double rise = 0;        ///< the most by which an iteration raised g beyond what rounding explains [J]: a fault
+  std::int64_t substeps = 1;       ///< that the step was cut into, see SubstepScheme
+  std::optional<double> estimate;  ///< of the error that the step has added [m], where an accuracy is asked for
 };
 
 }  // namespace drape

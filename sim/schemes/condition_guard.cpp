@@ -2,13 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/stability.hpp"
 
 namespace drape {
 
-ConditionGuard::ConditionGuard(const System& system) : step_(system.step), condition_(condition_bound(system)) {}
+ConditionGuard::ConditionGuard(const System& system)
+    : step_(system.step), condition_(condition_bound(system)), longest_pushed_(safe_step_of_pushes(system)) {}
+
+double ConditionGuard::longest_step() const {
+  // Twice as far from the bound as need be: it is found for this step and its terms round.
+  return std::min(longest_pushed_, step_ * std::sqrt(largest_condition / condition_ / 2));
+}
 
 std::optional<std::string> ConditionGuard::problem() const {
   if (condition_ <= largest_condition) return std::nullopt;

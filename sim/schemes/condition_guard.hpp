@@ -11,11 +11,14 @@ class ConditionGuard final : public StabilityGuard {
   explicit ConditionGuard(const System& system);
 
   [[nodiscard]] std::optional<std::string> problem() const override;
+  /// Pushes that are evaluated once in a step have one of their own.
+  [[nodiscard]] double longest_step() const override;
   [[nodiscard]] std::string remedy() const override { return "; take a shorter [time] step, or weaker forces"; }
 
  private:
   double step_;  // [s]
   double condition_;
+  double longest_pushed_;  // [s]
 };
 
 }  // namespace drape

@@ -1,6 +1,7 @@
 #include "sim/schemes/registry.hpp"
 
 #include <array>
+#include <utility>
 
 #include "sim/schemes/backward_euler.hpp"
 #include "sim/schemes/condition_guard.hpp"
@@ -8,6 +9,7 @@
 #include "sim/schemes/sdirk2.hpp"
 #include "sim/schemes/sdirk2_guard.hpp"
 #include "sim/schemes/semi_implicit_euler.hpp"
+#include "sim/schemes/substep_guard.hpp"
 #include "sim/schemes/verlet.hpp"
 #include "sim/solvers/local_global.hpp"
 #include "sim/solvers/newton.hpp"
@@ -52,8 +54,14 @@ static_assert(methods.size() == method_names.size());
 
 const MethodType& method_type(Method method) { return methods.at(static_cast<std::size_t>(method)); }
 
+std::unique_ptr<StabilityGuard> make_guard(const SimulationSettings& settings, const System& system) {
+  auto guard = method_type(settings.integrator.method).make_guard(settings.integrator, system);
+  if (!settings.accuracy) return guard;
+  return std::make_unique<SubstepGuard>(std::move(guard), settings.step);
+}
+
 std::optional<std::string> stability_problem(const SimulationSettings& settings, const System& system) {
-  return method_type(settings.integrator.method).make_guard(settings.integrator, system)->problem();
+  return make_guard(settings, system)->problem();
 }
 
 }  // namespace drape

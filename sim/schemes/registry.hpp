@@ -22,6 +22,9 @@ struct MethodType {
 /// The only list of what each method is.
 const MethodType& method_type(Method method);
 
+/// The guard of a motion with these settings, with an accuracy a SubstepGuard.
+std::unique_ptr<StabilityGuard> make_guard(const SimulationSettings& settings, const System& system);
+
 /// Why the motion cannot be computed with these settings, in a sentence: the step is beyond what the method's guard
 /// allows. Nothing where it can.
 std::optional<std::string> stability_problem(const SimulationSettings& settings, const System& system);

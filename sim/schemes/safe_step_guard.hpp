@@ -15,6 +15,7 @@ class SafeStepGuard final : public StabilityGuard {
   SafeStepGuard(std::string_view scheme, const System& system);
 
   [[nodiscard]] std::optional<std::string> problem() const override;
+  [[nodiscard]] double longest_step() const override { return safe_step_; }
   void begin(const State& state, const EnergyNow& energy) override;
   std::optional<double> look(const State& state, const Vertices& push, bool constant, const EnergyNow& energy) override;
   [[nodiscard]] std::string remedy() const override;

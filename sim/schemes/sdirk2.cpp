@@ -7,7 +7,7 @@ namespace drape {
 namespace {
 namespace tableau {
 
-const double gamma = 1 - std::sqrt(0.5);
+const double gamma = Sdirk2::gamma;
 const double rest = (1 - gamma) / gamma;  // what is left of the step after stage 1, in stages
 const double delta = 1 - 1 / (2 * gamma);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "sim/schemes/minimising_scheme.hpp"
 #include "sim/schemes/push_limit.hpp"
 
@@ -24,6 +26,9 @@ namespace drape {
 /// 1) < 0, so Sdirk2Guard keeps an eye on it.
 class Sdirk2 final : public MinimisingScheme {
  public:
+  /// The part of a step that each stage solves for.
+  inline static const double gamma = 1 - std::sqrt(0.5);
+
   Sdirk2(const System& system, const MakeSolver& make_solver);
 
   StepReport advance(State& state, StepForces& forces) override;

@@ -17,6 +17,7 @@ class Sdirk2Guard final : public StabilityGuard {
   explicit Sdirk2Guard(const System& system);
 
   [[nodiscard]] std::optional<std::string> problem() const override { return condition_.problem(); }
+  [[nodiscard]] double longest_step() const override { return condition_.longest_step(); }
   void begin(const State& state, const EnergyNow& energy) override;
   std::optional<double> look(const State& state, const Vertices& push, bool constant, const EnergyNow& energy) override;
   [[nodiscard]] std::string remedy() const override;

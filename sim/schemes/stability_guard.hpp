@@ -18,6 +18,9 @@ class StabilityGuard {
   /// Why the motion cannot be computed, in a sentence that says what to change; nothing where it can.
   [[nodiscard]] virtual std::optional<std::string> problem() const = 0;
 
+  /// The longest step that the scheme itself may take [s].
+  [[nodiscard]] virtual double longest_step() const = 0;
+
   /// K + E of the present state [J]; called only where it is needed.
   using EnergyNow = std::function<double()>;
 

@@ -85,6 +85,34 @@ TEST(RunScene, WritesEveryRecordThatIsAskedFor) {
   EXPECT_EQ(stats["outcome"], "completed");
 }
 
+TEST(RunScene, RecordsHoldSubstepsAndEstimatesWhereAnAccuracyIsAskedFor) {
+  const test::SceneFolder folder;
+  RunOptions options;
+  options.records.stats = (folder.path() / "stats.json").string();
+  options.records.trace = (folder.path() / "trace.csv").string();
+  std::string asked = swinging;
+  asked.replace(asked.find("tolerance = 1e-3"), 16, "");
+  asked.replace(asked.find("duration"), 0, "accuracy = 1e-4\n");
+  run(folder.load(asked), options);
+  const auto trace = lines(options.records.trace);
+  EXPECT_EQ(trace.front(), "step,time,iterations,residual,step_us,substeps,estimate");
+  double most = 0, largest = 0;
+  for (std::size_t i = 1; i < trace.size(); ++i) {
+    int substeps = 0;
+    double estimate = 0;
+    ASSERT_EQ(std::sscanf(trace[i].c_str(), "%*d,%*f,%*d,%*f,%*f,%d,%lf", &substeps, &estimate), 2) << trace[i];
+    EXPECT_LE(estimate, 1e-4);
+    most = std::max<double>(most, substeps);
+    largest = std::max(largest, estimate);
+  }
+  const auto accuracy = nlohmann::json::parse(test::content(options.records.stats))["accuracy"];
+  EXPECT_EQ(accuracy["asked"], 1e-4);
+  EXPECT_EQ(accuracy["substeps"]["max"], most);
+  EXPECT_LE(accuracy["substeps"]["mean"], most);
+  EXPECT_EQ(accuracy["steps_not_accurate"], 0);
+  EXPECT_NEAR(accuracy["estimated_error"]["largest"], largest, 1e-5 * largest);
+}
+
 TEST(RunScene, PositionsReadBackHaveTheSameBits) {
   const test::SceneFolder folder;
   const Scene scene = folder.load(swinging);

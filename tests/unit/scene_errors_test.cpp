@@ -158,6 +158,22 @@ TEST(SceneErrors, NumbersHaveTheirRange) {
   EXPECT_EQ(folder.problems(with("look", "samples = 3")), "scene.toml:5:11: samples must be 1, 2 or 4, found 3");
 }
 
+TEST(SceneErrors, AnAccuracyIsANumberAboveZeroAndStandsAlone) {
+  const SceneFolder folder;
+  EXPECT_EQ(folder.problems(with("time", "accuracy = 0")), "scene.toml:5:12: accuracy must be above 0, found 0");
+  EXPECT_EQ(folder.problems(with("time", "accuracy = -1e-3")),
+            "scene.toml:5:12: accuracy must be above 0, found -0.001");
+  const std::string asked = with("time", "accuracy = 1e-30");
+  EXPECT_EQ(folder.problems(asked), "(no error)");
+  for (const std::string value : {"tolerance = 1e-3", "stop = \"error\""}) {
+    const std::string key = value.substr(0, value.find(' '));
+    EXPECT_EQ(
+        folder.problems(asked + "\n[integrator]\nmax_iterations = 30\n" + value + "\n"),
+        "scene.toml:9:" + std::to_string(value.find('=') + 3) + ": " + key +
+            ": with an accuracy in [time], that says when a step is solved well enough: leave out one of the two");
+  }
+}
+
 TEST(SceneErrors, NoNumberIsNanOrInfinite) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems(with("cloth", "mass = nan")), "scene.toml:5:8: mass must be finite, found nan");

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "sim/schemes/scheme.hpp"
+#include "sim/settings.hpp"
+
+namespace drape {
+
+/// Cuts each step into 2^k equal substeps of another scheme, with the smallest k that it finds for which no vertex ends
+/// further than an accuracy from where it would without error of time stepping and solve.
+///
+/// **The error** is estimated by a second motion beside it, whose substeps are four times as long and solved more
+/// loosely (by quasi-Newton where the scheme is implicit, which is the fastest with long steps). The two part by what
+/// the longer ones do wrong, 4^p − 1 times what the shorter ones do, where p is the order with which the error of a
+/// step falls. A scheme of order 1 has p between 1/2 and 1 (impulses, buckling), one of order 2 has p between 1 and 2
+/// (stiff springs), and what is taken for 4^p − 1 is between what these would be: 2, and 9. Both motions advance
+/// together, so one that parts too soon is given up where it does.
+///
+/// **k** follows from the state alone. What the first of the longer substeps of some k does, in proportion to the step,
+/// says with which k to begin; where that is not accurate enough, what has parted by then says with which to go on. The
+/// cap is 2^12 substeps; a step that needs more ends with these and has not converged. liu13 begins with more than it
+/// needs where shorter substeps are the cheaper ones.
+///
+/// **The solve**: a residual force r on a vertex that is the same in every substep moves it by r/m·h²/2 in the step,
+/// whatever k. The tolerance of each solve allows 0.3 of the accuracy for that, but no more than ten times the error
+/// that is its default, 3 % of the weight: where steps are short, hardly anything would be solved otherwise.
+///
+/// A substep is a step of a system of its own, whose time is the same number (number·2^k)·(h·2^−k). So pins, colliders,
+/// corrections and filters act in every substep as they do in a step; which vertices are pinned is the step's affair.
+class SubstepScheme final : public Scheme {
+ public:
+  /// What acts on the cloth, with steps of another length [s].
+  using MakeSystem = std::function<System(double step)>;
+
+  /// How often a step is cut in two at most, unless stability asks for more.
+  static constexpr int most_halvings = 12;
+
+  /// @param settings whose accuracy is given
+  /// @param fewest_halvings with which the inner scheme is stable, see SubstepGuard
+  /// @throws UsageError as MethodType::make does
+  SubstepScheme(const SimulationSettings& settings, int fewest_halvings, MakeSystem make_system);
+  ~SubstepScheme() override;
+
+  /// Of the report's iterations, those of all attempts are counted.
+  StepReport advance(State& state, StepForces& forces) override;
+
+  // Of the last substep.
+  [[nodiscard]] double residual() override;
+  [[nodiscard]] double error() override;
+  [[nodiscard]] double unbalanced() override;
+  [[nodiscard]] std::optional<Accuracy> accuracy() const override;
+
+ private:
+  class Attempt;
+
+  /// The attempt with 2^k substeps. Some are kept, because each has its factors.
+  Attempt& attempt(int halvings, const State& start);
+  /// With how many halvings to go on when the estimate with so many is this.
+  [[nodiscard]] int halvings_for(double estimate, int halvings) const;
+
+  double step_, accuracy_;  // [s], [m]
+  IntegratorSettings integrator_;
+  MakeSystem make_system_;
+  int order_;
+  double acceleration_;        // that the solves may leave out [m/s²]
+  int fewest_, most_, first_;  // halvings of the shorter substeps: of the attempts, and to look with
+  std::deque<std::unique_ptr<Attempt>> attempts_;  // the last used first
+};
+
+}  // namespace drape

@@ -1,0 +1,158 @@
+// A scene says how accurate its steps have to be, and they are cut until they are.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "sim/effects/moving_pins.hpp"
+#include "sim/simulation.hpp"
+#include "sim/stability.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test::asked_accuracy {
+namespace {
+
+constexpr double h = 0.02;
+
+/// 10×10 cells that swing from two corners.
+SimulationSettings swinging(Solver solver, double accuracy, double stiffness = 180) {
+  SimulationSettings settings = setup(cloth_of(make_grid(10, 10), 1, stiffness, {0, 10}), solver, h);
+  settings.effects = {Gravity{}};
+  settings.integrator.stop.reset();
+  settings.integrator.tolerance.reset();
+  settings.accuracy = accuracy;
+  return settings;
+}
+
+double largest(const Vertices& a, const Vertices& b) { return (a - b).rowwise().norm().maxCoeff(); }
+
+/// Where a step leads from a state without error of time stepping and solve, but for that of Verlet's steps of h/2^9.
+Vertices exact_step(const SimulationSettings& settings, State from) {
+  constexpr int halvings = 9;
+  SimulationSettings small = settings;
+  small.accuracy.reset();
+  small.integrator.method = Method::verlet;
+  small.step = std::ldexp(settings.step, -halvings);
+  Simulation simulation(small);
+  from.step <<= halvings;
+  simulation.restore(from);
+  for (int i = 0; i < 1 << halvings; ++i) simulation.step();
+  return simulation.state().x;
+}
+
+class AskedAccuracy : public testing::TestWithParam<NamedMethod> {};
+INSTANTIATE_TEST_SUITE_P(With, AskedAccuracy, testing::ValuesIn(all_methods), method_name);
+
+TEST_P(AskedAccuracy, TheErrorFallsWithIt) {
+  constexpr int steps = 15;
+  SimulationSettings exact = swinging(Method::verlet, 1);
+  exact.accuracy.reset();
+  exact.step = h / 512;
+  Simulation reference(exact);
+  for (int i = 0; i < 512 * steps; ++i) reference.step();
+  std::vector<double> errors;
+  for (const double accuracy : {1e-2, 1e-3, 1e-4}) {
+    Simulation simulation(swinging(GetParam(), accuracy));
+    for (int i = 0; i < steps; ++i) simulation.step();
+    const double error = largest(simulation.state().x, reference.state().x);
+    // An error of a velocity goes on through the motion: as many times the accuracy as there are steps before and
+    // after.
+    EXPECT_LE(error, steps * steps * accuracy) << accuracy;
+    errors.push_back(error);
+  }
+  // The steps that are safe, or cheapest, may be more accurate than is asked.
+  EXPECT_LE(errors[1], errors[0]);
+  EXPECT_LE(errors[2], std::max(0.2 * errors[0], steps * 1e-4));
+}
+
+// No cloth buckles or touches anything in these steps.
+TEST_P(AskedAccuracy, TheEstimateIsWithinAFactorOfThreeOfTheError) {
+  for (const double accuracy : {1e-3, 1e-4}) {
+    const SimulationSettings settings = swinging(GetParam(), accuracy);
+    Simulation simulation(settings);
+    int judged = 0, close = 0;
+    for (int i = 0; i < 15; ++i) {
+      const State before = simulation.state();
+      const StepReport report = simulation.step();
+      const double error = largest(simulation.state().x, exact_step(settings, before));
+      ASSERT_TRUE(report.converged);
+      ASSERT_TRUE(report.estimate);
+      EXPECT_LE(*report.estimate, accuracy);
+      EXPECT_LE(error, 10 * std::max(*report.estimate, accuracy / 10)) << "in step " << i;
+      // What is far more accurate than asked need not be known exactly.
+      if (std::max(error, *report.estimate) < 0.1 * accuracy) continue;
+      ++judged;
+      if (error <= 3 * *report.estimate && *report.estimate <= 3 * error) ++close;
+    }
+    EXPECT_GE(close, std::floor(0.95 * judged)) << judged << " steps, accuracy " << accuracy;
+  }
+}
+
+TEST_P(AskedAccuracy, ARestoredStepHasTheSameBits) {
+  const SimulationSettings settings = swinging(GetParam(), 1e-4);
+  Simulation simulation(settings);
+  std::vector<State> states;
+  for (int i = 0; i < 8; ++i) {
+    states.push_back(simulation.state());
+    simulation.step();
+  }
+  Simulation other(settings);
+  for (const int from : {6, 2, 7, 0}) {
+    other.restore(states[static_cast<std::size_t>(from)]);
+    while (other.state().step < 8) other.step();
+    EXPECT_TRUE(same_bits(other.state().x, simulation.state().x)) << "from step " << from;
+    EXPECT_TRUE(same_bits(other.state().v, simulation.state().v)) << "from step " << from;
+  }
+}
+
+TEST_P(AskedAccuracy, PinsMoveThroughTheSubstepsAndAreReleasedInTheirStep) {
+  SimulationSettings settings = swinging(GetParam(), 1e-3);
+  settings.effects = {MovingPins{.pins = {10}, .keyframes = {{0, {0, 0, 0}}, {1, {0, 0, 1}}}, .release = 4 * h}};
+  settings.cloth.pins = {0, 10};
+  const double height = settings.cloth.positions(10, 2);
+  Simulation simulation(settings);
+  for (int i = 1; i <= 4; ++i) {
+    const StepReport report = simulation.step();
+    EXPECT_TRUE(report.converged);
+    EXPECT_NEAR(simulation.state().x(10, 2), height + i * h, 1e-12);
+  }
+  EXPECT_EQ(simulation.cloth().pins.size(), 2U);
+  simulation.step();
+  EXPECT_EQ(simulation.cloth().pins, std::vector{0});
+}
+
+TEST_P(AskedAccuracy, AtTheCapAStepSaysThatItHasNotConverged) {
+  SimulationSettings settings = setup(cloth_of(make_grid(1, 1), 1, 1000, {0}), GetParam(), h);
+  settings.cloth.velocities = random_vertices(4, 1);
+  settings.effects = {Gravity{}};
+  settings.integrator.stop.reset();
+  settings.integrator.tolerance.reset();
+  settings.accuracy = 1e-25;
+  Simulation simulation(settings);
+  const StepReport report = simulation.step();
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.substeps, 4096);
+  EXPECT_GT(report.estimate, 1e-25);
+}
+
+class AskedExplicitly : public testing::TestWithParam<NamedMethod> {};
+INSTANTIATE_TEST_SUITE_P(With, AskedExplicitly, testing::ValuesIn(explicit_methods), method_name);
+
+TEST_P(AskedExplicitly, AStepBeyondTheSafeOneRuns) {
+  SimulationSettings settings = swinging(GetParam(), 1, 1e5);  // an accuracy that asks for nothing
+  const double safe = safe_step(make_system(settings));
+  ASSERT_GT(h, 50 * safe);
+  Simulation simulation(settings);
+  for (int i = 0; i < 10; ++i) {
+    const StepReport report = simulation.step();
+    EXPECT_LE(4 * h / static_cast<double>(report.substeps), safe);  // those beside it are four times as long
+    EXPECT_TRUE(report.converged);
+  }
+  settings.accuracy.reset();
+  EXPECT_THROW(Simulation{settings}, UsageError);
+}
+
+}  // namespace
+}  // namespace drape::test::asked_accuracy
