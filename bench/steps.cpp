@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/drawing.hpp"
 #include "bench/effect_costs.hpp"
 #include "bench/encoding.hpp"
 #include "bench/equal_accuracy.hpp"
@@ -108,6 +109,8 @@ int main(int argc, char** argv) {
 
   std::vector<std::string> schemes = drape::register_time_schemes();
   std::vector<std::string> effects = drape::register_effect_costs();
+  std::vector<std::string> drawing = drape::register_drawing();
+  for (std::string& name : drawing) effects.push_back(std::move(name));
   std::vector<std::string> encoding = drape::register_encoding();
 
   // Ours first, so that the caller's own flags win.

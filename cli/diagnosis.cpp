@@ -90,7 +90,7 @@ BackendFinding find_backend(GlBackend backend) {
 void draw_a_square() {
   const Mesh mesh = make_grid(1, 1);
   Look look;
-  look.background = {0, 0, 1};
+  look.background = Rgb{0, 0, 1};
   look.color = {1, 1, 1};
   Renderer renderer(data_folder(), {64, 64}, View{{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 30}, look, 4, mesh.triangles, {});
   Frame frame;

@@ -69,8 +69,8 @@ Canvas::Canvas(const GlFunctions& gl, Eigen::Vector2i size, const Look& look)
       samples_(gl, size, look.samples, true),
       rgba_(4 * static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y())) {
   if (look.samples > 1) resolved_.emplace(gl, size, 1, false);
-  const Rgb top = look.background_top.value_or(look.background);
-  const std::array<double, 3> lower{look.background.r, look.background.g, look.background.b};
+  const Rgb bottom = look.lower_background(), top = look.upper_background();
+  const std::array<double, 3> lower{bottom.r, bottom.g, bottom.b};
   const std::array<double, 3> upper{top.r, top.g, top.b};
   for (int y = 0; y < size.y(); ++y) {
     Row& row = background_.emplace_back();

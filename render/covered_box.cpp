@@ -59,6 +59,9 @@ Vertices cube(const Eigen::Vector4f& sphere) {
   return corners;
 }
 
+/// OpenGL places vertices in single precision, and to a 256th of a pixel.
+constexpr int border = 1;
+
 }  // namespace
 
 PixelBox covered_box(const Shot& shot, Eigen::Vector2i picture) {
@@ -66,8 +69,13 @@ PixelBox covered_box(const Shot& shot, Eigen::Vector2i picture) {
   Outline outline(shot);
   outline.add(shot.frame.positions);
   for (const Eigen::Vector4f& sphere : shot.spheres) outline.add(cube(sphere));
-  // OpenGL places vertices in single precision, and to a 256th of a pixel.
-  constexpr int border = 1;
+  return outline.box(picture, border);
+}
+
+PixelBox box_around(const Shot& shot, const Vertices& points, Eigen::Vector2i picture) {
+  if (points.rows() == 0) return {};
+  Outline outline(shot);
+  outline.add(points);
   return outline.box(picture, border);
 }
 

@@ -19,4 +19,7 @@ struct PixelBox {
 /// @param picture its width and height [pixels]
 PixelBox covered_box(const Shot& shot, Eigen::Vector2i picture);
 
+/// A box that holds every pixel in which something of the convex hull of some points may be seen; of none, it is empty.
+PixelBox box_around(const Shot& shot, const Vertices& points, Eigen::Vector2i picture);
+
 }  // namespace drape

@@ -19,7 +19,10 @@ namespace drape {
 namespace {
 
 constexpr GLuint position_attribute = 0, normal_attribute = 1, uv_attribute = 2, barycentric_attribute = 3,
-                 line_scale_attribute = 4, color_attribute = 5;
+                 line_scale_attribute = 4, color_attribute = 5, occlusion_attribute = 6;
+
+/// Texels of the maps of ambient occlusion across what the picture shows.
+constexpr double occlusion_resolution = 100;
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
@@ -63,6 +66,10 @@ DrawCloth::DrawCloth(const GlFunctions& gl, std::filesystem::path data_folder, c
     }
     load_texture();
   }
+  if (look.ambient_occlusion) {
+    occlusion_.emplace();
+    occlusion_buffer_.emplace(gl);
+  }
   make_corners(uvs);
 }
 
@@ -87,7 +94,6 @@ void DrawCloth::load_texture() {
 
 void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
   std::vector<Corner> corners;
-  std::vector<unsigned> indices;
   if (look_.mesh_lines) {
     const std::vector<std::array<bool, 3>> boundary = boundary_edges(triangles_);
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -96,7 +102,7 @@ void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
         if (!uvs.empty()) corner.uv = uvs[3 * t + c];
         corner.barycentric[c] = 1;
         for (std::size_t k = 0; k < 3; ++k) corner.line_scale[k] = boundary[t][k] ? 2 : 1;
-        indices.push_back(static_cast<unsigned>(corners.size()));
+        indices_.push_back(static_cast<unsigned>(corners.size()));
         positions_.push_back(triangles_[t][c]);
         corners.push_back(corner);
       }
@@ -113,15 +119,15 @@ void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
           positions_.push_back(triangles_[t][c]);
           corners.push_back(corner);
         }
-        indices.push_back(place->second);
+        indices_.push_back(place->second);
       }
     }
   }
 
   gl_.BindVertexArray(array_.id());
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_.id());
-  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(unsigned)), indices.data(),
-                 GL_STATIC_DRAW);
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices_.size() * sizeof(unsigned)), indices_.data(),
+                 GL_STREAM_DRAW);
   gl_.BindBuffer(GL_ARRAY_BUFFER, static_buffer_.id());
   gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(),
                  GL_STATIC_DRAW);
@@ -140,7 +146,8 @@ void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
   attribute(normal_attribute, 3, 6 * sizeof(float), 3 * sizeof(float));
 }
 
-void DrawCloth::upload_frame(const Frame& frame) {
+void DrawCloth::upload_frame(const Shot& shot) {
+  const Frame& frame = shot.frame;
   if (frame.positions.rows() != vertex_count_) {
     throw std::invalid_argument("a frame has another number of vertices than its renderer was made for");
   }
@@ -152,6 +159,21 @@ void DrawCloth::upload_frame(const Frame& frame) {
   }
   gl_.BindBuffer(GL_ARRAY_BUFFER, dynamic_buffer_.id());
   gl_.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(dynamic_.size() * sizeof(float)), dynamic_.data());
+  if (occlusion_) upload_occlusion(shot, normals);
+}
+
+void DrawCloth::upload_occlusion(const Shot& shot, const Vertices& normals) {
+  const std::vector<AmbientOcclusion::Sides>& open =
+      occlusion_->compute(shot.frame.positions, normals, triangles_, shot.extent / occlusion_resolution);
+  std::vector<AmbientOcclusion::Sides> of_corners;
+  of_corners.reserve(positions_.size());
+  for (const int vertex : positions_) of_corners.push_back(open[static_cast<std::size_t>(vertex)]);
+  gl_.BindVertexArray(array_.id());
+  gl_.BindBuffer(GL_ARRAY_BUFFER, occlusion_buffer_->id());
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(of_corners.size() * sizeof(AmbientOcclusion::Sides)),
+                 of_corners.data(), GL_STREAM_DRAW);
+  gl_.EnableVertexAttribArray(occlusion_attribute);
+  gl_.VertexAttribPointer(occlusion_attribute, 2, GL_FLOAT, GL_FALSE, sizeof(AmbientOcclusion::Sides), nullptr);
 }
 
 void DrawCloth::upload_colors(std::span<const Rgb> colors) {
@@ -170,38 +192,67 @@ void DrawCloth::upload_colors(std::span<const Rgb> colors) {
   gl_.VertexAttribPointer(color_attribute, 3, GL_FLOAT, GL_FALSE, 3 * sizeof(float), nullptr);
 }
 
-const Program& DrawCloth::program_for(std::size_t sphere_count, bool colored) {
-  if (program_ && sphere_count_ == sphere_count && colored_ == colored) return *program_;
-  std::vector<std::string> defines{fmt::format("SPHERES {}", sphere_count)};
-  if (colored) {
+void DrawCloth::make_programs(std::size_t sphere_count, bool colored) {
+  if (lit_program_ && sphere_count_ == sphere_count && colored_ == colored) return;
+  sphere_count_ = sphere_count;
+  colored_ = colored;
+  lit_program_ = make_program(false);
+  if (look_.shadows) shadowed_program_ = make_program(true);
+}
+
+std::unique_ptr<Program> DrawCloth::make_program(bool shadowed) const {
+  std::vector<std::string> defines = light_defines(look_, sphere_count_, shadowed);
+  if (colored_) {
     defines.emplace_back("VERTEX_COLORS");
   } else if (texture_) {
     defines.emplace_back("TEXTURE");
   }
   if (look_.mesh_lines) defines.emplace_back("MESH_LINES");
-  program_ = std::make_unique<Program>(gl_, data_folder_, "cloth", defines);
-  sphere_count_ = sphere_count;
-  colored_ = colored;
-  program_->use();
-  program_->set("cloth_texture", 0);
-  program_->set("cloth_color", linear_color(look_.color));
-  program_->set("line_color", linear_color(look_.line_color));
-  program_->set("line_width", static_cast<float>(look_.line_width));
-  return *program_;
+  auto program = std::make_unique<Program>(gl_, data_folder_, "cloth", defines);
+  program->use();
+  program->set("cloth_texture", 0);
+  program->set("translucency", static_cast<float>(look_.translucency));
+  program->set("cloth_color", linear_color(look_.color));
+  program->set("line_color", linear_color(look_.line_color));
+  program->set("line_width", static_cast<float>(look_.line_width));
+  return program;
 }
 
-void DrawCloth::draw(const Shot& shot, std::span<const Rgb> colors) {
-  upload_frame(shot.frame);
+// Reading the shadow map takes llvmpipe about as long as all else in a pixel.
+void DrawCloth::upload_indices(const ClothShadow& shadow) {
+  std::vector<unsigned> lit, shadowed;
+  lit.reserve(indices_.size());
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    std::vector<unsigned>& group = shadow.may_fall_on(triangles_[t]) ? shadowed : lit;
+    for (std::size_t c = 0; c < 3; ++c) group.push_back(indices_[3 * t + c]);
+  }
+  lit_count_ = lit.size() / 3;
+  lit.insert(lit.end(), shadowed.begin(), shadowed.end());
+  gl_.BindVertexArray(array_.id());
+  gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(lit.size() * sizeof(unsigned)), lit.data());
+}
+
+void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, std::span<const Rgb> colors) {
+  upload_frame(shot);
   if (!colors.empty()) upload_colors(colors);
-  const Program& program = program_for(shot.spheres.size(), !colors.empty());
-  program.use();
-  shot.set_uniforms(program);
+  make_programs(shot.spheres.size(), !colors.empty());
+  lit_count_ = triangles_.size();
+  if (shadow != nullptr) upload_indices(*shadow);
   if (texture_) {
     gl_.ActiveTexture(GL_TEXTURE0);
     gl_.BindTexture(GL_TEXTURE_2D, texture_->id());
   }
   gl_.BindVertexArray(array_.id());
-  gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * triangles_.size()), GL_UNSIGNED_INT, nullptr);
+  const auto draw_triangles = [&](const Program& program, std::size_t first, std::size_t count) {
+    if (count == 0) return;
+    program.use();
+    shot.set_uniforms(program);
+    if (shadow != nullptr) shadow->set_uniforms(program);
+    gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT,
+                     offset(3 * first * sizeof(unsigned)));
+  };
+  draw_triangles(*lit_program_, 0, lit_count_);
+  if (shadow != nullptr) draw_triangles(*shadowed_program_, lit_count_, triangles_.size() - lit_count_);
 }
 
 }  // namespace drape

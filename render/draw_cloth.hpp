@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "render/ambient_occlusion.hpp"
+#include "render/cloth_shadow.hpp"
 #include "render/gl/objects.hpp"
 #include "render/gl/program.hpp"
 #include "render/settings.hpp"
@@ -22,8 +24,9 @@ class DrawCloth {
   DrawCloth(const GlFunctions& gl, std::filesystem::path data_folder, const Look& look, int vertex_count,
             const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs);
 
+  /// @param shadow of the frame, where the look has shadows
   /// @param colors of the vertices, in place of texture and colour; or none
-  void draw(const Shot& shot, std::span<const Rgb> colors = {});
+  void draw(const Shot& shot, const ClothShadow* shadow, std::span<const Rgb> colors = {});
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
 
@@ -37,9 +40,12 @@ class DrawCloth {
 
   void load_texture();
   void make_corners(const std::vector<std::array<float, 2>>& uvs);
-  void upload_frame(const Frame& frame);
+  void upload_frame(const Shot& shot);
+  void upload_occlusion(const Shot& shot, const Vertices& normals);
   void upload_colors(std::span<const Rgb> colors);
-  const Program& program_for(std::size_t sphere_count, bool colored);
+  void upload_indices(const ClothShadow& shadow);
+  void make_programs(std::size_t sphere_count, bool colored);
+  std::unique_ptr<Program> make_program(bool shadowed) const;
 
   const GlFunctions& gl_;
   std::filesystem::path data_folder_;
@@ -51,8 +57,12 @@ class DrawCloth {
   VertexArray array_;
   Buffer static_buffer_, dynamic_buffer_, index_buffer_;
   std::optional<Buffer> color_buffer_;  // made when vertices first have colours
+  std::optional<Buffer> occlusion_buffer_;
+  std::optional<AmbientOcclusion> occlusion_;  // with its buffer: absent where the look has none
   std::optional<Texture> texture_;
-  std::unique_ptr<Program> program_;
+  std::vector<unsigned> indices_;  // of the corners of all triangles
+  std::size_t lit_count_ = 0;      // triangles that come first in the index buffer, without a shadow of the cloth
+  std::unique_ptr<Program> lit_program_, shadowed_program_;
   std::size_t sphere_count_ = 0;
   bool colored_ = false;
 };

@@ -1,9 +1,12 @@
 #include "render/draw_ground.hpp"
 
-#include <fmt/format.h>
-
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 #include "render/color.hpp"
 
@@ -15,6 +18,8 @@ constexpr double reach = 2.6;
 /// What the cloth may sink below the surface that is drawn without being hidden by it, in layers of contact: a fast
 /// cloth does so for a moment.
 constexpr double hidden_below = 3;
+/// The height of the cloth from which on its shadow is soft, in heights of the picture.
+constexpr double softening = 0.1;
 
 /// Where on the ground the camera looks, and how far from there the ground is seen [m].
 Eigen::Vector4d focus_of(const Shot& shot, const GroundShape& ground) {
@@ -26,49 +31,97 @@ Eigen::Vector4d focus_of(const Shot& shot, const GroundShape& ground) {
   return {focus[0], focus[1], focus[2], reach * distance};
 }
 
+void set(const Program& program, const char* name, const Eigen::Vector4d& value) {
+  const Eigen::Vector4f single = value.cast<float>();
+  program.set(name, std::span(&single, 1));
+}
+
+/// Where on a ground shadows may lie, as past_spheres() in shadow.glsl and the picture of the cloth's have them:
+/// corners of quadrilaterals.
+Vertices shadow_corners(const Shot& shot, const GroundShape& ground, const GroundShadow& shadow) {
+  const Eigen::Vector3d light = shot.key_direction.cast<double>().normalized();
+  const double rise = ground.normal.dot(light);
+  std::vector<Eigen::Vector3d> corners = shadow.corners(ground);
+  const Eigen::Vector3d side = ground.normal.unitOrthogonal(), other = ground.normal.cross(side);
+  for (const Eigen::Vector4f& sphere : shot.spheres) {
+    const Eigen::Vector3d center = sphere.head<3>().cast<double>();
+    const double along = (ground.normal.dot(center) - ground.height) / rise;
+    const double radius = double{sphere[3]}, farthest = std::abs(along) + radius / rise;
+    const double reached = (1.05 * radius + 0.22 * farthest) / rise;
+    for (const double x : {-reached, reached}) {
+      for (const double y : {-reached, reached}) corners.emplace_back(center - along * light + x * side + y * other);
+    }
+  }
+  Vertices points(static_cast<Eigen::Index>(corners.size()), 3);
+  for (std::size_t i = 0; i < corners.size(); ++i) points.row(static_cast<Eigen::Index>(i)) = corners[i].transpose();
+  return points;
+}
+
+/// The picture in pieces: the box, and what is left, which may be empty, below, above and on both sides of it.
+std::array<PixelBox, 4> around(const PixelBox& box, Eigen::Vector2i picture) {
+  const Eigen::Vector2i from = box.corner, to = box.corner + box.size;
+  return {PixelBox{{0, 0}, {picture.x(), from.y()}}, PixelBox{{0, to.y()}, {picture.x(), picture.y() - to.y()}},
+          PixelBox{{0, from.y()}, {from.x(), box.size.y()}},
+          PixelBox{{to.x(), from.y()}, {picture.x() - to.x(), box.size.y()}}};
+}
+
 }  // namespace
 
 DrawGround::DrawGround(const GlFunctions& gl, const std::filesystem::path& data_folder, const Look& look,
-                       const std::vector<Triangle>& triangles, std::size_t sphere_count)
+                       std::size_t sphere_count)
     : gl_(gl),
-      program_(gl, data_folder, "ground", {fmt::format("SPHERES {}", sphere_count)}),
+      look_(look),
+      lit_(gl, data_folder, "ground", light_defines(look, sphere_count, false)),
       array_(gl),
-      texture_(gl),
-      shadow_(triangles) {
+      texture_(gl) {
+  if (look.shadows) shadowed_.emplace(gl, data_folder, "ground", light_defines(look, sphere_count, true));
   gl_.BindTexture(GL_TEXTURE_2D, texture_.id());
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  program_.use();
-  program_.set("cloth_shadow", 0);
-  program_.set("ground_color", linear_color(look.ground_color));
-  program_.set("grid_spacing", static_cast<float>(look.ground_grid));
 }
 
-void DrawGround::draw(const Shot& shot) {
-  program_.use();
-  shot.set_uniforms(program_);
-  program_.set("from_clip", Eigen::Matrix4f(shot.view_projection.cast<double>().inverse().cast<float>()));
+// In every pixel of the ground a shadow costs as much as the rest: only what may be in it is drawn with one.
+void DrawGround::draw(const Shot& shot, const ClothShadow* shadow, Eigen::Vector2i picture) {
+  gl_.BindVertexArray(array_.id());
+  for (const GroundShape& ground : shot.grounds) {
+    const PixelBox box = shadow != nullptr ? cast(shot, *shadow, ground, picture) : PixelBox{};
+    if (!box.empty()) draw(*shadowed_, shot, ground, box);
+    for (const PixelBox& rest : around(box, picture)) {
+      if (!rest.empty()) draw(lit_, shot, ground, rest);
+    }
+  }
+  gl_.Scissor(0, 0, picture.x(), picture.y());
+}
+
+PixelBox DrawGround::cast(const Shot& shot, const ClothShadow& shadow, const GroundShape& ground,
+                          Eigen::Vector2i picture) {
+  const Eigen::Vector3d light = shot.key_direction.cast<double>().normalized();
+  shadow_.cast(shadow.map(), ground, light, softening * shot.extent);
+  if (!shadow_.reaches(ground, light)) return {};
   gl_.ActiveTexture(GL_TEXTURE0);
   gl_.BindTexture(GL_TEXTURE_2D, texture_.id());
-  gl_.BindVertexArray(array_.id());
-  const auto set = [this](const char* name, const Eigen::Vector4d& value) {
-    const Eigen::Vector4f single = value.cast<float>();
-    program_.set(name, std::span(&single, 1));
-  };
-  for (const GroundShape& ground : shot.grounds) {
-    shadow_.cast(shot.frame.positions, ground, shot.key_direction.cast<double>());
-    gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 2);
-    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R16, GroundShadow::size, GroundShadow::size, 0, GL_RED, GL_UNSIGNED_SHORT,
-                   shadow_.pixels().data());
-    set("shadow_u", shadow_.u());
-    set("shadow_v", shadow_.v());
-    set("ground", {ground.normal[0], ground.normal[1], ground.normal[2], ground.height});
-    set("focus", focus_of(shot, ground));
-    program_.set("sunk", static_cast<float>(hidden_below * ground.thickness));
-    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  }
+  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 2);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R16, shadow_.columns(), shadow_.rows(), 0, GL_RED, GL_UNSIGNED_SHORT,
+                 shadow_.pixels().data());
+  return box_around(shot, shadow_corners(shot, ground, shadow_), picture);
+}
+
+void DrawGround::draw(const Program& program, const Shot& shot, const GroundShape& ground, const PixelBox& box) const {
+  program.use();
+  shot.set_uniforms(program);
+  program.set("cloth_shadow", 0);
+  program.set("ground_color", linear_color(look_.ground_color));
+  program.set("grid_spacing", static_cast<float>(look_.ground_grid));
+  program.set("from_clip", Eigen::Matrix4f(shot.view_projection.cast<double>().inverse().cast<float>()));
+  set(program, "shadow_u", shadow_.u());
+  set(program, "shadow_v", shadow_.v());
+  set(program, "ground", {ground.normal[0], ground.normal[1], ground.normal[2], ground.height});
+  set(program, "focus", focus_of(shot, ground));
+  program.set("sunk", static_cast<float>(hidden_below * ground.thickness));
+  gl_.Scissor(box.corner.x(), box.corner.y(), box.size.x(), box.size.y());
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 }  // namespace drape

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
+#include <optional>
 
+#include "render/cloth_shadow.hpp"
+#include "render/covered_box.hpp"
 #include "render/gl/objects.hpp"
 #include "render/gl/program.hpp"
 #include "render/ground_shadow.hpp"
@@ -17,16 +19,23 @@ class DrawGround {
  public:
   /// @param sphere_count in every frame
   DrawGround(const GlFunctions& gl, const std::filesystem::path& data_folder, const Look& look,
-             const std::vector<Triangle>& triangles, std::size_t sphere_count);
+             std::size_t sphere_count);
 
-  void draw(const Shot& shot);
+  /// @param shadow  of the cloth, where the look has shadows
+  /// @param picture its width and height [pixels]
+  void draw(const Shot& shot, const ClothShadow* shadow, Eigen::Vector2i picture);
 
  private:
+  PixelBox cast(const Shot& shot, const ClothShadow& shadow, const GroundShape& ground, Eigen::Vector2i picture);
+  void draw(const Program& program, const Shot& shot, const GroundShape& ground, const PixelBox& box) const;
+
   const GlFunctions& gl_;
-  Program program_;
-  VertexArray array_;  // without attributes: the shader knows the corners of the picture
+  Look look_;
+  Program lit_;
+  std::optional<Program> shadowed_;  // absent where the look has no shadows
+  VertexArray array_;                // without attributes: the shader knows the corners of the picture
   Texture texture_;
-  GroundShadow shadow_;
+  GroundShadow shadow_;  // of the cloth, on one ground after the other
 };
 
 }  // namespace drape

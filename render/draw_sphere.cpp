@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -11,36 +13,60 @@
 namespace drape {
 namespace {
 
-// The rim is within 0.03 % of the radius of a circle. Mesa takes about a microsecond per triangle, and every pixel
-// finds its own place on the sphere: more rings would only change the depth, by less than sphere.vert's depth_radius
-// leaves.
-constexpr unsigned segments = 128, rings = 4;
+/// Segments of the rings, from the middle of the cap to its rim, each a multiple of the one before. The rim is within
+/// 0.03 % of the radius of a circle. Every pixel finds its own place on the sphere: more of them inside would only
+/// change the depth, by less than sphere.vert's depth_radius leaves. And pixels are drawn in blocks, of which small
+/// triangles share many.
+constexpr std::array<unsigned, 5> ring_segments{1, 16, 32, 32, 128};
+
+/// Polar coordinates of the cap's vertices: how far from its middle (0) to its rim (1), and the direction.
+std::vector<Eigen::Vector3f> cap_vertices() {
+  std::vector<Eigen::Vector3f> vertices;
+  for (std::size_t ring = 0; ring < ring_segments.size(); ++ring) {
+    const double outwards = static_cast<double>(ring) / (ring_segments.size() - 1);
+    for (unsigned segment = 0; segment < ring_segments[ring]; ++segment) {
+      const double angle = 2 * std::numbers::pi * segment / ring_segments[ring];
+      vertices.emplace_back(Eigen::Vector3d(outwards, std::cos(angle), std::sin(angle)).cast<float>());
+    }
+  }
+  return vertices;
+}
+
+/// Between two rings, each segment of the inner one has a triangle, and a fan of those of the outer one.
+std::vector<unsigned> cap_triangles() {
+  std::vector<unsigned> indices;
+  unsigned first = 0;
+  for (std::size_t ring = 0; ring + 1 < ring_segments.size(); ++ring) {
+    const unsigned inner = ring_segments[ring], outer = ring_segments[ring + 1], outer_first = first + inner;
+    for (unsigned segment = 0; segment < outer; ++segment) {
+      const unsigned a = first + segment / (outer / inner), b = outer_first + segment,
+                     c = outer_first + (segment + 1) % outer;
+      indices.insert(indices.end(), {a, b, c});
+      const unsigned next = first + (segment + 1) / (outer / inner) % inner;
+      if (next != a) indices.insert(indices.end(), {a, c, next});
+    }
+    first = outer_first;
+  }
+  return indices;
+}
+
+std::vector<std::string> defines(const Look& look, std::size_t sphere_count, std::size_t ground_count) {
+  std::vector<std::string> all = light_defines(look, sphere_count, look.shadows);
+  all.push_back(fmt::format("GROUNDS {}", ground_count));
+  return all;
+}
 
 }  // namespace
 
 DrawSphere::DrawSphere(const GlFunctions& gl, const std::filesystem::path& data_folder, const Look& look,
-                       std::size_t ground_count)
+                       std::size_t sphere_count, std::size_t ground_count)
     : gl_(gl),
-      program_(gl, data_folder, "sphere", {fmt::format("GROUNDS {}", ground_count)}),
+      program_(gl, data_folder, "sphere", defines(look, sphere_count, ground_count)),
       array_(gl),
       vertex_buffer_(gl),
       index_buffer_(gl) {
-  // Polar coordinates of the cap: how far from its middle (0) to its rim (1), and the direction.
-  std::vector<Eigen::Vector3f> vertices;
-  for (unsigned ring = 0; ring <= rings; ++ring) {
-    for (unsigned segment = 0; segment < segments; ++segment) {
-      const double angle = 2 * std::numbers::pi * segment / segments;
-      vertices.emplace_back(
-          Eigen::Vector3d(static_cast<double>(ring) / rings, std::cos(angle), std::sin(angle)).cast<float>());
-    }
-  }
-  std::vector<unsigned> indices;
-  for (unsigned ring = 0; ring < rings; ++ring) {
-    for (unsigned segment = 0; segment < segments; ++segment) {
-      const unsigned a = ring * segments + segment, b = ring * segments + (segment + 1) % segments;
-      for (const unsigned index : {a, a + segments, b + segments, a, b + segments, b}) indices.push_back(index);
-    }
-  }
+  const std::vector<Eigen::Vector3f> vertices = cap_vertices();
+  const std::vector<unsigned> indices = cap_triangles();
   index_count_ = static_cast<GLsizei>(indices.size());
 
   gl_.BindVertexArray(array_.id());
@@ -56,9 +82,10 @@ DrawSphere::DrawSphere(const GlFunctions& gl, const std::filesystem::path& data_
   program_.set("sphere_color", linear_color(look.sphere_color));
 }
 
-void DrawSphere::draw(const Shot& shot) {
+void DrawSphere::draw(const Shot& shot, const ClothShadow* shadow) {
   program_.use();
   shot.set_uniforms(program_);
+  if (shadow != nullptr) shadow->set_uniforms(program_);
   gl_.BindVertexArray(array_.id());
   for (const Eigen::Vector4f& sphere : shot.spheres) {
     if ((shot.eye - sphere.head<3>()).norm() <= sphere[3]) continue;  // its outside cannot be seen from within

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 
+#include "render/cloth_shadow.hpp"
 #include "render/gl/objects.hpp"
 #include "render/gl/program.hpp"
 #include "render/settings.hpp"
@@ -14,11 +15,13 @@ namespace drape {
 /// exact outline, so that multisampling gives it clean edges.
 class DrawSphere {
  public:
+  /// @param sphere_count in every frame
   /// @param ground_count that the camera sees in every frame; what is below them is not drawn
   DrawSphere(const GlFunctions& gl, const std::filesystem::path& data_folder, const Look& look,
-             std::size_t ground_count);
+             std::size_t sphere_count, std::size_t ground_count);
 
-  void draw(const Shot& shot);
+  /// @param shadow of the cloth, where the look has shadows
+  void draw(const Shot& shot, const ClothShadow* shadow);
 
  private:
   const GlFunctions& gl_;

@@ -4,40 +4,46 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/depth_map.hpp"
 #include "sim/collider.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 
-/// The shadow of a cloth on a ground as a picture that lies on it. Where the cloth is near the ground the shadow's edge
-/// is sharp, higher up it is soft. Computed here and not by OpenGL, so that its bytes are the same everywhere.
+/// The shadow of a cloth on a ground, as a picture seen from the light. Where the cloth is near the ground the shadow's
+/// edge is sharp, higher up it is soft: as every point of the ground has one place in the picture, edges can be
+/// softened here, once a frame, and not in every pixel.
 class GroundShadow {
  public:
-  static constexpr int size = 192;  ///< columns and rows
-
-  explicit GroundShadow(std::vector<Triangle> triangles);
-
   /// Casts the shadow.
-  /// @param to_light unit vector; raised where it is so low that the shadow would have no end
-  void cast(const Vertices& positions, const GroundShape& ground, const Eigen::Vector3d& to_light);
+  /// @param map       of the cloth, seen from the light
+  /// @param to_light  unit vector; from a light below the ground there is no shadow on it
+  /// @param softening height of the cloth above the ground from which on the shadow is mostly soft [m]
+  void cast(const DepthMap& map, const GroundShape& ground, const Eigen::Vector3d& to_light, double softening);
 
-  /// How much of the light is taken, size×size from 0 to 65535, rows from below; 0 along the border.
+  /// Whether the light reaches a ground at all, so that there can be a shadow.
+  [[nodiscard]] static bool reaches(const GroundShape& ground, const Eigen::Vector3d& to_light);
+  /// The four points of the ground at the corners of the picture, beyond which there is no shadow; none without a
+  /// picture.
+  [[nodiscard]] std::vector<Eigen::Vector3d> corners(const GroundShape& ground) const;
+
+  [[nodiscard]] int columns() const { return columns_; }
+  [[nodiscard]] int rows() const { return rows_; }
+  /// How much of the light is taken, from 0 to 65535, rows from below; 0 along the border.
   [[nodiscard]] const std::vector<std::uint16_t>& pixels() const { return pixels_; }
   /// A point x of the ground is at texture coordinates (u·(x, 1), v·(x, 1)), 0 to 1 within the picture.
   [[nodiscard]] const Eigen::Vector4d& u() const { return u_; }
   [[nodiscard]] const Eigen::Vector4d& v() const { return v_; }
 
  private:
-  void project(const Vertices& positions, const GroundShape& ground, const Eigen::Vector3d& to_light);
-  void fill(const Triangle& triangle);
-  void soften(double sharpness_height);
+  void clear();
+  void project(const DepthMap& map, const GroundShape& ground, double softening);
+  void blur(std::vector<float>& image, int radius);
 
-  std::vector<Triangle> triangles_;
-  Vertices projected_;          // of each vertex: column and row in the picture, and height above the ground [m]
-  std::vector<float> heights_;  // of the lowest piece of cloth above each texel; negative where there is none
+  int columns_ = 0, rows_ = 0;
   std::vector<float> sharp_, soft_, scratch_;
   std::vector<std::uint16_t> pixels_;
-  Eigen::Vector4d u_, v_;
+  Eigen::Vector4d u_ = Eigen::Vector4d::Zero(), v_ = u_;
+  Eigen::Vector3d light_ = Eigen::Vector3d::UnitZ();
 };
 
 }  // namespace drape

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "render/canvas.hpp"
+#include "render/cloth_shadow.hpp"
 #include "render/covered_box.hpp"
 #include "render/draw_cloth.hpp"
 #include "render/draw_ground.hpp"
@@ -38,7 +39,9 @@ class Renderer::Implementation {
         context_(make_current_context(backend)),
         gl_(*context_),
         canvas_(gl_, size, look),
-        cloth_(gl_, data_folder_, look, vertex_count, triangles, uvs) {}
+        cloth_(gl_, data_folder_, look, vertex_count, triangles, uvs) {
+    if (look.shadows) shadow_.emplace(gl_);
+  }
 
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
@@ -59,14 +62,16 @@ class Renderer::Implementation {
     context_->make_current();
     const Shot shot(frame, view_, static_cast<double>(size_.x()) / size_.y());
     canvas_.begin(covered_box(shot, size_));
+    if (shadow_) shadow_->cast(shot, cloth_.triangles());
+    const ClothShadow* shadow = shadow_ ? &*shadow_ : nullptr;
     if (!shot.grounds.empty()) {
-      if (!grounds_) grounds_.emplace(gl_, data_folder_, look_, cloth_.triangles(), shot.spheres.size());
-      grounds_->draw(shot);
+      if (!grounds_) grounds_.emplace(gl_, data_folder_, look_, shot.spheres.size());
+      grounds_->draw(shot, shadow, size_);
     }
-    cloth_.draw(shot, colors);
+    cloth_.draw(shot, shadow, colors);
     if (!shot.spheres.empty()) {  // after the cloth that hides much of them
-      if (!spheres_) spheres_.emplace(gl_, data_folder_, look_, shot.grounds.size());
-      spheres_->draw(shot);
+      if (!spheres_) spheres_.emplace(gl_, data_folder_, look_, shot.spheres.size(), shot.grounds.size());
+      spheres_->draw(shot, shadow);
     }
     return canvas_.finish();
   }
@@ -86,6 +91,7 @@ class Renderer::Implementation {
   GlFunctions gl_;
   Canvas canvas_;
   DrawCloth cloth_;
+  std::optional<ClothShadow> shadow_;  // absent where the look has none
   std::optional<DrawSphere> spheres_;  // made when a frame first has one
   std::optional<DrawGround> grounds_;  // likewise
 };

@@ -38,14 +38,24 @@ struct Look {
   bool mesh_lines = false;        ///< draw the triangles' edges as thin dark lines
   Rgb line_color{0.16, 0.12, 0.06};
   double line_width = 0.8;            ///< [pixels]
-  Rgb background{1, 1, 1};            ///< at the bottom of the picture, and everywhere without the next
-  std::optional<Rgb> background_top;  ///< at the top: a gradient
+  std::optional<Rgb> background;      ///< at the bottom of the picture, and everywhere without the next
+  std::optional<Rgb> background_top;  ///< at the top: a gradient; absent, with the other: the grey of a studio
   Rgb sphere_color{0.75, 0.04, 0.04};
   Rgb ground_color{0.84, 0.83, 0.81};
   double ground_grid = 0.5;  ///< distance of the lines on the ground, 0 without lines [m]
   int samples = 4;           ///< per pixel: 1 (off), 2, 4
   std::optional<ColorBy> color_by;
   std::optional<double> color_limit;  ///< what the last colour stands for: as a part of 1, [m/s] or [1/m]
+  bool shadows = true;                ///< of cloth and spheres, in the key light
+  bool ambient_occlusion = true;
+  double translucency = 0.3;  ///< part of the key light that shines through the cloth
+
+  /// The background at the bottom and at the top of the picture. Without one it is the grey of a studio: darker than
+  /// white cloth in the light, brighter than any in the shade, and of a colour that little cloth has.
+  [[nodiscard]] Rgb lower_background() const { return background.value_or(Rgb{0.84, 0.85, 0.86}); }
+  [[nodiscard]] Rgb upper_background() const {
+    return background_top.value_or(background ? *background : Rgb{0.66, 0.71, 0.77});
+  }
 };
 
 /// The film: its size in pixels, its frames per second, and how much faster than the scene's time it plays.

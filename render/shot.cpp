@@ -1,5 +1,10 @@
 #include "render/shot.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
 namespace drape {
 
 Shot::Shot(const Frame& shown, const View& view, double aspect) : frame(shown) {
@@ -15,9 +20,11 @@ Shot::Shot(const Frame& shown, const View& view, double aspect) : frame(shown) {
         .cast<float>()
         .eval();
   };
+  constexpr double degree = std::numbers::pi / 180;
+  extent = 2 * std::tan(view.field_of_view * degree / 2) * (view.position - view.target).norm();
   back = axes.row(2).transpose().cast<float>();
   up = sky.cast<float>();
-  key_direction = towards(-0.45, 0.65, 0.75);
+  key_direction = towards(-0.75, 0.8, 0.5);
   fill_direction = towards(0.8, 0.15, 0.5);
 
   for (const Collider& collider : shown.colliders) {
@@ -43,6 +50,14 @@ void Shot::set_uniforms(const Program& program) const {
     planes.back() << ground.normal.cast<float>(), static_cast<float>(ground.height);
   }
   program.set("grounds", planes);
+}
+
+std::vector<std::string> light_defines(const Look& look, std::size_t sphere_count, bool shadows) {
+  std::vector<std::string> defines{fmt::format("SPHERES {}", sphere_count)};
+  if (shadows) defines.emplace_back("SHADOWS");
+  if (look.ambient_occlusion) defines.emplace_back("OCCLUSION");
+  if (look.translucency > 0) defines.emplace_back("TRANSLUCENCY");
+  return defines;
 }
 
 }  // namespace drape

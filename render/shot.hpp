@@ -1,9 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "render/gl/program.hpp"
+#include "render/settings.hpp"
 #include "render/view.hpp"
 #include "sim/frame.hpp"
 
@@ -15,6 +18,7 @@ struct Shot {
   Eigen::Matrix4f view_projection;       ///< from the world to clip space
   Eigen::Vector3f eye;                   ///< [m]
   Eigen::Vector3f back;                  ///< unit vector from where the camera looks to the camera
+  double extent;                         ///< what the picture's height shows, where the camera looks [m]
   Eigen::Vector3f up;                    ///< the sky is there
   Eigen::Vector3f key_direction;         ///< unit vector towards the key light
   Eigen::Vector3f fill_direction;        ///< unit vector towards the fill light
@@ -27,5 +31,9 @@ struct Shot {
   /// Hands all of it to a program that includes lighting.glsl and is in use.
   void set_uniforms(const Program& program) const;
 };
+
+/// What shaders that include shadow.glsl are compiled with: what the look switches off is not in them.
+/// @param shadows whether what they draw may have shadows on it
+std::vector<std::string> light_defines(const Look& look, std::size_t sphere_count, bool shadows);
 
 }  // namespace drape

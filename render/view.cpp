@@ -87,16 +87,17 @@ DepthRange depth_range(const View& view, const Frame& frame) {
     farthest = std::max(farthest, depth + radius);
   };
   for (Eigen::Index i = 0; i < frame.positions.rows(); ++i) add(frame.positions.row(i).dot(forward) - origin, 0);
-  bool on_ground = false;
+  int grounds = 0;
   for (const Collider& collider : frame.colliders) {
-    on_ground = on_ground || std::holds_alternative<GroundShape>(collider);
+    grounds += std::holds_alternative<GroundShape>(collider) ? 1 : 0;
     if (const auto ball = bounding_ball(collider)) add(ball->center.dot(forward) - origin, ball->radius);
   }
   if (!(farthest > 0)) return {};  // all of it is behind the camera
   const double room = 0.01 * std::max(farthest - nearest, 1e-3 * farthest);
   farthest += room;
-  // Grounds are seen in front of everything else and behind it, and where two of them meet one hides the other.
-  if (on_ground) return {0.01 * farthest, 10 * farthest};
+  // A ground is seen in front of everything else and behind it, where its depth need only be that of the range's ends.
+  // Where two of them meet one hides the other.
+  if (grounds > 1) return {0.01 * farthest, 10 * farthest};
   // A near plane at zero would leave no depth precision at all, so what nearly touches the camera is cut.
   return {std::max(nearest - room, 1e-3 * farthest), farthest};
 }

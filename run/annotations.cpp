@@ -98,7 +98,7 @@ Image Annotations::annotate(Image drawn, const Frame& frame) {
     const auto value = [&](const std::string& name) { return moment_value(name, frame, scene_.simulation.step); };
     const bool at_top = caption.place < CaptionPlace::bottom_left;
     draw_caption(drawn, pen_, caption, caption.filled.fill(value),
-                 at_top ? look.background_top.value_or(look.background) : look.background);
+                 at_top ? look.upper_background() : look.lower_background());
   }
   const int size = band_text_size(scene_);
   if (coloring_) {

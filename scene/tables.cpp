@@ -122,11 +122,18 @@ Keys look_keys(Look& look) {
   keys.add("mesh_lines", &look.mesh_lines, "", "Draws the edges of the triangles.");
   keys.add("line_color", &look.line_color, "", "Of these edges.");
   keys.add("line_width", &look.line_width, "pixels", "Of these edges.").above(0).at_most(64);
-  keys.add("background", &look.background, "", "Behind everything.");
+  keys.add("background", &look.background, "", "Behind everything; without it, the grey of a studio.");
   keys.add("background_top", &look.background_top, "", "At the top of the picture: the background is a gradient.");
   keys.add("sphere_color", &look.sphere_color, "", "Of the spheres.");
   keys.add("ground_color", &look.ground_color, "", "Of the ground, which fades into the background.");
   keys.add("ground_grid", &look.ground_grid, "m", "Distance of the lines on the ground; 0: it has none.").at_least(0);
+  keys.add("shadows", &look.shadows, "", "Cloth and spheres hide the brightest light from what is behind them.");
+  keys.add("ambient_occlusion", &look.ambient_occlusion, "",
+           "What cloth and spheres are close to gets less of the light from all around.");
+  keys.add("translucency", &look.translucency, "",
+           "The part of the brightest light that shines through the cloth: 0 for felt, 0.5 for thin cotton.")
+      .at_least(0)
+      .at_most(1);
   keys.add("samples", &look.samples, "", "Per pixel, against jagged edges: 1 (off), 2 or 4.").at_least(1).at_most(4);
   return keys;
 }

@@ -1,5 +1,6 @@
 #version 330 core
 #include "lighting.glsl"
+#include "shadow.glsl"
 
 #ifdef TEXTURE
 uniform sampler2D cloth_texture;
@@ -9,8 +10,11 @@ in vec3 vertex_color;
 #else
 uniform vec3 cloth_color;
 #endif
-#if SPHERES > 0
-uniform vec4 spheres[SPHERES];  // center, radius [m]
+#ifdef TRANSLUCENCY
+uniform float translucency;  // part of the key light that shines through
+#endif
+#ifdef OCCLUSION
+in vec2 openness;  // of the front and the back: what the cloth leaves of the light from all around
 #endif
 #ifdef MESH_LINES
 uniform vec3 line_color;
@@ -39,21 +43,6 @@ float line_coverage() {
 }
 #endif
 
-// The part of the surroundings of a point with normal n that the spheres leave free: 1 for all of it. For a sphere above
-// the horizon it is exact (Quilez, "sphere ambient occlusion").
-float free_sky(vec3 n) {
-  float open = 1.0;
-#if SPHERES > 0
-  for (int i = 0; i < SPHERES; ++i) {
-    vec3 to_center = spheres[i].xyz - world_position;
-    float distance = length(to_center);
-    float relative = max(distance / spheres[i].w, 1.0);
-    open *= 1.0 - clamp(dot(n, to_center / distance), 0.0, 1.0) / (relative * relative);
-  }
-#endif
-  return open;
-}
-
 void main() {
   // Cloth has two sides; the normal is that of the side which is seen.
   vec3 n = normalize(world_normal) * (gl_FrontFacing ? 1.0 : -1.0);
@@ -70,18 +59,38 @@ void main() {
 #ifdef MESH_LINES
   albedo = mix(albedo, line_color, line_coverage());
 #endif
+  albedo = max(albedo, 0.02);  // no cloth is as black as a hole
 
-  float open = free_sky(n);
-  float key = wrapped_cosine(n, key_direction, 0.25);
-  float key_through = 0.12 * max(0.0, -dot(n, key_direction));  // what shines through from the other side
+  float towards = dot(n, key_direction);
+  float lit = 1.0;
+#ifdef SHADOWS
+  // A point of the map is as wide as a texel and its filter: lifted by that off the side that is lit, no surface, however
+  // slanted, hides itself.
+  vec3 lifted = world_position + n * (towards < 0.0 ? -1.0 : 1.0) * (1.3 * shadow_texel.z);
+  lit = past_spheres(world_position, vec4(0.0)) * past_cloth(lifted);
+#endif
+#ifdef OCCLUSION
+  float open = (gl_FrontFacing ? openness.x : openness.y) * free_sky(world_position, n);
+  // What hides the surroundings is cloth of about this colour, and gives back what it gets.
+  vec3 around = open / (1.0 - 0.7 * albedo * (1.0 - open));
+#else
+  const vec3 around = vec3(1.0);
+#endif
+
+  // It has to vanish where the light only grazes the cloth, as whether that is in the shadow is a matter of rounding.
+  float key = max(0.0, towards);
+#ifdef TRANSLUCENCY
+  key += translucency * max(0.0, -towards);
+#endif
   float fill = wrapped_cosine(n, fill_direction, 0.4);
-  vec3 light = ambient_light(n) * open + key_light * (key + key_through) + fill_light * fill;
+  vec3 surroundings = (ambient_light(n) + fill_light * fill) * around;
+  vec3 direct = key_light * lit;
 
-  // Fibres that stand up from the cloth catch light where it is seen edge-on.
+  // Fibres that stand up from the cloth catch light where it is seen edge-on, of whatever colour it is.
   float aside = 1.0 - clamp(dot(n, to_eye), 0.0, 1.0);
-  float sheen = 0.10 * aside * aside * aside;
+  vec3 sheen = 0.16 * aside * aside * aside * (surroundings + direct * max(0.0, towards));
   float glance = power4(half_cosine(n, to_eye, key_direction));
-  vec3 specular = key_light * 0.03 * highlight(n, key_direction, 12.0, glance * glance * glance);
+  vec3 specular = direct * 0.03 * highlight(n, key_direction, 12.0, glance * glance * glance);
 
-  color = vec4(min(albedo * light * (1.0 + sheen) + specular, 1.0), 1.0);
+  color = vec4(film(albedo * (surroundings + direct * key) + sheen + specular), 1.0);
 }

@@ -10,6 +10,9 @@ layout(location = 4) in vec3 line_scale;
 #ifdef VERTEX_COLORS
 layout(location = 5) in vec3 own_color;  // linear light
 #endif
+#ifdef OCCLUSION
+layout(location = 6) in vec2 open_sides;
+#endif
 
 out vec3 world_position;
 out vec3 world_normal;
@@ -18,6 +21,9 @@ out vec2 texture_position;
 #endif
 #ifdef VERTEX_COLORS
 out vec3 vertex_color;
+#endif
+#ifdef OCCLUSION
+out vec2 openness;
 #endif
 #ifdef MESH_LINES
 out vec3 corner_weights;
@@ -32,6 +38,9 @@ void main() {
 #endif
 #ifdef VERTEX_COLORS
   vertex_color = own_color;
+#endif
+#ifdef OCCLUSION
+  openness = open_sides;
 #endif
 #ifdef MESH_LINES
   corner_weights = barycentric;

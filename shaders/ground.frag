@@ -1,5 +1,7 @@
 #version 330 core
+#define GROUND
 #include "lighting.glsl"
+#include "shadow.glsl"
 
 uniform mat4 view_projection;
 uniform vec4 ground;      // unit normal, height [m]
@@ -7,46 +9,14 @@ uniform vec4 focus;       // where the camera looks, and how far from there the 
 uniform float sunk;       // how far below its surface the ground begins to hide things [m]
 uniform vec3 ground_color;
 uniform float grid_spacing;  // [m]; 0: no lines
+#ifdef SHADOWS
 uniform sampler2D cloth_shadow;
 uniform vec4 shadow_u, shadow_v;  // texture coordinates of a point (x, 1)
-#if SPHERES > 0
-uniform vec4 spheres[SPHERES];  // center, radius [m]
 #endif
 
 in vec4 far_point;
 
 out vec4 color;  // premultiplied
-
-// How much of the light towards the key light is left by the spheres. The light is not a point, so edges get softer with
-// their distance.
-float past_spheres(vec3 p) {
-  float light = 1.0;
-#if SPHERES > 0
-  for (int i = 0; i < SPHERES; ++i) {
-    vec3 to_center = spheres[i].xyz - p;
-    float along = dot(to_center, key_direction);
-    float beside = length(to_center - along * key_direction);
-    float softness = 0.04 * spheres[i].w + 0.22 * max(along, 0.0);
-    float covered = 1.0 - smoothstep(spheres[i].w - softness, spheres[i].w + softness, beside);
-    light *= 1.0 - covered * smoothstep(-0.3 * spheres[i].w, 0.3 * spheres[i].w, along);
-  }
-#endif
-  return light;
-}
-
-// The part of the sky that the spheres leave free, see cloth.frag.
-float free_sky(vec3 p, vec3 n) {
-  float open = 1.0;
-#if SPHERES > 0
-  for (int i = 0; i < SPHERES; ++i) {
-    vec3 to_center = spheres[i].xyz - p;
-    float distance = length(to_center);
-    float relative = max(distance / spheres[i].w, 1.0);
-    open *= 1.0 - clamp(dot(n, to_center / distance), 0.0, 1.0) / (relative * relative);
-  }
-#endif
-  return open;
-}
 
 // How much of the pixel the lines of a grid cover; they fade where they would merge.
 float grid(vec2 place) {
@@ -67,15 +37,21 @@ void main() {
 
   vec3 side = normalize(abs(n.x) < 0.9 ? cross(n, vec3(1, 0, 0)) : cross(n, vec3(0, 1, 0)));
   float line = grid_spacing > 0.0 ? grid(vec2(dot(p, cross(side, n)), dot(p, side))) : 0.0;
+  float key = wrapped_cosine(n, key_direction, 0.15), open = 1.0;
+#ifdef SHADOWS
   float taken = texture(cloth_shadow, vec2(dot(shadow_u, vec4(p, 1.0)), dot(shadow_v, vec4(p, 1.0)))).r;
+  key *= past_spheres(p, vec4(0.0)) * (1.0 - 0.9 * taken);
+  open -= 0.4 * taken;
+#endif
+#ifdef OCCLUSION
+  open *= free_sky(p, n);
+#endif
   float coverage = 1.0 - smoothstep(0.25, 1.0, length(p - focus.xyz) / focus.w);
   if (descent <= 1e-5 || coverage <= 0.0) discard;
 
-  float open = free_sky(p, n) * (1.0 - 0.45 * taken);
-  float key = wrapped_cosine(n, key_direction, 0.15) * past_spheres(p) * (1.0 - 0.85 * taken);
   vec3 light = ambient_light(n) * open + key_light * key + fill_light * wrapped_cosine(n, fill_direction, 0.4);
   vec3 albedo = ground_color * (1.0 - 0.22 * line);
-  color = vec4(min(albedo * light, 1.0), 1.0) * coverage;
+  color = vec4(film(albedo * light), 1.0) * coverage;
 
   vec4 behind = view_projection * vec4(eye + ray * ((above + sunk) / descent), 1.0);
   gl_FragDepth = behind.w > 0.0 ? clamp(0.5 + 0.5 * behind.z / behind.w, 0.0, 0.9999999) : 0.0;

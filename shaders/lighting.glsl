@@ -6,10 +6,10 @@ uniform vec3 up;              // unit vector to the sky
 uniform vec3 key_direction;   // unit vectors to the lights
 uniform vec3 fill_direction;
 
-const vec3 sky_light = vec3(0.43, 0.44, 0.46);
-const vec3 floor_light = vec3(0.27, 0.26, 0.25);
-const vec3 key_light = vec3(0.82, 0.80, 0.77);
-const vec3 fill_light = vec3(0.14, 0.15, 0.17);
+const vec3 sky_light = vec3(0.34, 0.36, 0.40);
+const vec3 floor_light = vec3(0.20, 0.19, 0.18);
+const vec3 key_light = vec3(1.02, 0.99, 0.93);
+const vec3 fill_light = vec3(0.10, 0.11, 0.13);
 
 // Light from all around on a surface with normal n.
 vec3 ambient_light(vec3 n) { return mix(floor_light, sky_light, 0.5 + 0.5 * dot(n, up)); }
@@ -37,3 +37,10 @@ float highlight(vec3 n, vec3 direction, float shininess, float powered) {
 // What of a mirror's reflection a polished surface shows, by the cosine between its normal and the view. It is weaker at
 // the rim than Schlick's (1994), as on a surface that is not perfectly smooth.
 float fresnel(float cosine) { return 0.04 + 0.5 * power4(1.0 - clamp(cosine, 0.0, 1.0)); }
+
+// What a film keeps of light: all of it up to the shoulder, beyond that ever less, so that nothing is ever just white.
+vec3 film(vec3 light) {
+  const float shoulder = 0.6, rest = 1.0 - shoulder;
+  vec3 over = max(light - shoulder, 0.0);
+  return min(light, shoulder) + rest * over / (rest + over);
+}

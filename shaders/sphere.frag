@@ -1,5 +1,6 @@
 #version 330 core
 #include "lighting.glsl"
+#include "shadow.glsl"
 
 uniform vec3 sphere_color;
 uniform vec4 sphere;  // center, radius [m]
@@ -27,14 +28,18 @@ void main() {
   }
 #endif
 
-  vec3 light = ambient_light(n) + key_light * wrapped_cosine(n, key_direction, 0.1) +
+  vec3 direct = key_light;
+#ifdef SHADOWS
+  direct *= past_spheres(sphere.xyz + sphere.w * n, sphere) * past_cloth(sphere.xyz + sphere.w * n);
+#endif
+  vec3 light = ambient_light(n) + direct * wrapped_cosine(n, key_direction, 0.1) +
                fill_light * wrapped_cosine(n, fill_direction, 0.2);
   float mirror = fresnel(dot(n, to_eye));
   float glance = power4(half_cosine(n, to_eye, key_direction));
   float wide = glance * glance * glance;  // to the power of 12, and below of 24 and 256
   vec3 gloss = surroundings(reflect(-to_eye, n)) * mirror +
-               key_light * (0.060 * highlight(n, key_direction, 256.0, power4(power4(power4(glance)))) +
-                            0.035 * highlight(n, key_direction, 24.0, wide * wide));
+               direct * (0.060 * highlight(n, key_direction, 256.0, power4(power4(power4(glance)))) +
+                         0.035 * highlight(n, key_direction, 24.0, wide * wide));
 
-  color = vec4(min(sphere_color * light * (1.0 - mirror) + gloss, 1.0), 1.0);
+  color = vec4(film(sphere_color * light * (1.0 - mirror) + gloss), 1.0);
 }

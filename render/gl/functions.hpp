@@ -62,6 +62,7 @@ namespace drape {
   ENTRY(PFNGLTEXPARAMETERFPROC, TexParameterf)                                   \
   ENTRY(PFNGLTEXPARAMETERFVPROC, TexParameterfv)                                 \
   ENTRY(PFNGLTEXPARAMETERIPROC, TexParameteri)                                   \
+  ENTRY(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                                   \
   ENTRY(PFNGLUNIFORM1FPROC, Uniform1f)                                           \
   ENTRY(PFNGLUNIFORM1IPROC, Uniform1i)                                           \
   ENTRY(PFNGLUNIFORM3FVPROC, Uniform3fv)                                         \

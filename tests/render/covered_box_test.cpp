@@ -43,7 +43,7 @@ TEST(CoveredBox, HoldsAllThatIsDrawn) {
       const View view = looking_at(middle.x(), middle.y());
       Look look;
       look.samples = samples[++seed % 3];
-      look.background = {0.2, 0.5, 0.9};
+      look.background = Rgb{0.2, 0.5, 0.9};
       look.background_top = Rgb{1, 1, 1};
       look.mesh_lines = seed % 2 == 0;
       const Mesh mesh = crumpled(seed);

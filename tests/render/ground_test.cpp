@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "render/ground_shadow.hpp"
+#include "render/shot.hpp"
 #include "render/view.hpp"
 #include "tests/render/drawing.hpp"
 
@@ -18,52 +19,63 @@ const GroundShape level{{0, 0, 1}, -1, 0.02};
 /// How much light the shadow takes at a point of the ground, 0 to 1.
 double taken(const GroundShadow& shadow, const Vector3d& point) {
   const Vector4d p(point[0], point[1], point[2], 1);
-  const int column = static_cast<int>(shadow.u().dot(p) * GroundShadow::size);
-  const int row = static_cast<int>(shadow.v().dot(p) * GroundShadow::size);
-  if (column < 0 || row < 0 || column >= GroundShadow::size || row >= GroundShadow::size) return 0;
-  return shadow.pixels()[static_cast<std::size_t>(row * GroundShadow::size + column)] / 65535.0;
+  const int column = static_cast<int>(std::floor(shadow.u().dot(p) * shadow.columns()));
+  const int row = static_cast<int>(std::floor(shadow.v().dot(p) * shadow.rows()));
+  if (column < 0 || row < 0 || column >= shadow.columns() || row >= shadow.rows()) return 0;
+  return shadow.pixels()[static_cast<std::size_t>(row * shadow.columns() + column)] / 65535.0;
 }
 
-/// The area of the shadow [m²].
-double area(const GroundShadow& shadow) {
+/// The shadow of a mesh, by a map of texels of half a centimetre.
+GroundShadow cast(const Mesh& mesh, const GroundShape& ground, const Vector3d& to_light) {
+  DepthMap map;
+  map.look(to_light, Vector3d::UnitY());
+  map.draw(mesh.positions, mesh.triangles, 0.005, 1024);
+  GroundShadow shadow;
+  shadow.cast(map, ground, to_light, 0.3);
+  return shadow;
+}
+
+/// The area of the shadow on a ground [m²].
+double area(const GroundShadow& shadow, const GroundShape& ground, const Vector3d& to_light) {
   double sum = 0;
   for (const std::uint16_t pixel : shadow.pixels()) sum += pixel / 65535.0;
-  const double texel = 1 / (GroundShadow::size * shadow.u().head<3>().norm());
-  return sum * texel * texel;
+  const double width = 1 / (shadow.columns() * shadow.u().head<3>().norm());
+  const double height = 1 / (shadow.rows() * shadow.v().head<3>().norm());
+  return sum * width * height / ground.normal.dot(to_light);
 }
 
 TEST(GroundShadow, LiesWhereTheLightIsHeldUp) {
   const Mesh square = make_grid(4, 4);  // of 2 m × 2 m, a metre above the ground
-  GroundShadow shadow(square.triangles);
-  shadow.cast(square.positions, level, Vector3d(0, 0, 1));
+  const Vector3d above(0, 0, 1), aside = Vector3d(1, 0, 1).normalized();
+  GroundShadow shadow = cast(square, level, above);
   EXPECT_NEAR(taken(shadow, {0, 0, -1}), 1, 1e-3);
   EXPECT_NEAR(taken(shadow, {1, 0, -1}), 0.5, 0.1) << "the middle of its edge";
   EXPECT_EQ(taken(shadow, {1.6, 0, -1}), 0);
-  EXPECT_NEAR(area(shadow), 4, 0.05);
+  EXPECT_NEAR(area(shadow, level, above), 4, 0.05);
 
   // Light from +x at 45° throws it a metre towards −x.
-  shadow.cast(square.positions, level, Vector3d(1, 0, 1).normalized());
+  shadow = cast(square, level, aside);
   EXPECT_NEAR(taken(shadow, {-1, 0, -1}), 1, 1e-3);
   EXPECT_NEAR(taken(shadow, {-1.9, 0.5, -1}), 1, 0.15);
   EXPECT_LT(taken(shadow, {0.3, 0, -1}), 0.1);
-  EXPECT_NEAR(area(shadow), 4, 0.05);
+  EXPECT_NEAR(area(shadow, level, aside), 4, 0.05);
 }
 
 TEST(GroundShadow, LiesOnTiltedGroundsToo) {
   const Mesh square = make_grid(4, 4);
-  GroundShadow shadow(square.triangles);
   const Vector3d normal = Vector3d(1, 0, 2).normalized();
-  shadow.cast(square.positions, {normal, -1, 0.02}, normal);
+  const GroundShape tilted{normal, -1, 0.02};
+  const GroundShadow shadow = cast(square, tilted, normal);
   EXPECT_NEAR(taken(shadow, -normal), 1, 1e-3);
-  EXPECT_NEAR(area(shadow), 4 * normal[2], 0.05);
+  EXPECT_NEAR(area(shadow, tilted, normal), 4 * normal[2], 0.05);
+  for (const Vector3d& corner : shadow.corners(tilted)) EXPECT_NEAR(normal.dot(corner), -1, 1e-12);
 }
 
 TEST(GroundShadow, ItsEdgeIsSharperWhereTheClothIsNear) {
   Mesh square = make_grid(4, 4);
-  GroundShadow shadow(square.triangles);
   const auto softness = [&](double height) {
     square.positions.col(2).setConstant(-1 + height);
-    shadow.cast(square.positions, level, Vector3d(0, 0, 1));
+    const GroundShadow shadow = cast(square, level, Vector3d(0, 0, 1));
     return taken(shadow, {0.95, 0, -1}) - taken(shadow, {1.05, 0, -1});
   };
   EXPECT_GT(softness(0.0), 1.5 * softness(1.5));
@@ -72,8 +84,7 @@ TEST(GroundShadow, ItsEdgeIsSharperWhereTheClothIsNear) {
 TEST(GroundShadow, SurvivesAClothWithoutASize) {
   Mesh point = make_grid(1, 1);
   point.positions.setZero();
-  GroundShadow shadow(point.triangles);
-  shadow.cast(point.positions, level, Vector3d(0, 0, 1));
+  const GroundShadow shadow = cast(point, level, Vector3d(0, 0, 1));
   EXPECT_EQ(std::accumulate(shadow.pixels().begin(), shadow.pixels().end(), 0L), 0);
 }
 
@@ -87,7 +98,7 @@ View from_the_side() { return {{0, -8, 3}, {0, 0, -0.5}, {0, 0, 1}, 30}; }
 
 TEST(Ground, FadesIntoTheBackground) {
   Look look;
-  look.background = {0.2, 0.4, 0.6};
+  look.background = Rgb{0.2, 0.4, 0.6};
   look.ground_grid = 0;
   View view = from_the_side();
   view.target = {0, 0, 2.5};  // the horizon is in the picture
@@ -103,6 +114,7 @@ TEST(Ground, FadesIntoTheBackground) {
 
 TEST(Ground, CarriesTheShadowOfWhatIsAboveIt) {
   Look look;
+  look.background = Rgb{1, 1, 1};
   look.ground_grid = 0;
   const auto brightness = [&](const Mesh& mesh, const std::vector<Collider>& colliders) {
     const Image image = draw(mesh, from_the_side(), look, {240, 200}, colliders);
@@ -120,6 +132,33 @@ TEST(Ground, CarriesTheShadowOfWhatIsAboveIt) {
     }
   }
   EXPECT_GT(darker, 300);
+}
+
+// Only where a shadow may lie is the ground drawn with one; no edge shows where that ends.
+TEST(Ground, ShadowsEndSoftly) {
+  Look look;
+  look.ground_grid = 0;
+  Mesh sheet = make_grid(4, 4);
+  sheet.positions = (0.3 * sheet.positions).rowwise() + Eigen::RowVector3d(-1.6, 0.8, 2.6);
+  const View view = from_the_side();
+  for (const double height : {0.5, 2.0, 4.0}) {
+    const Vector3d light = Shot(Frame{}, view, 1.2).key_direction.cast<double>().normalized();
+    const Vector3d center = Vector3d(0, 0, -1) + height / light[2] * light;
+    const Image image = draw(sheet, view, look, {240, 200}, {level, SphereShape{center, 0.4}});
+    const Image without = draw(nothing(), view, look, {240, 200}, {level});
+    int darker = 0;
+    for (int y = 100; y < 200; ++y) {
+      for (int x = 1; x < 240; ++x) {
+        const auto is_ground = [&](int column) {
+          return std::abs(image.at(column, y)[0] - image.at(column, y)[2]) < 12;
+        };
+        if (!is_ground(x) || !is_ground(x - 1)) continue;
+        darker += image.at(x, y)[1] < without.at(x, y)[1] - 10 ? 1 : 0;
+        ASSERT_LT(std::abs(image.at(x, y)[1] - image.at(x - 1, y)[1]), height < 1 ? 60 : 14) << x << ", " << y;
+      }
+    }
+    EXPECT_GT(darker, 200) << height;
+  }
 }
 
 TEST(Ground, HidesWhatIsBelowItAndIsNotSeenFromThere) {

@@ -44,7 +44,7 @@ TEST(Renderer, LeavesTheBackgroundsBytesExactWhereNothingIsDrawn) {
     for (const int value : {0, 1, 17, 128, 254, 255}) {
       Look look;
       look.samples = samples;
-      look.background = {value / 255.0, (255 - value) / 255.0, 0.5};
+      look.background = Rgb{value / 255.0, (255 - value) / 255.0, 0.5};
       const Image image = draw(nothing(), from_above(), look);
       for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
@@ -59,7 +59,7 @@ TEST(Renderer, LeavesTheBackgroundsBytesExactWhereNothingIsDrawn) {
 
 TEST(Renderer, DrawsAGradientWithItsTopColourAtTheTop) {
   Look look;
-  look.background = {0, 0, 0};
+  look.background = Rgb{0, 0, 0};
   look.background_top = Rgb{1, 1, 1};
   const Image image = draw(nothing(), from_above(), look);
   EXPECT_GT(image.at(0, 0)[0], 250);
@@ -70,7 +70,9 @@ TEST(Renderer, DrawsAGradientWithItsTopColourAtTheTop) {
 TEST(Renderer, DrawsASphereAsLargeAsItsTangentConeIs) {
   const double distance = 5, radius = 0.6;
   const Eigen::Vector2i size{241, 201};
-  const Image image = draw(nothing(), from_above(), Look{}, size, {SphereShape{{0, 0, 0}, radius}});
+  Look look;
+  look.background = Rgb{1, 1, 1};
+  const Image image = draw(nothing(), from_above(), look, size, {SphereShape{{0, 0, 0}, radius}});
   const double expected = std::tan(std::asin(radius / distance)) / (1 / distance) * size.y() / 2;
   int half_covered = 0, row = 0;
   for (int y = 0; y < image.height; ++y) {
@@ -98,7 +100,7 @@ TEST(Renderer, LightsBothSidesOfTheCloth) {
 
 TEST(Renderer, LeavesNoCracksBetweenTriangles) {
   Look look;
-  look.background = {1, 0, 1};
+  look.background = Rgb{1, 0, 1};
   look.color = {0, 0.4, 0};
   const View inside{{0.1, 0.2, 0.1}, {1, 0.7, 0.4}, {0, 0, 1}, 80};
   for (const bool lines : {false, true}) {
@@ -116,7 +118,7 @@ TEST(Renderer, LeavesNoCracksBetweenTriangles) {
 TEST(Renderer, AveragesSamplesAsLightAndEncodesOnce) {
   Look look;
   look.color = {0, 0, 0};
-  look.background = {1, 1, 1};
+  look.background = Rgb{1, 1, 1};
   Mesh mesh = make_grid(1, 1);
   const Eigen::Rotation2D<double> turn(0.2);
   for (int i = 0; i < 4; ++i) {

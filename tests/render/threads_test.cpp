@@ -13,13 +13,13 @@
 namespace drape::test {
 namespace {
 
-/// The picture's bytes, drawn by a new process: Mesa reads its number of threads once.
-std::vector<std::uint8_t> drawn_with_threads(const char* threads) {
+/// The picture's bytes, drawn by a new process with an environment variable: Mesa reads its own once.
+std::vector<std::uint8_t> drawn_with(const char* variable, const char* value) {
   int ends[2];
   if (pipe(ends) != 0) return {};
   const pid_t child = fork();
   if (child == 0) {
-    setenv("LP_NUM_THREADS", threads, 1);
+    setenv(variable, value, 1);
     Look look;
     look.texture = data_folder() / "textures/plaid.png";
     Mesh mesh = make_grid(20, 20);
@@ -27,7 +27,8 @@ std::vector<std::uint8_t> drawn_with_threads(const char* threads) {
       mesh.positions(i, 2) = 0.2 * std::sin(4 * mesh.positions(i, 0)) * std::cos(3 * mesh.positions(i, 1));
     }
     const View view{{2, -4, 2}, {0, 0, 0}, {0, 0, 1}, 30};
-    const Image image = draw(mesh, view, look, {240, 200}, {SphereShape{{0, 0, -0.3}, 0.4}});
+    const Image image =
+        draw(mesh, view, look, {240, 200}, {SphereShape{{0.3, -0.4, 0.3}, 0.4}, GroundShape{{0, 0, 1}, -0.8, 0.01}});
     const auto size = static_cast<ssize_t>(image.pixels.size());
     ssize_t written = 0;
     while (written < size) {
@@ -52,16 +53,27 @@ std::vector<std::uint8_t> drawn_with_threads(const char* threads) {
   return bytes;
 }
 
-// A process must not fork after Mesa has started its threads, as it has where other tests drew before.
+/// A process must not fork after Mesa has started its threads, as it has where other tests drew before.
+bool has_threads() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/task"), std::filesystem::directory_iterator()) >
+         1;
+}
+
 TEST(Threads, OfMesaChangeNoByte) {
-  const auto threads =
-      std::distance(std::filesystem::directory_iterator("/proc/self/task"), std::filesystem::directory_iterator());
-  if (threads > 1) GTEST_SKIP() << "must run in a process of its own, as under ctest";
-  const std::vector<std::uint8_t> none = drawn_with_threads("0");
+  if (has_threads()) GTEST_SKIP() << "must run in a process of its own, as under ctest";
+  const std::vector<std::uint8_t> none = drawn_with("LP_NUM_THREADS", "0");
   ASSERT_EQ(none.size(), std::size_t{3} * 240 * 200);
-  EXPECT_EQ(none, drawn_with_threads("1"));
-  EXPECT_EQ(none, drawn_with_threads("2"));
-  EXPECT_EQ(none, drawn_with_threads("5"));
+  EXPECT_EQ(none, drawn_with("LP_NUM_THREADS", "1"));
+  EXPECT_EQ(none, drawn_with("LP_NUM_THREADS", "2"));
+  EXPECT_EQ(none, drawn_with("LP_NUM_THREADS", "5"));
+}
+
+// With vectors of 128 bits Mesa has neither AVX nor fused multiply-adds, as on a processor without them.
+TEST(Threads, AndVectorsOfOtherProcessorsChangeNoByte) {
+  if (has_threads()) GTEST_SKIP() << "must run in a process of its own, as under ctest";
+  const std::vector<std::uint8_t> narrow = drawn_with("LP_NATIVE_VECTOR_WIDTH", "128");
+  ASSERT_EQ(narrow.size(), std::size_t{3} * 240 * 200);
+  EXPECT_EQ(narrow, drawn_with("LP_NATIVE_VECTOR_WIDTH", "256"));
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ TEST_P(Homework, SceneIsWhatTheTableSays) {
   EXPECT_EQ(effects, expected.effects);
   EXPECT_EQ(scene.video.fps, 25);
   EXPECT_EQ(scene.video.size, Eigen::Vector2i(480, 400));
-  EXPECT_EQ(scene.look.background, (Rgb{1, 1, 1}));
+  EXPECT_FALSE(scene.look.background);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "tests/render/drawing.hpp"
+#include "tests/support/random.hpp"
+
+namespace drape::test {
+namespace {
+
+/// Three layers that lie on a ground, as far apart as self-collision leaves them.
+Mesh pile() {
+  const Mesh layer = make_grid(12, 12);
+  const auto n = layer.positions.rows();
+  Mesh mesh;
+  mesh.positions.resize(3 * n, 3);
+  for (int k = 0; k < 3; ++k) {
+    mesh.positions.middleRows(k * n, n) =
+        (layer.positions * (1 - 0.2 * k)).rowwise() + Eigen::RowVector3d(0.05 * k, 0.1 * k, 0.01 + 0.01 * k);
+    const int first = static_cast<int>(k * n);
+    for (const Triangle& t : layer.triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    mesh.uvs.insert(mesh.uvs.end(), layer.uvs.begin(), layer.uvs.end());
+  }
+  return mesh;
+}
+
+int flipped_pixels(const Image& one, const Image& other) {
+  int count = 0;
+  for (std::size_t i = 0; i < one.pixels.size(); i += 3) {
+    int most = 0;
+    for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(one.pixels[i + c] - other.pixels[i + c]));
+    count += most > 6 ? 1 : 0;
+  }
+  return count;
+}
+
+// A cloth at rest still moves by what a solver leaves: a ten-millionth of a metre. Seen from wherever, with the angle
+// that shows it as large, no pixel flips to another layer or into a shadow.
+TEST(Rest, NoPixelOfLayersThatTouchFlickersAtAnyDistance) {
+  const Mesh mesh = pile();
+  const std::vector<Collider> ground{GroundShape{{0, 0, 1}, 0, 0.01}};
+  for (const double distance : {4.0, 40.0, 400.0, 1500.0}) {
+    const Eigen::Vector3d direction = Eigen::Vector3d(0.7, -1.2, 0.6).normalized();
+    const View view{distance * direction, {0, 0, 0}, {0, 0, 1}, 2 * std::atan(1.2 / distance) * 180 / std::numbers::pi};
+    Look look;
+    look.texture = data_folder() / "textures/plaid.png";
+    Renderer renderer(data_folder(), {240, 200}, view, look, static_cast<int>(mesh.positions.rows()), mesh.triangles,
+                      mesh.uvs);
+    Random random(11);
+    Frame frame;
+    frame.colliders = ground;
+    frame.positions = mesh.positions;
+    const Image first = renderer.draw(frame);
+    for (int k = 0; k < 6; ++k) {
+      for (double& coordinate : frame.positions.reshaped()) coordinate += random.between(-1e-7, 1e-7);
+      EXPECT_EQ(flipped_pixels(renderer.draw(frame), first), 0) << "from " << distance << " m, frame " << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace drape::test

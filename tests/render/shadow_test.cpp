@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "render/cloth_shadow.hpp"
+#include "render/shot.hpp"
+#include "tests/render/drawing.hpp"
+
+// Shadows as they are drawn, against rays that are followed through the mesh.
+
+namespace drape::test {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Shadows alone, on white cloth.
+Look only_shadows(bool shadows = true) {
+  Look look;
+  look.color = {1, 1, 1};
+  look.background = Rgb{0, 0, 0};
+  look.samples = 1;
+  look.shadows = shadows;
+  look.ambient_occlusion = false;
+  look.translucency = 0;
+  return look;
+}
+
+/// A wavy sheet, and above a part of it a small one.
+Mesh two_layers() {
+  Mesh mesh = make_grid(30, 30);
+  for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
+    const double x = mesh.positions(i, 0), y = mesh.positions(i, 1);
+    mesh.positions(i, 2) = 0.12 * std::sin(5 * x + y) * std::cos(3 * y);
+  }
+  const Mesh small = make_grid(6, 6);
+  const int first = static_cast<int>(mesh.positions.rows());
+  Vertices all(first + small.positions.rows(), 3);
+  all << mesh.positions, (0.35 * small.positions).rowwise() + Eigen::RowVector3d(-0.1, 0.15, 0.55);
+  mesh.positions = all;
+  for (const Triangle& t : small.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  mesh.uvs.clear();
+  return mesh;
+}
+
+struct Hit {
+  double distance;
+  Vector3d normal;
+};
+
+/// The first triangle that a ray meets beyond some distance (Möller and Trumbore 1997).
+std::optional<Hit> meet(const Mesh& mesh, const Vector3d& from, const Vector3d& direction, double beyond) {
+  std::optional<Hit> first;
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3d a = mesh.positions.row(t[0]), ab = mesh.positions.row(t[1]).transpose() - a,
+                   ac = mesh.positions.row(t[2]).transpose() - a;
+    const Vector3d p = direction.cross(ac);
+    const double determinant = ab.dot(p);
+    if (std::abs(determinant) < 1e-14) continue;
+    const Vector3d offset = from - a, q = offset.cross(ab);
+    const double u = offset.dot(p) / determinant, v = direction.dot(q) / determinant;
+    const double distance = ac.dot(q) / determinant;
+    if (u < 0 || v < 0 || u + v > 1 || distance < beyond) continue;
+    if (!first || distance < first->distance) first = Hit{distance, ab.cross(ac).normalized()};
+  }
+  return first;
+}
+
+double light_at(const Image& image, int x, int y) { return to_linear(image.at(x, y)[1]); }
+
+TEST(Shadow, LiesWhereRaysToTheLightMeetTheCloth) {
+  const Mesh mesh = two_layers();
+  View view{{1.5, -3, 4}, {0, 0, 0}, {0, 0, 1}, 34};
+  const Eigen::Vector2i size{160, 160};
+  const Image with = draw(mesh, view, only_shadows(), size), without = draw(mesh, view, only_shadows(false), size);
+  Frame frame;
+  frame.positions = mesh.positions;
+  const Shot shot(frame, view, 1);
+  const Vector3d light = shot.key_direction.cast<double>().normalized();
+  const Vector3d side = light.unitOrthogonal(), other = light.cross(side);
+  const Eigen::Matrix3d axes = view.axes();
+  const double half = std::tan(view.field_of_view * std::numbers::pi / 360), edge = 0.02, contact = 0.05;
+  int dark = 0, bright = 0, agreed = 0;
+  for (int y = 1; y < size.y(); y += 3) {
+    for (int x = 1; x < size.x(); x += 3) {
+      const double right = half * (2 * (x + 0.5) / size.x() - 1), up = half * (1 - 2 * (y + 0.5) / size.y());
+      const Vector3d ray = (axes.transpose() * Vector3d(right, up, -1)).normalized();
+      const auto hit = meet(mesh, view.position, ray, 0);
+      if (!hit) continue;
+      const Vector3d normal = hit->normal.dot(ray) < 0 ? hit->normal : Vector3d(-hit->normal);
+      if (normal.dot(light) < 0.25) continue;
+      const Vector3d point = view.position + hit->distance * ray + 1e-3 * normal;
+      int hidden = 0;
+      for (const auto& [a, b] : {std::pair(0, 0), {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        hidden += meet(mesh, point + edge * (a * side + b * other), light, contact) ? 1 : 0;
+      }
+      const double left = light_at(with, x, y) / light_at(without, x, y);
+      if (hidden == 5) agreed += left < 0.55 ? 1 : 0, ++dark;
+      if (hidden == 0) agreed += left > 0.97 ? 1 : 0, ++bright;
+    }
+  }
+  EXPECT_GT(dark, 40);
+  EXPECT_GT(bright, 400);
+  EXPECT_GE(agreed, 0.985 * (dark + bright)) << "of " << dark << " in the shadow and " << bright << " in the light";
+}
+
+TEST(Shadow, IsNotThereOnAFlatSheetHoweverItLies) {
+  const Mesh flat = make_grid(15, 15);
+  for (int turn = 0; turn < 14; ++turn) {
+    Mesh mesh = flat;
+    const Eigen::AngleAxisd lean(0.22 * turn - 1.4, Vector3d(std::cos(turn), std::sin(turn), 0));
+    mesh.positions = flat.positions * lean.toRotationMatrix().transpose();
+    Look all = only_shadows();
+    all.ambient_occlusion = true;
+    const Image plain = draw(mesh, from_above(), only_shadows(false), {160, 160});
+    EXPECT_EQ(draw(mesh, from_above(), only_shadows(), {160, 160}), plain) << "leaning " << 0.22 * turn - 1.4;
+    EXPECT_EQ(draw(mesh, from_above(), all, {160, 160}), plain) << "leaning " << 0.22 * turn - 1.4;
+  }
+}
+
+TEST(Shadow, OfAClothTakesTheSpheresHighlight) {
+  Mesh roof = make_grid(8, 8);
+  const std::vector<Collider> ball{SphereShape{{0, 0, 0}, 0.4}};
+  const View view{{0, -4, 1.2}, {0, 0, 0.2}, {0, 0, 1}, 34};
+  Frame frame;
+  frame.positions = roof.positions;
+  const Vector3d light = Shot(frame, view, 1).key_direction.cast<double>();
+  roof.positions = (0.6 * roof.positions).rowwise() + 1.2 * light.transpose();
+  Look look;
+  const Image shaded = draw(roof, view, look, {200, 200}, ball);
+  const Image open = draw(nothing(), view, look, {200, 200}, ball);
+  int brightest = 0, there = 0;
+  for (int y = 90; y < 150; ++y) {
+    for (int x = 70; x < 130; ++x) {
+      if (open.at(x, y)[1] > brightest) brightest = open.at(x, y)[1], there = shaded.at(x, y)[1];
+    }
+  }
+  EXPECT_GT(brightest, 150);
+  EXPECT_LT(there, brightest - 60);
+}
+
+TEST(Shadow, OfASphereFallsOnTheCloth) {
+  const Mesh sheet = make_grid(10, 10);
+  const View view = from_above();
+  Frame frame;
+  frame.positions = sheet.positions;
+  const Vector3d light = Shot(frame, view, 1).key_direction.cast<double>().normalized();
+  // A ball of which the shadow lies in the middle of the picture, and itself beside it.
+  const Vector3d center = 0.9 * light;
+  const std::vector<Collider> ball{SphereShape{center, 0.15}};
+  const Image with = draw(sheet, view, only_shadows(), {160, 160}, ball);
+  const Image without = draw(sheet, view, only_shadows(false), {160, 160}, ball);
+  EXPECT_LT(light_at(with, 80, 80), 0.6 * light_at(without, 80, 80));
+  EXPECT_EQ(with.at(20, 140)[1], without.at(20, 140)[1]);
+}
+
+}  // namespace
+}  // namespace drape::test
