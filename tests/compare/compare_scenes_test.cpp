@@ -72,7 +72,8 @@ TEST(CompareScenes, OneCameraHasAllOfThemInView) {
   const test::SceneFolder folder;
   std::string free = swinging;
   free.replace(free.find("position"), free.find("[effects") - free.find("position"), "");
-  const std::vector<Scene> scenes{folder.load(free), folder.load(free, {"cloth.transform.translate=[4, 0, 0]"})};
+  const std::vector<Scene> scenes{folder.load(free, {"look.background=white"}),
+                                  folder.load(free, {"look.background=white", "cloth.transform.translate=[4, 0, 0]"})};
   CompareOptions options;
   options.outputs = {folder.path("both.png")};
   options.columns = 1;
