@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <any>
+#include <array>
 #include <cstddef>
 #include <deque>
 #include <filesystem>
@@ -53,12 +54,19 @@ struct VertexSelection {
   std::vector<int>* vertices = nullptr;
 };
 
+/// Three formulas, ["-x", "-y", "0"].
+struct FormulaList {
+  std::array<std::string, 3>* formulas = nullptr;
+  /// What is wrong with a formula, as the end of a sentence that has named it; nothing if it is fine.
+  std::function<std::optional<std::string>(const std::string&)> problem;
+};
+
 /// One key of a settings table: its name, the variable its value is written to, which values make sense, and one
 /// sentence that says what it means. Readers, error messages and the reference pages are all made from this.
 struct Key {
   using Target = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice, OwnForm,
-                              KeyframeList, VertexSelection, Eigen::Vector2i*, Eigen::Vector3d*, std::vector<int>*,
-                              std::optional<int>*, std::optional<double>*, std::optional<Rgb>*,
+                              KeyframeList, VertexSelection, FormulaList, Eigen::Vector2i*, Eigen::Vector3d*,
+                              std::vector<int>*, std::optional<int>*, std::optional<double>*, std::optional<Rgb>*,
                               std::optional<Eigen::Vector2i>*, std::optional<Eigen::Vector3d>*>;
 
   std::string name;

@@ -108,6 +108,34 @@ std::string difference(const Mesh& rest, const Mesh& mesh) {
   return {};
 }
 
+/// Gives a cloth the masses and stiffnesses that its table asks for by area; false if there were problems.
+bool give_material(const ClothTable& table, const TomlValue& value, Cloth& cloth, Problems& problems) {
+  const auto by_area = [&](const char* key, const auto& one, const auto& other, double of_fabric, const auto& give) {
+    const bool asked = other || (!one && table.material != nullptr);
+    if (!asked) return true;
+    const char* blamed = other ? key : "material";
+    try {
+      give(other.value_or(of_fabric), cloth);
+      return true;
+    } catch (const std::invalid_argument& error) {
+      problems.add(place_of(value, blamed), fmt::format("{}: {}", blamed, error.what()));
+      return false;
+    }
+  };
+  const Fabric fabric = table.material != nullptr ? *table.material : Fabric{};
+  const bool massive = by_area("density", table.mass, table.density, fabric.density, share_mass_by_area);
+  return by_area("modulus", table.stiffness, table.modulus, fabric.modulus, stiffen_by_area) && massive;
+}
+
+/// Complains where a table says its mass or its stiffness twice.
+void check_said_once(const ClothTable& table, const TomlValue& value, Problems& problems) {
+  const auto both = [&](const char* one, const char* other) {
+    problems.add(place_of(value, other), fmt::format("{}: '{}' already says it; give only one of them", other, one));
+  };
+  if (table.mass && table.density) both("mass", "density");
+  if (table.stiffness && table.modulus) both("stiffness", "modulus");
+}
+
 }  // namespace
 
 std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& value,
@@ -125,6 +153,7 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
   std::vector<int> pins;
   if (table.pins != nullptr) pins = read_pins(*table.pins, start ? &start->positions : nullptr, problems);
   const std::optional<Eigen::Vector3d> scale = read_scale(table.scale, problems);
+  check_said_once(table, value, problems);
   if (!start || !scale || problems.count() != problems_before) return std::nullopt;
 
   Vertices unplaced = start->positions;
@@ -146,8 +175,9 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
     return std::nullopt;
   }
 
-  ClothAndUvs result{make_cloth(*start, *rest, table.mass, table.stiffness, std::move(pins)), std::move(start->uvs),
-                     std::move(unplaced)};
+  ClothAndUvs result{make_cloth(*start, *rest, table.mass.value_or(1), table.stiffness.value_or(1), std::move(pins)),
+                     std::move(start->uvs), std::move(unplaced)};
+  if (!give_material(table, value, result.cloth, problems)) return std::nullopt;
   result.cloth.velocities.rowwise() = table.velocity.transpose();
   for (const int pin : result.cloth.pins) result.cloth.velocities.row(pin).setZero();
   if (!(result.cloth.masses.array() > 0).all()) {

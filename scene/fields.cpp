@@ -35,6 +35,7 @@ struct ValueOfTarget {
   FieldValue operator()(const OwnForm&) const { return as_written(); }
   FieldValue operator()(const KeyframeList&) const { return as_written(); }
   FieldValue operator()(const VertexSelection&) const { return as_written(); }
+  FieldValue operator()(const FormulaList&) const { return as_written(); }
   FieldValue operator()(const Eigen::Vector2i* value) const { return numbers_of(*value); }
   FieldValue operator()(const Eigen::Vector3d* value) const { return numbers_of(*value); }
   FieldValue operator()(const std::vector<int>* value) const { return numbers_of(*value); }

@@ -39,6 +39,7 @@ struct Describe {
     }
     return {form, ""};
   }
+  ValueText operator()(const FormulaList&) const { return {"[formula, formula, formula]", ""}; }
   ValueText operator()(const VertexSelection&) const { return {"pins", ""}; }
   ValueText operator()(const Eigen::Vector2i* value) const {
     return {"[whole number, whole number]", fmt::format("[{}, {}]", (*value)[0], (*value)[1])};

@@ -14,6 +14,7 @@
 #include "scene/overrides.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/tables.hpp"
+#include "sim/effects/bending.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/simulation.hpp"
 
@@ -206,6 +207,9 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   if (reader.good("look") && cloth_good) checks.texture();
   if (reader.good("time") && reader.good("integrator") && cloth_good) {
     check_effects(effects, scene.simulation, problems);
+  }
+  if (cloth_table.material != nullptr && find_path(document, "effects.bending") == nullptr) {
+    scene.simulation.effects.add(Bending{.rigidity = cloth_table.material->rigidity});
   }
   if (reader.good("check")) checks.compared_frames();
   if (reader.good("check") && reader.good("time") && reader.good("video")) checks.compared_frames_exist();

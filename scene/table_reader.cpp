@@ -92,6 +92,10 @@ class KeyReader {
     *selection.vertices = read_pins(value_, vertices_, problems_);
   }
 
+  void operator()(const FormulaList& list) const {
+    if (const auto formulas = read_formulas(value_, key_.name, list.problem, problems_)) *list.formulas = *formulas;
+  }
+
   void operator()(const Choice& choice) const {
     const std::optional<std::string> name = read_string(value_, key_.name, problems_);
     if (!name) return;

@@ -9,10 +9,25 @@ Keys cloth_keys(ClothTable& cloth) {
   keys.add("rest", OwnForm{"mesh", &cloth.rest}, "",
            "The shape whose edges are as long as the springs want to be, with the vertices and triangles of `mesh`. "
            "Without it that is the starting shape.");
-  keys.add("mass", &cloth.mass, "kg", "Of the whole cloth, shared equally by all vertices.").above(0);
-  keys.add("stiffness", &cloth.stiffness, "N/m", "Of every spring: there is one along each edge of the mesh.")
-      .must_be_given()
+  keys.add("mass", &cloth.mass, "kg",
+           "Of the whole cloth, shared equally by all vertices. 1 without it, `density` and `material`.")
       .above(0);
+  keys.add("density", &cloth.density, "kg/m²",
+           "Mass per area of the rest shape, instead of `mass`: each triangle gives its vertices a third of its own.")
+      .above(0);
+  keys.add("stiffness", &cloth.stiffness, "N/m", "Of every spring: there is one along each edge of the mesh.")
+      .must_be_given_unless({"modulus", "material"})
+      .above(0);
+  keys.add("modulus", &cloth.modulus, "N/m",
+           "Force per width and strain, instead of `stiffness`: each spring's follows from the areas beside it, see "
+           "[Materials](#materials).")
+      .above(0);
+  std::vector<std::string> names;
+  for (const Fabric& fabric : fabrics()) names.emplace_back(fabric.name);
+  keys.add(
+      "material", Choice{std::move(names), [&cloth](std::size_t i) { cloth.material = &fabrics()[i]; }, {}}, "",
+      "A fabric that has been measured: its density, modulus and rigidity against bending, where nothing else says "
+      "them, see [Materials](#materials).");
   keys.add("pins", OwnForm{"pins", &cloth.pins}, "", "The vertices that do not move.");
   keys.add("velocity", &cloth.velocity, "m/s", "Of every vertex that is not pinned, at the start.");
   return keys;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/keys.hpp"
 #include "scene/scene.hpp"
 #include "sim/effects/effect.hpp"
+#include "sim/fabrics.hpp"
 
 namespace drape {
 
@@ -18,8 +20,9 @@ struct ClothTable {
   const TomlValue* mesh = nullptr;
   const TomlValue* rest = nullptr;
   const TomlValue* pins = nullptr;
-  double mass = 1;                                     ///< [kg]
-  double stiffness = 0;                                ///< [N/m]
+  const Fabric* material = nullptr;                    ///< of what nothing else says
+  std::optional<double> mass, density;                 ///< at most one; of the whole [kg], and by area [kg/m²]
+  std::optional<double> stiffness, modulus;            ///< at most one; of every spring, and by area [N/m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
 
   const TomlValue* scale = nullptr;

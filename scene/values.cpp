@@ -134,6 +134,36 @@ std::optional<std::vector<int>> read_ints(const TomlValue& value, const std::str
   return numbers.size() == array->size() ? std::optional(numbers) : std::nullopt;
 }
 
+std::optional<std::array<std::string, 3>> read_formulas(
+    const TomlValue& value, const std::string& name,
+    const std::function<std::optional<std::string>(const std::string&)>& problem, Problems& problems) {
+  const TomlArray* array = read_array(value, name, 3, "formulas", problems);
+  if (array == nullptr) return std::nullopt;
+  std::array<std::string, 3> formulas;
+  bool good = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const TomlValue& item = (*array)[i];
+    const bool numeric = item.as<std::int64_t>() != nullptr || item.as<double>() != nullptr;
+    if (item.as<std::string>() == nullptr && !numeric) {
+      expected("a formula or a number", item, item_name(name, i), problems);
+      good = false;
+      continue;
+    }
+    if (numeric) {
+      const std::optional<double> number = read_number(item, item_name(name, i), {}, problems);
+      formulas[i] = fmt::format("{}", number.value_or(0));
+      good = good && number;
+      continue;
+    }
+    formulas[i] = *item.as<std::string>();
+    if (const auto wrong = problem(formulas[i])) {
+      problems.add(item.place, fmt::format("{}: '{}': {}", item_name(name, i), formulas[i], *wrong));
+      good = false;
+    }
+  }
+  return good ? std::optional(formulas) : std::nullopt;
+}
+
 namespace {
 
 /// Reads one keyframe into `list`; false if it is not one. `used` is the name that the values have, once it is known.

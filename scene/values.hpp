@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -47,6 +49,12 @@ std::optional<Eigen::Vector2i> read_int_pair(const TomlValue& value, const std::
 /// Reads an array of whole numbers, each in the range.
 std::optional<std::vector<int>> read_ints(const TomlValue& value, const std::string& name, const Range& range,
                                           Problems& problems);
+
+/// Reads an array of three formulas; a number is one too.
+/// @param problem see FormulaList
+std::optional<std::array<std::string, 3>> read_formulas(
+    const TomlValue& value, const std::string& name,
+    const std::function<std::optional<std::string>(const std::string&)>& problem, Problems& problems);
 
 /// Reads keyframes, an array of { time, NAME = [x, y, z] }, at least one, whose times increase from 0 on.
 void read_keyframes(const TomlValue& value, const std::string& name, const KeyframeList& list, Problems& problems);

@@ -1,7 +1,11 @@
 #include "sim/cloth.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace drape {
 
@@ -35,6 +39,49 @@ double size_of(const Cloth& cloth) {
   double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).stableNorm();
   for (const Spring& spring : cloth.springs) size = std::max(size, spring.rest_length);
   return size;
+}
+
+namespace {
+
+double area_of(const Triangle& t, const Vertices& x) {
+  const Eigen::RowVector3d p = x.row(t[1]) - x.row(t[0]), q = x.row(t[2]) - x.row(t[0]);
+  return p.cross(q).norm() / 2;
+}
+
+}  // namespace
+
+void share_mass_by_area(double density, Cloth& cloth) {
+  Eigen::VectorXd masses = Eigen::VectorXd::Zero(cloth.vertex_count());
+  for (const Triangle& t : cloth.triangles) {
+    const double third = density * area_of(t, cloth.rest) / 3;
+    for (const int vertex : t) masses[vertex] += third;
+  }
+  for (Eigen::Index i = 0; i < masses.size(); ++i) {
+    if (!(masses[i] > 0)) {
+      throw std::invalid_argument("no triangle at vertex " + std::to_string(i) +
+                                  " has an area, so it has no mass by area");
+    }
+  }
+  cloth.masses = std::move(masses);
+}
+
+void stiffen_by_area(double modulus, Cloth& cloth) {
+  std::map<Edge, double> areas;  // of the triangles at an edge
+  for (const Triangle& t : cloth.triangles) {
+    const double area = area_of(t, cloth.rest);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [i, j] = std::minmax(t[k], t[(k + 1) % 3]);
+      if (i != j) areas[{i, j}] += area;
+    }
+  }
+  for (Spring& spring : cloth.springs) {
+    const double area = areas.at({spring.i, spring.j}), squared = spring.rest_length * spring.rest_length;
+    if (!(area > 0) || !(squared > 0)) {
+      throw std::invalid_argument("no triangle at the edge between vertices " + std::to_string(spring.i) + " and " +
+                                  std::to_string(spring.j) + " has an area, so its spring has no stiffness by area");
+    }
+    spring.stiffness = modulus * area / squared;
+  }
 }
 
 }  // namespace drape

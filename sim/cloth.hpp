@@ -40,4 +40,20 @@ double size_of(const Cloth& cloth);
 /// @throws std::invalid_argument if start and rest do not match, or a pin is no vertex
 Cloth make_cloth(const Mesh& start, const Mesh& rest, double mass, double stiffness, std::vector<int> pins);
 
+/// Gives every vertex the mass of a third of each rest triangle at it, so that a mesh's cells do not matter: a sheet
+/// has the same mass per area wherever it is finer.
+/// @param density of the cloth, positive [kg/m²]
+/// @throws std::invalid_argument if a vertex has no triangle with an area
+void share_mass_by_area(double density, Cloth& cloth);
+
+/// Gives every spring the stiffness E·A/l², l its rest length and A the area of the rest triangles at it (Van Gelder
+/// 1998, "Approximate simulation of elastic membranes by triangulated spring meshes"), so that a force stretches a
+/// sheet by as much however fine its mesh is. What E is follows from the mesh. Per area the springs at angles θ hold
+/// ½E·3⟨ε(θ)²⟩ where edges have all directions alike: that is the uniaxial stiffness E with a Poisson's ratio of 1/3.
+/// On a grid with one diagonal it is E along the edges while shear is free to follow, with no contraction, and 1.2 E
+/// where shear is held (docs/scene-format.md).
+/// @param modulus E, force per width and strain, positive [N/m]
+/// @throws std::invalid_argument if a spring has no triangle with an area
+void stiffen_by_area(double modulus, Cloth& cloth);
+
 }  // namespace drape

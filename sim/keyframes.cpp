@@ -66,7 +66,7 @@ Eigen::Vector3d Keyframes::velocity(double time) const {
   if (next == keyframes_.begin() || next == keyframes_.end()) return Eigen::Vector3d::Zero();
   const Keyframe& from = *(next - 1);
   const double span = next->time - from.time, s = std::min(1.0, (time - from.time) / span);
-  const Eigen::Vector3d mean = (next->value - from.value) / span;
+  Eigen::Vector3d mean = (next->value - from.value) / span;
   if (slopes_.empty()) return mean;
   const auto i = static_cast<std::size_t>(next - keyframes_.begin());
   return 6 * s * (1 - s) * mean + (1 - s) * (1 - 3 * s) * slopes_[i - 1] - s * (2 - 3 * s) * slopes_[i];

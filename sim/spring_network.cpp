@@ -17,7 +17,8 @@ constexpr int widest_vector = 8;
 int offset(const Spring& s) { return s.j - s.i; }
 
 std::size_t padded(int count) {
-  return static_cast<std::size_t>((count + widest_vector - 1) / widest_vector * widest_vector);
+  constexpr std::size_t vector = widest_vector;
+  return (static_cast<std::size_t>(count) + vector - 1) / vector * vector;
 }
 
 }  // namespace
@@ -44,7 +45,7 @@ void SpringNetwork::find_bands() {
   for (const auto& [ignored, distance] : common) {
     // The forces slide through the scratch: those that are still needed move to its front when its end is reached.
     const std::size_t lead = padded(distance);
-    const std::size_t capacity = 2 * lead + 4 * kernel_size;
+    const std::size_t capacity = 2 * lead + 4 * std::size_t{kernel_size};
     bands_.push_back({.offset = distance,
                       .begin = bands_.size() * padded(vertex_count_),
                       .scratch = scratch,

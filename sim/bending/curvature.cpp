@@ -23,6 +23,7 @@ using Point = Eigen::Vector3d;
 struct Flap {
   int edge;    // from corner `edge` to the next
   int vertex;  // opposite to it
+  bool held;   // all of it is pinned
   Plane place;
 };
 
@@ -70,13 +71,19 @@ void add_hinge(const Layout& layout, const Flap& flap, int row, int column, Eige
   };
   const auto [alpha, h] = split(corner(apex));
   const auto [beta, h_flap] = split(flap.place);
-  const double scale = 2 / (h + h_flap);
+  const double bent = flap.held ? h : h + h_flap;  // how far the cloth is curved across the edge
+  const double scale = 2 / bent;
   auto w = weights.row(row);
   w[apex] += scale / h;
   w[column] += scale / h_flap;
   w[from] -= scale * ((1 - alpha) / h + (1 - beta) / h_flap);
   w[to] -= scale * (alpha / h + beta / h_flap);
 
+  if (flap.held) {
+    const Plane across = Plane(edge.y(), -edge.x()) / length;
+    measured.row(row) << across.x() * across.x(), across.y() * across.y(), std::sqrt(2.0) * across.x() * across.y();
+    return;
+  }
   const Plane middle = (corner(0) + corner(1) + corner(2)) / 3;
   const auto bend = [&](const Plane& p, double weight) -> Eigen::RowVector3d {
     const Plane d = p - middle;
@@ -86,7 +93,13 @@ void add_hinge(const Layout& layout, const Flap& flap, int row, int column, Eige
   for (int k = 0; k < 3; ++k) measured.row(row) += bend(corner(k), w[k]);
 }
 
-CurvatureElement make_element(const Triangle& t, const std::vector<std::pair<int, int>>& neighbours, double rigidity,
+/// A triangle's neighbour, before it is unfolded.
+struct Neighbour {
+  int edge, vertex;  // as in Flap
+  bool held;
+};
+
+CurvatureElement make_element(const Triangle& t, const std::vector<Neighbour>& neighbours, double rigidity,
                               const Vertices& x) {
   const Layout layout = lay_out(t, x);
   const auto hinges = static_cast<int>(neighbours.size());
@@ -94,9 +107,9 @@ CurvatureElement make_element(const Triangle& t, const std::vector<std::pair<int
   Eigen::Matrix<double, 3, 6> weights = Eigen::Matrix<double, 3, 6>::Zero();
   Eigen::Matrix3d measured = Eigen::Matrix3d::Zero();
   for (int k = 0; k < hinges; ++k) {
-    const auto [edge, vertex] = neighbours[static_cast<std::size_t>(k)];
+    const auto [edge, vertex, held] = neighbours[static_cast<std::size_t>(k)];
     element.vertices[static_cast<std::size_t>(3 + k)] = vertex;
-    add_hinge(layout, {edge, vertex, unfold(layout, t, edge, vertex, x)}, k, 3 + k, weights, measured);
+    add_hinge(layout, {edge, vertex, held, unfold(layout, t, edge, vertex, x)}, k, 3 + k, weights, measured);
   }
 
   const auto rows = measured.topRows(hinges);
@@ -124,12 +137,18 @@ CurvatureElement make_element(const Triangle& t, const std::vector<std::pair<int
 
 std::vector<CurvatureElement> curvature_elements(const Cloth& cloth, double rigidity) {
   const Vertices& x = cloth.rest;
-  std::vector<std::vector<std::pair<int, int>>> neighbours(cloth.triangles.size());  // edge, opposite vertex
+  std::vector<bool> pinned(static_cast<std::size_t>(cloth.vertex_count()), false);
+  for (const int pin : cloth.pins) pinned[static_cast<std::size_t>(pin)] = true;
+  const auto held = [&](const Triangle& t) {
+    return std::ranges::all_of(t, [&](int vertex) { return pinned[static_cast<std::size_t>(vertex)]; });
+  };
+  std::vector<std::vector<Neighbour>> neighbours(cloth.triangles.size());
   for_neighbours(edge_sides(cloth.triangles), [&](const EdgeSide& side, const EdgeSide& next) {
     const Triangle& t = cloth.triangles[static_cast<std::size_t>(side.triangle)];
-    if (!has_area(t, x) || !has_area(cloth.triangles[static_cast<std::size_t>(next.triangle)], x)) return;
+    const Triangle& beyond = cloth.triangles[static_cast<std::size_t>(next.triangle)];
+    if (!has_area(t, x) || !has_area(beyond, x) || held(t)) return;
     const auto apex = static_cast<int>(std::find(t.begin(), t.end(), side.opposite) - t.begin());
-    neighbours[static_cast<std::size_t>(side.triangle)].emplace_back((apex + 1) % 3, next.opposite);
+    neighbours[static_cast<std::size_t>(side.triangle)].push_back({(apex + 1) % 3, next.opposite, held(beyond)});
   });
   std::vector<CurvatureElement> elements;
   for (std::size_t t = 0; t < neighbours.size(); ++t) {

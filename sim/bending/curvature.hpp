@@ -37,6 +37,10 @@ struct CurvatureElement {
 /// hinge measured by its height, are raised to 0.1, which no triangle with angles below 110° and similar neighbours
 /// needs.
 ///
+/// A triangle all of whose vertices are pinned is in a clamp: it does not bend, so it has no element, and a hinge
+/// beside it measures the curvature of the cloth on its free side alone, over that side's height: g = ½ h nᵀSn, n
+/// across the edge. Were it shared with the clamp, a clamped strip would be longer by half a cell.
+///
 /// Triangles without an area, and their edges, have no hinges.
 /// @param rigidity D, positive [N·m]
 std::vector<CurvatureElement> curvature_elements(const Cloth& cloth, double rigidity);

@@ -7,6 +7,7 @@
 #include "sim/effects/air.hpp"
 #include "sim/effects/bending.hpp"
 #include "sim/effects/damping.hpp"
+#include "sim/effects/field.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/effects/moving_pins.hpp"
 #include "sim/effects/self_collision.hpp"
@@ -38,6 +39,7 @@ std::span<const EffectType> effect_types() {
       row<Gravity>(),
 #ifndef DRAPE_ONLY_GRAVITY
       row<Wind>(),
+      row<Field>(),
       row<Air>(),
       row<Bending>(),
       row<MovingPins>(),

@@ -179,8 +179,7 @@ TEST_P(BentStrip, SinksAsABeamDoes) {
   constexpr int columns = 24, rows = 3;
   constexpr double length = 1, width = 0.125, mass = 0.05, sag = 0.03, g = 9.8;
   Mesh mesh = make_grid(columns, rows);
-  // The first column of cells is in the clamp. The hinge at its end bends the half cells on both sides of it.
-  const double cell = length / (columns - 0.5);
+  const double cell = length / (columns - 1);  // the first column of cells is in the clamp
   mesh.positions.col(0) = (mesh.positions.col(0).array() + 1) / 2 * columns * cell - cell;
   mesh.positions.col(1) *= width / 2;
   std::vector<int> clamp;

@@ -14,7 +14,7 @@ class Pins : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, Pins, testing::ValuesIn(all_methods), method_name);
 
 /// A cloth on which everything acts, moving at first, its pins like the rest.
-SimulationSettings stormy(Solver solver, std::vector<int> pins) {
+SimulationSettings stormy_with_pins(Solver solver, std::vector<int> pins) {
   SimulationSettings settings = setup(cloth_of(make_grid(8, 8), 1, 50, std::move(pins)), solver, 0.005);
   Cloth& cloth = settings.cloth;
   for (int i = 0; i < cloth.vertex_count(); ++i) {
@@ -27,7 +27,7 @@ SimulationSettings stormy(Solver solver, std::vector<int> pins) {
 }
 
 TEST_P(Pins, NeverMove) {
-  const SimulationSettings settings = stormy(GetParam(), {0, 8, 40, 41, 77});
+  const SimulationSettings settings = stormy_with_pins(GetParam(), {0, 8, 40, 41, 77});
   Simulation simulation(settings);
   for (int step = 0; step < 100; ++step) {
     simulation.step();
@@ -40,13 +40,13 @@ TEST_P(Pins, NeverMove) {
 }
 
 TEST_P(Pins, HaveNoVelocityFromTheStart) {
-  const Simulation simulation(stormy(GetParam(), {3}));
+  const Simulation simulation(stormy_with_pins(GetParam(), {3}));
   EXPECT_EQ(simulation.state().v.row(3).norm(), 0);
   EXPECT_GT(simulation.state().v.row(4).norm(), 0);
 }
 
 TEST_P(Pins, MayBeEveryVertex) {
-  const SimulationSettings settings = stormy(GetParam(), every(81));
+  const SimulationSettings settings = stormy_with_pins(GetParam(), every(81));
   Simulation simulation(settings);
   for (int step = 0; step < 3; ++step) EXPECT_TRUE(simulation.step().converged);
   EXPECT_TRUE(same_bits(simulation.state().x, settings.cloth.positions));
@@ -55,7 +55,7 @@ TEST_P(Pins, MayBeEveryVertex) {
 TEST_P(Pins, MayLeaveOneVertexFree) {
   std::vector<int> all_but_one = every(81);
   all_but_one.erase(all_but_one.begin());
-  const SimulationSettings settings = stormy(GetParam(), all_but_one);
+  const SimulationSettings settings = stormy_with_pins(GetParam(), all_but_one);
   Simulation simulation(settings);
   for (int step = 0; step < 3; ++step) simulation.step();
   EXPECT_GT((simulation.state().x - settings.cloth.positions).row(0).norm(), 1e-3);

@@ -90,7 +90,9 @@ class Writer {
       if (found != motions.end()) return motion == static_cast<std::size_t>(found - motions.begin()) && motion < 3;
       if (key.name == "center") return motion != 2;
     }
-    if (key.name == "rigidity" || (table == "effects.moving_pins" && key.name == "keyframes")) return true;
+    if (key.name == "rigidity" || key.name == "stiffness_bound" ||
+        (table == "effects.moving_pins" && key.name == "keyframes"))
+      return true;
     if (key.name == "scheme" && explicit_) return false;
     if (key.name == "samples" || key.name == "frames") return false;
     return key.required || random_.number() < 0.35;
@@ -140,6 +142,7 @@ class Writer {
   std::string value(const Key& key, const std::optional<int>*) { return fmt::format("{}", whole(key, 50)); }
   std::string value(const Key& key, const double* v) { return number(within(key, *v)); }
   std::string value(const Key& key, const std::optional<double>* v) {
+    if (key.name == "stiffness_bound" && !wild()) return "2.0";  // of the steepest three formulas
     // A cloth bends with far less than a joule; a sphere's radius is a fraction of the cloth.
     return number(within(key, v->value_or(key.name == "rigidity" ? 1e-4 : 0.3)));
   }
@@ -166,6 +169,11 @@ class Writer {
           fmt::format("{}{{ time = {}, {} = {} }}", i == 0 ? "" : ", ", number(time), list.names.front(), vector(0.3));
     }
     return "[" + text + "]";
+  }
+  std::string value(const Key&, const FormulaList&) {
+    constexpr const char* formulas[] = {"0", "-x", "sin(3*t)", "-0.5*vy", "abs(y)", "1/(1 + z^2)"};
+    const auto any_formula = [&] { return random_.number() < 0.2 * wild_ ? "x +* y" : formulas[random_.below(6)]; };
+    return fmt::format("[\"{}\", \"{}\", \"{}\"]", any_formula(), any_formula(), any_formula());
   }
   std::string value(const Key&, const VertexSelection&) {
     if (pins_.empty() || random_.number() < wild_) return "[0]";

@@ -22,6 +22,7 @@ std::string with_number(const Key& key, const std::string& number) {
       std::holds_alternative<std::optional<Eigen::Vector3d>*>(key.target)) {
     return vector;
   }
+  if (std::holds_alternative<FormulaList>(key.target)) return vector;
   if (const auto* list = std::get_if<KeyframeList>(&key.target)) {
     return "[{ time = 0, " + list->names.front() + " = " + vector + " }]";
   }

@@ -48,6 +48,27 @@ TEST(SceneMessages, AllOfThemAreReportedInTheOrderOfTheFile) {
             "--set cloth.mass=0: mass must be above 0, found 0");
 }
 
+TEST(SceneMessages, AClothSaysItsMassAndItsStiffnessOnce) {
+  const SceneFolder folder;
+  EXPECT_EQ(folder.problems("[cloth]\nmesh = { grid = [2, 2] }\nmass = 1\ndensity = 1\nmodulus = 9\nstiffness = 9\n"),
+            "scene.toml:4:11: density: 'mass' already says it; give only one of them\n"
+            "scene.toml:5:11: modulus: 'stiffness' already says it; give only one of them");
+  EXPECT_EQ(folder.problems("[cloth]\nmesh = { grid = [2, 2] }\nmaterial = \"denym\"\n"),
+            "scene.toml:3:12: unknown material 'denym'; did you mean 'denim'?");
+  EXPECT_EQ(folder.problems("[cloth]\nmesh = { grid = [2, 2] }\nmaterial = \"denim\"\n"), "(no error)");
+}
+
+TEST(SceneMessages, AFormulaIsNamedWithItsPlace) {
+  const SceneFolder folder;
+  const std::string field = "[effects.field]\nacceleration = ";
+  EXPECT_EQ(folder.problems(least_scene + field + "[\"-x\", \"yy\", 1]\n"),
+            "scene.toml:7:23: acceleration[1]: 'yy': unknown name 'yy' at its character 1; did you mean 'vy'?");
+  EXPECT_EQ(folder.problems(least_scene + field + "[\"-x\", 0]\n"),
+            "scene.toml:7:16: acceleration: expected an array of 3 formulas, found one of 2");
+  EXPECT_EQ(folder.problems(least_scene + field + "[\"-x\", 0, true]\n"),
+            "scene.toml:7:26: acceleration[2]: expected a formula or a number, found true or false");
+}
+
 TEST(SceneMessages, TheOrderDoesNotDependOnTheNumberOfDigitsOfALine) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems("[time]\nstep = 0\n\n\n\n\n\n\n\n[cloth]\nmesh = { grid = [1, 1] }\nstiffness = 0\n"),
@@ -81,7 +102,8 @@ TEST(SceneMessages, PlacesCountCharactersAndLinesOfAnyEnding) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems("\xef\xbb\xbf[cloth]\r\nmesh = { grid = [2, 2] }\r\nstiffness = 10 # größer als 0 €\r\n"
                             "\"größe\" = 1\r\n"),
-            "scene.toml:4:1: unknown key 'größe' in [cloth]; the keys are 'mesh', 'rest', 'mass', 'stiffness', 'pins', "
+            "scene.toml:4:1: unknown key 'größe' in [cloth]; the keys are 'mesh', 'rest', 'mass', 'density', "
+            "'stiffness', 'modulus', 'material', 'pins', "
             "'velocity', 'transform'");
   EXPECT_EQ(folder.problems(with("cloth", "transform.\"größe\" = 1")).substr(0, 16), "scene.toml:5:11:");
   EXPECT_EQ(folder.problems(with("look", "texture = \"tüch.png\" \nsamples = 3")).substr(0, 16), "scene.toml:5:11:");

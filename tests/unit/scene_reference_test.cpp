@@ -1,11 +1,14 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <string>
 
 #include "scene/color.hpp"
 #include "scene/tables.hpp"
+#include "sim/fabrics.hpp"
 #include "tests/support/files.hpp"
 
 namespace drape {
@@ -13,18 +16,37 @@ namespace {
 
 constexpr const char* page_file = DRAPE_SOURCE_DIR "/docs/scene-format.md";
 
-TEST(SceneReference, ThePageHasTheProgramsOwnDescriptionOfItsKeys) {
+/// The part of the page between the markers of this name is what the program says.
+void expect_page(const std::string& name, const std::string& expected) {
   const std::string text = test::content(page_file);
-  const std::string begin = "<!-- reference: begin -->\n\n", end = "<!-- reference: end -->";
+  const std::string begin = "<!-- " + name + ": begin -->\n", end = "<!-- " + name + ": end -->";
   const std::size_t from = text.find(begin) + begin.size(), to = text.find(end);
   ASSERT_NE(text.find(begin), std::string::npos);
   ASSERT_NE(to, std::string::npos);
   if (std::getenv("DRAPE_UPDATE_DOCS") != nullptr) {
-    std::ofstream(page_file, std::ios::binary) << text.substr(0, from) + format_reference() + text.substr(to);
+    std::ofstream(page_file, std::ios::binary) << text.substr(0, from) + "\n" + expected + text.substr(to);
   } else {
-    EXPECT_EQ(text.substr(from, to - from), format_reference())
+    EXPECT_EQ(text.substr(from, to - from), "\n" + expected)
         << page_file << " is out of date: run this test with DRAPE_UPDATE_DOCS=1 and look at what changes";
   }
+}
+
+TEST(SceneReference, ThePageHasTheProgramsOwnDescriptionOfItsKeys) { expect_page("reference", format_reference()); }
+
+/// The fabrics as the page lists them.
+std::string fabrics_table() {
+  std::string text = "| `material` | sample | density, kg/m² | modulus, N/m | rigidity, N·m |\n|---|---|---|---|---|\n";
+  for (const Fabric& f : fabrics()) {
+    text += fmt::format("| `\"{}\"` | {} | {} | {} | {:g}e-6 |\n", f.name, f.sample, f.density, f.modulus,
+                        1e6 * f.rigidity);
+  }
+  return text + "\n";
+}
+
+TEST(SceneReference, ThePageHasEveryFabric) {
+  expect_page("fabrics", fabrics_table());
+  EXPECT_TRUE(std::ranges::is_sorted(fabrics(), {}, &Fabric::name));
+  for (const Fabric& f : fabrics()) EXPECT_TRUE(f.density > 0 && f.modulus > 0 && f.rigidity > 0) << f.name;
 }
 
 TEST(SceneReference, EveryKeyAndEffectHasARow) {

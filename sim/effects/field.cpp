@@ -1,0 +1,71 @@
+#include "sim/effects/field.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "core/keys.hpp"
+#include "sim/formula.hpp"
+#include "sim/settings.hpp"
+#include "sim/system.hpp"
+
+namespace drape {
+namespace {
+
+class FieldForce final : public Force {
+ public:
+  FieldForce(const Field& field, const Eigen::VectorXd& masses)
+      : formulas_(field.acceleration),
+        masses_(masses),
+        constant_(!formulas_.of_place() && !formulas_.of_time() && !formulas_.of_velocity()),
+        of_velocity_(formulas_.of_velocity()),
+        bound_(field.stiffness_bound.value_or(formulas_.of_place() ? std::numeric_limits<double>::infinity() : 0)) {}
+
+  [[nodiscard]] bool constant() const override { return constant_; }
+  [[nodiscard]] bool of_velocity() const override { return of_velocity_; }
+  [[nodiscard]] double stiffness_bound() const override { return bound_; }
+
+  void add(const State& state, double time, Vertices& force) const override {
+    for (Eigen::Index i = 0; i < masses_.size(); ++i) {
+      const auto x = state.x.row(i), v = state.v.row(i);
+      const auto [ax, ay, az] = formulas_.at({x[0], x[1], x[2], time, v[0], v[1], v[2]});
+      force.row(i) += masses_[i] * Eigen::RowVector3d(ax, ay, az);
+    }
+  }
+
+ private:
+  FormulaField formulas_;
+  Eigen::VectorXd masses_;
+  bool constant_, of_velocity_;
+  double bound_;  // infinite where nobody has said it
+};
+
+}  // namespace
+
+void Field::describe(Keys& keys) {
+  keys.add(
+          "acceleration", FormulaList{&acceleration, FormulaField::problem}, "m/s²",
+          "Of every vertex, by formulas in its place x, y, z (in m), the time t (in s) and its velocity vx, vy, vz (in "
+          "m/s).")
+      .must_be_given();
+  keys.add("stiffness_bound", &stiffness_bound, "1/s²",
+           "By how much the acceleration changes at most with the place: for a method that is explicit, whose largest "
+           "stable step follows from it.")
+      .at_least(0);
+}
+
+void Field::check(const SimulationSettings& settings, const ProblemSink& problem) const {
+  const Method method = settings.integrator.method;
+  if (stiffness_bound || !is_explicit(method) || settings.integrator.allow_unstable) return;
+  if (!FormulaField(acceleration).of_place()) return;
+  problem("acceleration", fmt::format("it depends on the place, so the largest step with which {} is stable depends on "
+                                      "how steep it is, which no formula tells: give its 'stiffness_bound' [1/s²], or "
+                                      "take method = \"implicit\", \"liu13\" or \"quasi-newton\"",
+                                      explicit_title(method)));
+}
+
+void Field::install(System& system) const {
+  system.forces.push_back(std::make_unique<FieldForce>(*this, system.cloth.masses));
+}
+
+}  // namespace drape

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "sim/effects/effect.hpp"
+
+namespace drape {
+
+/// A field of acceleration by formula, Field{.acceleration = {"-x", "-y", "0"}}: centrifugal, of an attractor, a swirl.
+struct Field {
+  static constexpr std::string_view name = "field";
+  static constexpr bool repeatable = true;
+
+  /// Of a vertex along x, y and z, each a formula in x, y, z, t, vx, vy and vz, see FormulaField [m/s²].
+  std::array<std::string, 3> acceleration = {"0", "0", "0"};
+  /// By how much the acceleration changes at most with the place, √λ_max of JᵀJ, J its derivative [1/s²]. Explicit
+  /// methods need it where a formula depends on the place: their largest stable step follows from it.
+  std::optional<double> stiffness_bound = {};
+
+  void describe(Keys& keys);
+  void check(const SimulationSettings& settings, const ProblemSink& problem) const;
+  /// @throws std::invalid_argument if a formula cannot be read
+  void install(System& system) const;
+};
+
+}  // namespace drape
