@@ -108,7 +108,7 @@ CurvatureElement make_element(const Triangle& t, const std::vector<Neighbour>& n
   Eigen::Matrix3d measured = Eigen::Matrix3d::Zero();
   for (int k = 0; k < hinges; ++k) {
     const auto [edge, vertex, held] = neighbours[static_cast<std::size_t>(k)];
-    element.vertices[static_cast<std::size_t>(3 + k)] = vertex;
+    element.vertices[static_cast<std::size_t>(k) + 3] = vertex;
     add_hinge(layout, {edge, vertex, held, unfold(layout, t, edge, vertex, x)}, k, 3 + k, weights, measured);
   }
 

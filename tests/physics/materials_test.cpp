@@ -108,7 +108,7 @@ Mesh triangular_lattice(int count, double uneven) {
   const double edge = 1.0 / count, height = edge * std::sqrt(3.0) / 2;
   const int rows = 2 * static_cast<int>(std::lround(0.5 / height));
   Mesh mesh;
-  mesh.positions.setZero((rows + 1) * (count + 1), 3);
+  mesh.positions.setZero(Eigen::Index{rows + 1} * (count + 1), 3);
   test::Random random(3);
   const auto at = [&](int i, int j) { return j * (count + 1) + i; };
   for (int j = 0; j <= rows; ++j) {
