@@ -5,31 +5,12 @@
 #include <cmath>
 #include <new>
 
+#include "core/byte_planes.hpp"
+
 namespace drape {
-namespace {
-
-std::string in_planes(const Words& words) {
-  std::string bytes;
-  bytes.reserve(8 * words.size());
-  for (int shift = 56; shift >= 0; shift -= 8) {
-    for (const std::uint64_t word : words) bytes += static_cast<char>(word >> shift & 255);
-  }
-  return bytes;
-}
-
-Words from_planes(std::string_view bytes) {
-  Words words(bytes.size() / 8, 0);
-  for (std::size_t i = 0; i < 8 * words.size(); ++i) {
-    std::uint64_t& word = words[i % words.size()];
-    word = word << 8 | static_cast<unsigned char>(bytes[i]);
-  }
-  return words;
-}
-
-}  // namespace
 
 std::string pack_words(const Words& words) {
-  const std::string planes = in_planes(words);
+  const std::string planes = byte_planes(words);
   uLongf size = compressBound(planes.size());
   std::string packed(size, '\0');
   if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(planes.data()),
@@ -62,7 +43,7 @@ Words unpack_words(std::string_view bytes, std::uint64_t most) {
       unpacked != size || used != bytes.size()) {
     throw std::invalid_argument("is damaged");
   }
-  return from_planes(planes);
+  return from_byte_planes(planes);
 }
 
 double WordReader::number() { return finite(std::bit_cast<double>(bits())); }

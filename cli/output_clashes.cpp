@@ -28,6 +28,10 @@ std::vector<Writer> writers(std::size_t number, const Scene& scene, const RunOpt
     result.push_back({number, "-o " + path, output_files(path, film)});
   }
   if (options.poster) result.push_back({number, "--poster", poster_files(options.outputs, film)});
+  if (options.motion) {
+    const std::string& path = options.motion->path;
+    result.push_back({number, "-o " + path, {path, growing_name(path).string(), checkpoint_name(path).string()}});
+  }
   const RecordPaths& r = options.records;
   for (const auto& [option, file] : {std::pair{"--stats", r.stats}, std::pair{"--energies", r.energies},
                                      std::pair{"--positions", r.positions}, std::pair{"--trace", r.trace}}) {

@@ -3,23 +3,22 @@
 
 #include <algorithm>
 
-#include "cli/byte_count.hpp"
 #include "cli/command_line.hpp"
-#include "cli/frame_list.hpp"
 #include "cli/grid_option.hpp"
 #include "cli/interruption.hpp"
-#include "cli/number_option.hpp"
+#include "cli/motion_runs.hpp"
 #include "cli/output_clashes.hpp"
-#include "cli/scene_files.hpp"
+#include "cli/run_arguments.hpp"
 #include "cli/step_by_step.hpp"
 #include "cli/summary.hpp"
 #include "cli/watched.hpp"
 #include "core/console.hpp"
-#include "output/path_template.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
 #include "render/texture_image.hpp"
 #include "run/annotations.hpp"
+#include "run/motion_frames.hpp"
+#include "run/motion_space.hpp"
 #include "run/outputs.hpp"
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
@@ -28,44 +27,6 @@
 
 namespace drape {
 namespace {
-
-/// What render and simulate share.
-struct RunArguments {
-  std::vector<std::string> scenes;
-  std::vector<std::string> overrides;
-  std::vector<std::string> outputs;
-  std::string frames, max_size, sheet;
-  std::optional<std::int64_t> steps, every;
-  bool poster = false;
-  RecordPaths records;
-  GlBackend backend = GlBackend::automatic;
-  bool step_by_step = false;
-  bool drawing = true;  ///< render; simulate draws nothing
-};
-
-RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool verbose) {
-  const auto expanded = [&](const std::string& text) {
-    const PathTemplate path(text);
-    if (path.has_frame())
-      throw UsageError(fmt::format("'{}' is one file for the whole run: it cannot hold {{frame}}", text));
-    return path.path(scene.name, 0, 1);
-  };
-  RunOptions options;
-  options.outputs = arguments.outputs;
-  options.records = {.stats = expanded(arguments.records.stats),
-                     .energies = expanded(arguments.records.energies),
-                     .positions = expanded(arguments.records.positions),
-                     .trace = expanded(arguments.records.trace)};
-  options.steps = arguments.steps;
-  if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
-  options.every = arguments.every;
-  if (!arguments.max_size.empty()) options.largest_file = parse_byte_count("--max-size", arguments.max_size);
-  options.poster = arguments.poster;
-  options.sheet = parse_sheet(arguments.sheet, options.outputs);
-  options.backend = arguments.backend;
-  options.time_effects = verbose || !arguments.records.stats.empty();
-  return options;
-}
 
 /// Looks at all that is known before the first scene runs: whether every scene can be drawn and its files written.
 /// @throws Error with the problems of all scenes
@@ -132,6 +93,14 @@ ExitCode conclude(const Scene& scene, const RunResult& result) {
   return outputs;
 }
 
+/// Says where a film shows what the motion's file does not hold.
+void warn_of_gaps(const Scene& scene, const RunOptions& options) {
+  const int between = frames_in_gaps(*options.recorded, film_extent(scene, options));
+  if (between == 0) return;
+  spdlog::warn("{}: {} frames lie between states that are more than a step apart, and are interpolated between them",
+               scene.file.string(), between);
+}
+
 ExitCode run(const Scene& scene, RunOptions options, bool step_by_step, const CommonOptions& common) {
   spdlog::info(describe(scene, options));
   if (scene.simulation.integrator.allow_unstable) {
@@ -139,6 +108,11 @@ ExitCode run(const Scene& scene, RunOptions options, bool step_by_step, const Co
       spdlog::warn("{}: {}", scene.file.string(), *problem);
     }
   }
+  if (options.motion) {
+    const MotionSpace space = motion_space(scene, options);
+    if (space.most > space.free) spdlog::warn(space.text(options.motion->path));
+  }
+  if (options.recorded) warn_of_gaps(scene, options);
   StepByStep pause(interruption());
   if (step_by_step) options.observer = &pause;
   RunResult result;
@@ -147,20 +121,74 @@ ExitCode run(const Scene& scene, RunOptions options, bool step_by_step, const Co
   });
   if (!result.renderer.empty()) spdlog::debug("drawn by {}", result.renderer);
   if (common.verbose) spdlog::debug(effect_shares(result.statistics));
-  if (!common.quiet && result.statistics.steps() > 0) print_text(stderr, summarize(result) + "\n");
+  if (!common.quiet && (result.statistics.steps() > 0 || options.recorded))
+    print_text(stderr, summarize(result) + "\n");
   for (const std::string& doubt : doubts(result)) spdlog::warn("{}: {}", scene.file.string(), doubt);
   return conclude(scene, result);
+}
+
+/// Goes on with a run that ended early.
+ExitCode go_on(const RunArguments& arguments, const CommonOptions& common) {
+  if (!arguments.scenes.empty() || !arguments.overrides.empty() || !arguments.outputs.empty() || arguments.steps ||
+      !arguments.frames.empty() || !arguments.every.empty()) {
+    throw UsageError(
+        fmt::format("--resume {0} goes on as the run began, and takes no SCENE, -o, --set, --steps, --frames or "
+                    "--every; once it is "
+                    "complete, drape render {0} makes films and other forms of it",
+                    arguments.resume));
+  }
+  const auto found = find_run_to_go_on(arguments.resume);
+  if (!found) {
+    spdlog::info("{} is complete", arguments.resume);
+    return ExitCode::ok;
+  }
+  RunOptions options = found->options;
+  const RunOptions own = run_options(arguments, *found->scene, common.verbose);
+  options.records = own.records;
+  options.time_effects = own.time_effects;
+  options.motion->checkpoint_seconds = arguments.checkpoint_seconds;
+  require_outputs(*found->scene, options);
+  return run(*found->scene, options, arguments.step_by_step, common);
+}
+
+std::vector<SceneToRun> load_all(const RunArguments& arguments) {
+  std::vector<SceneToRun> all;
+  std::string problems;
+  for (const std::string& file : arguments.scenes) {
+    const bool motion = is_motion_file(file);
+    if (file.ends_with(".drape.partial")) {
+      throw UsageError(fmt::format("{0} is not complete: drape simulate --resume {0} goes on with it", file));
+    }
+    if (motion && !arguments.drawing) {
+      throw UsageError(fmt::format("{} is a motion already: drape render draws it, drape simulate computes one", file));
+    }
+    try {
+      all.push_back(motion ? open_motion(file, arguments.overrides, arguments.look)
+                           : SceneToRun{load_scene(file, arguments.overrides), nullptr});
+    } catch (const UsageError& error) {
+      problems += (problems.empty() ? "" : "\n") + std::string(error.what());
+    }
+  }
+  if (!problems.empty()) throw UsageError(problems);
+  return all;
 }
 
 /// Runs one scene after the other. One that fails does not keep the next from being run.
 /// @returns the worst of their codes, which is the largest
 ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
   interruption();  // from here on, a signal ends what there is in good order
+  if (!arguments.resume.empty()) return go_on(arguments, common);
+  if (arguments.scenes.empty()) throw UsageError("SCENE is required; see drape --help");
   if (!arguments.drawing) require_no_drawing(arguments.outputs);
   require_a_film(arguments);
-  const std::vector<Scene> scenes = load_scenes(arguments.scenes, arguments.overrides);
+  std::vector<Scene> scenes;
   std::vector<RunOptions> options;
-  for (const Scene& scene : scenes) options.push_back(run_options(arguments, scene, common.verbose));
+  for (SceneToRun& found : load_all(arguments)) {
+    options.push_back(run_options(arguments, found.scene, common.verbose));
+    if (found.recorded) limit_to_motion(*found.recorded, options.back());
+    options.back().recorded = found.recorded;
+    scenes.push_back(std::move(found.scene));
+  }
   look_ahead(scenes, options);
   ExitCode worst = ExitCode::ok;
   for (std::size_t i = 0; i < scenes.size() && worst != ExitCode::interrupted; ++i) {
@@ -173,48 +201,20 @@ ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
   return worst;
 }
 
-void add_shared_options(CLI::App& command, RunArguments& arguments) {
-  command.add_option("SCENE", arguments.scenes, "Scene files (TOML)")->required();
-  const auto one_each = [](CLI::Option* option) { option->allow_extra_args(false); };
-  one_each(
-      command.add_option("--set", arguments.overrides, "key.path=value: replaces a value of the scene; repeatable"));
-  command.add_option("--steps", arguments.steps, "Simulate this many steps instead of the scene's duration")
-      ->check(whole_number_in({0, 1e9}));
-  command.add_option("--frames", arguments.frames, "A..B: only these frames of the film");
-  command
-      .add_option("--every", arguments.every, "N: a frame after every N steps, instead of as [video] fps and speed say")
-      ->check(whole_number_in({1, 1e9}));
-  command.add_option("--stats", arguments.records.stats, "Write the run's figures to a JSON file");
-  command.add_option("--energies", arguments.records.energies, "Write the energies of every step to a CSV file");
-  command.add_option("--positions", arguments.records.positions, "Write the last positions to a CSV file");
-  command.add_option("--trace", arguments.records.trace,
-                     "Write iterations, residual and time of every step to a CSV file");
-  command.add_flag("--step-by-step", arguments.step_by_step, "Pause after each step and print its energies");
-}
-
-/// @param drawn whether what must be drawn may be among them
-void add_outputs(CLI::App& command, RunArguments& arguments, const std::string& usage, bool drawn) {
-  command
-      .add_option("-o,--output", arguments.outputs,
-                  fmt::format("Where to, and by the extension in which form; {}.\nWhat ends early, by Ctrl-C or a "
-                              "diverging motion, becomes NAME.partial.EXT.\n{}",
-                              usage, output_help(drawn)))
-      ->allow_extra_args(false);
-}
-
 }  // namespace
 
 void add_run_commands(CLI::App& app, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<RunArguments>();
 
-  CLI::App* render = app.add_subcommand("render", "Simulate scenes and draw them into films");
+  CLI::App* render = app.add_subcommand("render", "Simulate scenes and draw them into films, or draw motions");
   add_outputs(*render, *arguments, "repeatable; default out/{scene}.gif", true);
   render->add_option("--sheet", arguments->sheet, sheet_help);
   add_backend_option(*render, arguments->backend);
   render->add_option("--max-size", arguments->max_size,
                      "5MB: make a film's pictures smaller until it has no more bytes; also kB, GB, kiB, MiB, GiB");
   render->add_flag("--poster", arguments->poster, "Put FILM.poster.png beside each film: the frame that shows most");
-  add_shared_options(*render, *arguments);
+  add_shared_options(*render, *arguments, "Scene files (TOML), or motions (.drape) that drape simulate has computed");
+  render->add_option("--scene", arguments->look, "Draws motions with the camera, look and film of this scene");
   render->callback([arguments, &common, &command] {
     if (arguments->outputs.empty())
       arguments->outputs = {arguments->sheet.empty() ? "out/{scene}.gif" : "out/{scene}.png"};
@@ -223,7 +223,9 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
 
   CLI::App* simulate = app.add_subcommand("simulate", "Simulate scenes without drawing them");
   add_outputs(*simulate, *arguments, "repeatable", false);
-  add_shared_options(*simulate, *arguments);
+  add_shared_options(*simulate, *arguments, "Scene files (TOML)");
+  simulate->add_option("--resume", arguments->resume,
+                       "MOTION.drape: goes on with a run that was interrupted or killed, to the same bits");
   simulate->callback([arguments, &common, &command] {
     arguments->drawing = false;
     command = [arguments, &common] { return run_all(*arguments, common); };

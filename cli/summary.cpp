@@ -38,6 +38,12 @@ std::string name(const std::vector<OutputFile>& files) {
 std::string describe(const Scene& scene, const RunOptions& options) {
   const SimulationSettings& s = scene.simulation;
   const std::int64_t steps = options.steps.value_or(scene.step_count());
+  if (options.recorded) {
+    const MotionReader& motion = *options.recorded;
+    return fmt::format("{}: the motion of {}, {} vertices, {} steps of {:g} s ({:g} s), {} states of them",
+                       scene.file.string(), motion.header().name, motion.header().vertices, motion.last_step(), s.step,
+                       static_cast<double>(motion.last_step()) * s.step, motion.states());
+  }
   std::string text = fmt::format("{}: {}, {} vertices, {} springs, {} steps of {:g} s ({:g} s)", scene.file.string(),
                                  step_method_name(s.integrator.step_method()), s.cloth.vertex_count(),
                                  s.cloth.springs.size(), steps, s.step, static_cast<double>(steps) * s.step);
@@ -55,10 +61,10 @@ std::string effect_shares(const Statistics& statistics) {
 
 std::string describe_end(const RunResult& result) {
   const std::int64_t steps = result.statistics.steps();
-  if (result.outputs.empty() && result.records.empty()) {
-    return fmt::format("after {} of {} steps; nothing was written", steps, result.steps_wanted);
-  }
   std::string text = fmt::format("after {} of {} steps", steps, result.steps_wanted);
+  if (result.recorded) text = fmt::format("after {} of {} frames", result.frames, result.frames_wanted);
+  const bool motion = result.motion && !result.motion->growing.empty();
+  if (result.outputs.empty() && result.records.empty() && !motion) return text + "; nothing was written";
   for (const std::vector<OutputFile>& files : result.outputs) {
     text += fmt::format("{} {}", &files == &result.outputs.front() ? ";" : ",", name(files));
   }
@@ -66,6 +72,10 @@ std::string describe_end(const RunResult& result) {
     text += fmt::format(" {} {} of {} frames", result.outputs.size() == 1 ? "has" : "have",
                         result.frames == result.frames_wanted ? "all" : fmt::format("the first {}", result.frames),
                         result.frames_wanted);
+  }
+  if (motion) {
+    text += fmt::format("; {} has what there is of the motion, and drape simulate --resume {} goes on",
+                        result.motion->growing, result.motion->file);
   }
   if (!result.records.empty()) {
     text += fmt::format("; {} up to there", fmt::join(result.records, ", "));
@@ -103,8 +113,10 @@ std::string describe_files(const std::vector<std::vector<OutputFile>>& outputs) 
   return text;
 }
 
-std::string summarize(const RunResult& result) {
-  const Statistics& s = result.statistics;
+namespace {
+
+/// How they went, and how long they took.
+std::string of_steps(const Statistics& s) {
   std::string text = fmt::format("{} steps", s.steps());
   const auto& asked = s.exactness().asked();
   if (asked) {
@@ -128,7 +140,13 @@ std::string summarize(const RunResult& result) {
   }
   text += fmt::format(", {} a step (median {})\n", duration(1e-6 * s.mean_microseconds()),
                       duration(1e-6 * s.median_microseconds()));
-  text += fmt::format("simulate {}", duration(s.total_seconds()));
+  return text + fmt::format("simulate {}", duration(s.total_seconds()));
+}
+
+}  // namespace
+
+std::string summarize(const RunResult& result) {
+  std::string text = result.recorded ? fmt::format("{} frames", result.frames) : of_steps(result.statistics);
   if (!result.renderer.empty()) {
     text += fmt::format(", draw {}, encode {}", duration(result.draw_seconds), duration(result.write_seconds));
   } else if (result.frames_wanted > 0) {
@@ -136,6 +154,9 @@ std::string summarize(const RunResult& result) {
   }
   text += fmt::format(", total {}", duration(result.elapsed_seconds));
   if (!result.outputs.empty()) text += "\n" + describe_files(result.outputs);
+  if (result.motion && result.motion->complete) {
+    text += fmt::format("\n{}  {}", result.motion->complete->path.string(), bytes(result.motion->complete->size));
+  }
   for (const std::string& record : result.records) text += "\n" + record;
   return text;
 }

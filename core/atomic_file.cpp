@@ -54,7 +54,8 @@ bool clear_away(const fs::path& name) {
   return true;
 }
 
-/// @returns 0 or the error number
+}  // namespace
+
 int write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
@@ -65,15 +66,12 @@ int write_all(int descriptor, std::string_view bytes) {
   return 0;
 }
 
-/// So that the new name survives a power cut. Some file systems cannot do it, which is no reason to fail.
 void sync_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
   ::fsync(descriptor);
   ::close(descriptor);
 }
-
-}  // namespace
 
 fs::path partial_name(const fs::path& file) {
   constexpr std::size_t longest_name = 255;

@@ -66,6 +66,12 @@ class PartialFile {
   int descriptor_ = -1;
 };
 
+/// Writes all bytes to an open file. @returns 0 or the error number
+int write_all(int descriptor, std::string_view bytes);
+
+/// Makes new names in a folder survive a power cut. Some file systems cannot do it, which is no reason to fail.
+void sync_folder(const std::filesystem::path& folder);
+
 /// Finds out now whether a file can be written, for who writes it after hours of work. Leaves nothing behind.
 /// @throws OutputError as PartialFile
 void require_writable(const std::filesystem::path& file);

@@ -26,7 +26,7 @@ struct Rgb {
 struct Choice {
   std::vector<std::string> names;
   std::function<void(std::size_t)> set;
-  std::optional<std::size_t> initial = 0;  ///< the place of the one that holds without the key
+  std::optional<std::size_t> initial = 0;  ///< the place of the one that holds so far: without the key, its default
 };
 
 /// A key whose value is of a kind of its own, such as a mesh or a file with a motion. Nothing here knows what it is:
@@ -47,6 +47,7 @@ struct KeyframeList {
   std::vector<std::string> names;  ///< that the value can have, one and the same in the whole list
   std::vector<Keyframe>* keyframes = nullptr;
   std::function<void(std::size_t)> set_name = {};  ///< called with the place in `names` of the one that was used
+  std::size_t name = 0;                            ///< the place of the one that holds
 };
 
 /// Vertices of the cloth, in the forms that [cloth] pins takes; ascending, each once.
@@ -108,7 +109,8 @@ class Keys {
   /// The same for a choice that stays open without the key.
   template <class Enum>
   Key& choice(std::string name, std::optional<Enum>& target, std::vector<std::string> names, std::string help) {
-    Choice choice{std::move(names), [&target](std::size_t index) { target = static_cast<Enum>(index); }, std::nullopt};
+    Choice choice{std::move(names), [&target](std::size_t index) { target = static_cast<Enum>(index); },
+                  target ? std::optional(static_cast<std::size_t>(*target)) : std::nullopt};
     return add(std::move(name), std::move(choice), "", std::move(help));
   }
 

@@ -59,6 +59,9 @@ using FilmMaker = std::function<std::unique_ptr<Sink<Item>>(const std::filesyste
 template <class Item>
 using FrameMaker = std::function<std::function<std::string(const Item&)>(const FilmInfo& film)>;
 
+/// Of a format that holds every step rather than frames: the run itself writes it, see run/motion_recorder.hpp.
+struct OfSteps {};
+
 /// A form in which frames are written. What the command line, its messages, `drape doctor` and docs/outputs.md say of
 /// it comes from here.
 struct OutputFormat {
@@ -66,12 +69,14 @@ struct OutputFormat {
   std::string help;       ///< what a file is: "an animation that repeats for ever"
   std::string made_by;    ///< the library that makes it, with its version; empty: drape itself
   std::string packages;   ///< of Debian, separated by spaces: what to install where it does not work
-  std::variant<FilmMaker<Image>, FrameMaker<Image>, FilmMaker<Frame>, FrameMaker<Frame>> make;
+  std::variant<FilmMaker<Image>, FrameMaker<Image>, FilmMaker<Frame>, FrameMaker<Frame>, OfSteps> make;
   std::vector<const char*> beside =
       {};  ///< what may be written beside a file NAME.EXT: ".obj" is NAME.obj, see beside.hpp
 
   /// Whether it takes images, so that somebody has to draw them.
   [[nodiscard]] bool drawn() const;
+  /// Whether it holds every step, so that no sink can be made for it.
+  [[nodiscard]] bool of_steps() const { return std::holds_alternative<OfSteps>(make); }
   /// Whether a file holds one frame. Then a path with {frame} means a file for each frame, and one without means one
   /// for the last frame. Otherwise a path has no {frame}.
   [[nodiscard]] bool file_per_frame() const;

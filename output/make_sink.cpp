@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
@@ -32,6 +33,7 @@ struct AtFile {
   AnySink operator()(const FrameMaker<Item>& make) const {
     return std::make_unique<LastFrameFile<Item>>(file, make(film));
   }
+  AnySink operator()(const OfSteps&) const { throw std::logic_error("a run writes its steps itself"); }
 };
 
 [[noreturn]] void fail_for_frame(const std::string& path, const OutputFormat& format) {
@@ -54,6 +56,7 @@ struct AtFiles {
   AnySink operator()(const FilmMaker<Item>&) const {
     fail_for_frame(text, format);
   }
+  AnySink operator()(const OfSteps&) const { fail_for_frame(text, format); }
   template <class Item>
   AnySink operator()(const FrameMaker<Item>& make) const {
     const auto name = [path = path, scene = film.scene, width = frame_digits(film)](int frame) {

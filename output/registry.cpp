@@ -36,6 +36,11 @@ const std::vector<OutputFormat>& output_formats() {
       pvd_format(),   //
       vtp_format(),   //
       pc2_format(),   //
+      {.extension = ".drape",
+       .help = "the motion itself, to draw it in any way later and to go on after Ctrl-C",
+       .made_by = {},
+       .packages = {},
+       .make = OfSteps{}},
   };
   return formats;
 }
@@ -87,7 +92,9 @@ std::string output_reference() {
   std::string text = "| extension | what a file is | frames in a file | written by |\n|---|---|---|---|\n";
   for (const OutputFormat& format : output_formats()) {
     text += fmt::format("| `{}` | {} | {} | `drape render`{} |\n", format.extension, format.help,
-                        format.file_per_frame() ? "one: each with `{frame}` in its path, else the last" : "all",
+                        format.of_steps()         ? "every step, see [motion-file.md](motion-file.md)"
+                        : format.file_per_frame() ? "one: each with `{frame}` in its path, else the last"
+                                                  : "all",
                         format.drawn() ? "" : ", `drape simulate`");
   }
   return text + "\n";

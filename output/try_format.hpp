@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// Writes two small frames in a format, to a file.
+/// Writes two small frames in a format, to a file; nothing where it holds steps.
 /// @param file taken as it is, without placeholders
 /// @returns what did it: "H.264, by OpenCV 4.6.0"
 /// @throws Error why nothing can

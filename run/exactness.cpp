@@ -19,18 +19,23 @@ void Exactness::begin(const Simulation& simulation) {
 }
 
 void Exactness::after_step(const Simulation& simulation, const StepReport& report, double /*seconds*/) {
-  if (report.estimate) return note(simulation, *report.estimate);
+  if (report.estimate) return note(simulation.state().step, *report.estimate);
   if (!accuracy_) return;
   const bool known = accuracy_->rule == StoppingRule::error && report.converged;
   if (known || simulation.state().step % between_looks == 0) look(simulation);
 }
 
-void Exactness::look(const Simulation& simulation) { note(simulation, simulation.error()); }
+void Exactness::replay(const StepRow& row, double /*time*/, double /*seconds*/) {
+  if (row.error) note(row.step, *row.error);
+}
 
-void Exactness::note(const Simulation& simulation, double error) {
+void Exactness::look(const Simulation& simulation) { note(simulation.state().step, simulation.error()); }
+
+void Exactness::note(std::int64_t step, double error) {
   sum_ += error;
   largest_ = std::max(largest_, error);
-  last_ = simulation.state().step;
+  last_ = step;
+  last_error_ = error;
   ++looked_at_;
 }
 

@@ -15,6 +15,8 @@ class Exactness final : public StepObserver {
   /// Looks at every step whose error is known, because it stopped at one or an accuracy was asked for, and else at
   /// every 128th, since it costs some iterations.
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
+  /// A step that was done before, see StepObserver.
+  void replay(const StepRow& row, double time, double seconds) override;
   /// Looks at the last step, and whether the cloth stands still.
   void finish(const Simulation& simulation);
 
@@ -23,6 +25,11 @@ class Exactness final : public StepObserver {
 
   /// What a step was asked to add to the error at most [m]; nothing where it was not.
   [[nodiscard]] const std::optional<double>& asked() const { return asked_; }
+
+  /// The error of a step, if it was the last one that was looked at.
+  [[nodiscard]] std::optional<double> error_of(std::int64_t step) const {
+    return last_ == step ? std::optional(last_error_) : std::nullopt;
+  }
 
   /// The error of the steps that were looked at: how far their worst vertex is from the exact solution [m]. That of the
   /// time step is in it where an accuracy was asked for, and else is not.
@@ -46,12 +53,12 @@ class Exactness final : public StepObserver {
 
  private:
   void look(const Simulation& simulation);
-  void note(const Simulation& simulation, double error);
+  void note(std::int64_t step, double error);
 
   std::optional<Accuracy> accuracy_;
   std::optional<double> asked_;
   double size_ = 0;  // of the cloth [m]
-  double sum_ = 0, largest_ = 0;
+  double sum_ = 0, largest_ = 0, last_error_ = 0;
   std::int64_t looked_at_ = 0, last_ = 0;  // steps, and the number of the last of them
   std::optional<Unbalanced> unbalanced_;
 };

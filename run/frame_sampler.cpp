@@ -16,9 +16,10 @@ namespace {
 // Times are products of decimal fractions; a frame that falls on a step must not miss it by their rounding.
 constexpr double rounding = 1e-9;
 
-/// How far a time lies before the end of the last step, in steps: from 0, exactly where it is that end, to 1.
-double part_back(double time, const Simulation& simulation) {
-  const double back = std::clamp((simulation.time() - time) / simulation.settings().step, 0.0, 1.0);
+/// How far a time lies before the end of a step, in steps: from 0, exactly where it is that end, to the whole way from
+/// the moment before, which is `duration` ago.
+double part_back(double time, double end, double duration) {
+  const double back = std::clamp((end - time) / duration, 0.0, 1.0);
   return back < rounding ? 0 : back;
 }
 
@@ -52,55 +53,56 @@ FilmExtent::FilmExtent(const Video& video, double h, std::int64_t step_count,
   }
 }
 
-Vertices positions_at(double time, const Simulation& simulation, const Vertices& before) {
-  return between(simulation.state().x, before, part_back(time, simulation));
-}
-
-FrameSampler::FrameSampler(const FilmExtent& extent, Receiver receiver, FrameContents contents)
+FrameTaker::FrameTaker(const FilmExtent& extent, Receiver receiver, FrameContents contents)
     : extent_(extent), receiver_(std::move(receiver)), contents_(contents), next_(extent.frames.first) {}
 
-void FrameSampler::begin(const Simulation& simulation) {
-  keep(simulation);
-  emit_until(simulation);
+void FrameTaker::add(const Moment& moment) {
+  if (previous_.x.size() == 0) keep(moment);
+  while (!done() && extent_.time(next_) <= time_of(moment.state.step) + rounding * extent_.step) {
+    receiver_(frame(next_++, moment));
+  }
+  keep(moment);
 }
 
-void FrameSampler::after_step(const Simulation& simulation, const StepReport& report, double) {
-  iterations_ = report.iterations;
-  emit_until(simulation);
-  keep(simulation);
-}
-
-void FrameSampler::keep(const Simulation& simulation) {
-  previous_ = simulation.state().x;
-  const bool soon =
-      next_ <= extent_.frames.last && extent_.time(next_) < simulation.time() + (1 - rounding) * extent_.step;
+void FrameTaker::keep(const Moment& moment) {
+  previous_.x = moment.state.x;
+  previous_.step = moment.state.step;
+  const bool soon = !done() && extent_.time(next_) < time_of(moment.next) - rounding * extent_.step;
   if (contents_ == FrameContents::places || !soon) return;
-  previous_velocities_ = simulation.state().v;
-  previous_energies_ = simulation.energies();
+  previous_.v = moment.state.v;
+  previous_energies_ = moment.energies();
 }
 
-Frame FrameSampler::frame(int index, const Simulation& simulation) const {
-  const double time = extent_.time(index);
+Frame FrameTaker::frame(int index, const Moment& moment) const {
+  const double time = extent_.time(index), end = time_of(moment.state.step);
+  const auto steps = static_cast<double>(std::max<std::int64_t>(1, moment.state.step - previous_.step));
+  const double back = part_back(time, end, steps * extent_.step);
   Frame frame{.index = index,
               .time = time,
-              .positions = positions_at(time, simulation, previous_),
-              .colliders = simulation.colliders(time),
+              .positions = between(moment.state.x, previous_.x, back),
+              .colliders = moment.colliders(time),
               .velocities = {},
               .energies = {},
-              .iterations = iterations_};
+              .iterations = moment.iterations};
   if (contents_ == FrameContents::motion) {
-    const double back = part_back(time, simulation);
-    frame.velocities = between(simulation.state().v, previous_velocities_, back);
-    frame.energies = between(simulation.energies(), previous_energies_, back);
+    frame.velocities = between(moment.state.v, previous_.v, back);
+    frame.energies = between(moment.energies(), previous_energies_, back);
   }
   return frame;
 }
 
-void FrameSampler::emit_until(const Simulation& simulation) {
-  const double h = extent_.step;
-  while (next_ <= extent_.frames.last && extent_.time(next_) <= simulation.time() + rounding * h) {
-    receiver_(frame(next_++, simulation));
-  }
+void FrameSampler::begin(const Simulation& simulation) { add(simulation, 0); }
+
+void FrameSampler::after_step(const Simulation& simulation, const StepReport& report, double) {
+  add(simulation, report.iterations);
+}
+
+void FrameSampler::add(const Simulation& simulation, int iterations) {
+  taker_.add({.state = simulation.state(),
+              .iterations = iterations,
+              .next = simulation.state().step + 1,
+              .energies = [&] { return simulation.energies(); },
+              .colliders = [&](double time) { return simulation.colliders(time); }});
 }
 
 }  // namespace drape

@@ -41,35 +41,58 @@ struct FilmExtent {
 /// What a film's frames hold: where everything is, or also how the cloth moves, which takes time to find out.
 enum class FrameContents { places, motion };
 
-/// The cloth at a time within the simulation's last step: linear between where it was before and where it is now, and
-/// at the step's end exactly that, with the step's own bits.
-/// @param before n×3 [m]
-Vertices positions_at(double time, const Simulation& simulation, const Vertices& before);
+/// What frames are made of: where a motion is at the end of a step.
+struct Moment {
+  const State& state;
+  int iterations;                                               ///< of the step
+  std::int64_t next;                                            ///< the step of the moment after this
+  std::function<Energies()> energies;                           ///< called if they are needed
+  std::function<std::vector<Collider>(double time)> colliders;  ///< at any time
+};
 
-/// Watches a simulation and hands out the frames of a range as soon as the motion reaches them. A frame between two
-/// steps is interpolated linearly between them, its velocities and energies too.
-class FrameSampler final : public StepObserver {
+/// Hands out the frames of a range as soon as a motion has reached them. A frame between two moments is interpolated
+/// linearly between them, its velocities and energies too.
+class FrameTaker {
  public:
   using Receiver = std::function<void(Frame)>;
 
-  FrameSampler(const FilmExtent& extent, Receiver receiver, FrameContents contents = FrameContents::places);
+  FrameTaker(const FilmExtent& extent, Receiver receiver, FrameContents contents = FrameContents::places);
 
-  void begin(const Simulation& simulation) override;
-  void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
+  /// The next moment.
+  void add(const Moment& moment);
+
+  /// Whether all frames are made.
+  [[nodiscard]] bool done() const { return next_ > extent_.frames.last; }
 
  private:
-  void emit_until(const Simulation& simulation);
-  [[nodiscard]] Frame frame(int index, const Simulation& simulation) const;
-  /// Keeps what frames within the next step are interpolated from.
-  void keep(const Simulation& simulation);
+  [[nodiscard]] Frame frame(int index, const Moment& moment) const;
+  /// Keeps what frames up to the next moment are interpolated from.
+  void keep(const Moment& moment);
+  [[nodiscard]] double time_of(std::int64_t step) const { return static_cast<double>(step) * extent_.step; }
 
   FilmExtent extent_;
   Receiver receiver_;
   FrameContents contents_;
   int next_;
-  int iterations_ = 0;  // of the last step
-  Vertices previous_, previous_velocities_;
+  State previous_;
   Energies previous_energies_;
+};
+
+/// Watches a simulation and hands out its frames.
+class FrameSampler final : public StepObserver {
+ public:
+  using Receiver = FrameTaker::Receiver;
+
+  FrameSampler(const FilmExtent& extent, Receiver receiver, FrameContents contents = FrameContents::places)
+      : taker_(extent, std::move(receiver), contents) {}
+
+  void begin(const Simulation& simulation) override;
+  void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
+
+ private:
+  void add(const Simulation& simulation, int iterations);
+
+  FrameTaker taker_;
 };
 
 }  // namespace drape

@@ -8,6 +8,7 @@
 #include "output/png_encoder.hpp"
 #include "output/registry.hpp"
 #include "run/annotations.hpp"
+#include "run/motion_space.hpp"
 
 namespace drape {
 namespace {
@@ -30,7 +31,7 @@ FilmExtent whole_extent(const Scene& scene, RunOptions options) {
   return film_extent(scene, options);
 }
 
-FilmInfo film_info(const Scene& scene, const RunOptions& options) {
+FilmInfo film_info(const Scene& scene, const RunOptions& options, Progress* progress) {
   const FilmExtent extent = film_extent(scene, options);
   FilmInfo film;
   film.scene = scene.name;
@@ -46,6 +47,12 @@ FilmInfo film_info(const Scene& scene, const RunOptions& options) {
   film.look = &scene.look;
   film.largest_file = options.largest_file;
   film.sheet = options.sheet;
+  if (progress != nullptr) {
+    film.progress = [progress](int done, int total) {
+      if (done <= 1) progress->begin("encoding", "frames", total);
+      progress->done = done;
+    };
+  }
   return film;
 }
 
@@ -59,6 +66,7 @@ bool needs_drawing(const RunOptions& options) {
 void require_outputs(const Scene& scene, const RunOptions& options) {
   const Outputs outputs(options.outputs, film_info(scene, options), options.poster);
   const Records records(options.records);
+  if (options.motion) require_motion_file(*options.motion, motion_space(scene, options), options.from != nullptr);
 }
 
 void require_texture(const Scene& scene, int largest) {

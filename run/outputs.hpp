@@ -20,8 +20,9 @@ FilmExtent film_extent(const Scene& scene, const RunOptions& options);
 FilmExtent whole_extent(const Scene& scene, RunOptions options);
 
 /// What is known of a run's film before its first frame. Refers to the scene's cloth and look.
+/// @param progress if given, shows how much of it is encoded when it ends
 /// @throws UsageError as film_extent()
-FilmInfo film_info(const Scene& scene, const RunOptions& options);
+FilmInfo film_info(const Scene& scene, const RunOptions& options, Progress* progress = nullptr);
 
 /// Whether any of a run's outputs must be drawn.
 bool needs_drawing(const RunOptions& options);

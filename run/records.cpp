@@ -43,16 +43,19 @@ class Records::EnergyLog final : public StepObserver {
  public:
   explicit EnergyLog(const std::string& path) : file(path) { file.write("step,time,total,kinetic,gravity,elastic\n"); }
 
-  void begin(const Simulation& simulation) override { add(simulation); }
+  void begin(const Simulation& simulation) override {
+    if (simulation.state().step == 0) add(simulation);
+  }
+  void replay(const StepRow& row, double time, double /*seconds*/) override { add(row.step, time, row.energies); }
   void after_step(const Simulation& simulation, const StepReport&, double) override { add(simulation); }
 
   Record file;
 
  private:
-  void add(const Simulation& simulation) {
-    const Energies e = simulation.energies();
-    file.write(fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}\n", simulation.state().step, simulation.time(),
-                           e.total(), e.kinetic, e.gravity, e.elastic));
+  void add(const Simulation& simulation) { add(simulation.state().step, simulation.time(), simulation.energies()); }
+  void add(std::int64_t step, double time, const Energies& e) {
+    file.write(fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}\n", step, time, e.total(), e.kinetic, e.gravity,
+                           e.elastic));
   }
 };
 
@@ -65,13 +68,22 @@ class Records::TraceLog final : public StepObserver {
     file.write(simulation.settings().accuracy ? ",substeps,estimate\n" : "\n");
   }
 
+  void replay(const StepRow& row, double time, double seconds) override {
+    if (row.step > 0) add(row.step, time, row.iterations, row.residual, seconds, row.substeps, row.estimate);
+  }
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override {
-    file.write(fmt::format("{},{:.12g},{},{:.6g},{:.3f}", simulation.state().step, simulation.time(), report.iterations,
-                           simulation.residual(), 1e6 * seconds));
-    file.write(report.estimate ? fmt::format(",{},{:.6g}\n", report.substeps, *report.estimate) : "\n");
+    add(simulation.state().step, simulation.time(), report.iterations, simulation.residual(), seconds, report.substeps,
+        report.estimate);
   }
 
   Record file;
+
+ private:
+  void add(std::int64_t step, double time, int iterations, double residual, double seconds, std::int64_t substeps,
+           const std::optional<double>& estimate) {
+    file.write(fmt::format("{},{:.12g},{},{:.6g},{:.3f}", step, time, iterations, residual, 1e6 * seconds));
+    file.write(estimate ? fmt::format(",{},{:.6g}\n", substeps, *estimate) : "\n");
+  }
 };
 
 namespace {

@@ -13,12 +13,14 @@
 
 #include "core/error.hpp"
 #include "render/camera_path.hpp"
-#include "render/renderer.hpp"
 #include "run/annotations.hpp"
 #include "run/bounded_queue.hpp"
+#include "run/film_painter.hpp"
 #include "run/frame_tape.hpp"
 #include "run/known_film.hpp"
+#include "run/motion_frames.hpp"
 #include "run/outputs.hpp"
+#include "run/reasons_to_run.hpp"
 #include "run/run_steps.hpp"
 
 namespace drape {
@@ -31,14 +33,6 @@ constexpr std::size_t queue_capacity = 8;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-FilmInfo with_progress(FilmInfo film, Progress& progress) {
-  film.progress = [&progress](int done, int total) {
-    if (done <= 1) progress.begin("encoding", "frames", total);
-    progress.done = done;
-  };
-  return film;
-}
-
 /// The three threads of a run and what flows between them.
 class Pipeline {
  public:
@@ -47,13 +41,19 @@ class Pipeline {
         options_(options),
         progress_(progress),
         extent_(film_extent(scene, options)),
-        simulation_(scene.simulation, options.time_effects ? Timing::effects : Timing::none),
-        outputs_(options.outputs, with_progress(film_info(scene, options), progress), options.poster),
+        outputs_(options.outputs, film_info(scene, options, &progress), options.poster),
         drawn_(outputs_.drawn()),
-        records_(options.records) {
+        records_(options.records),
+        reasons_(!outputs_.none(), options.motion.has_value(), records_.wanted()) {
     if (drawn_ && Annotations::wanted(scene)) annotations_.emplace(scene);
     result_.steps_wanted = extent_.steps;
+    result_.recorded = options.recorded != nullptr;
     if (!outputs_.none()) result_.frames_wanted = extent_.frames.count();
+    if (!options.recorded) simulation_.emplace(scene.simulation, options.time_effects ? Timing::effects : Timing::none);
+    if (!options.motion) return;
+    recorder_.emplace(*options.motion, options.from.get(), scene, extent_, result_.statistics, [this] {
+      if (reasons_.lose_motion()) stop_.request_stop();
+    });
   }
 
   RunResult run(const std::stop_token& stop) {
@@ -71,8 +71,9 @@ class Pipeline {
     threads.clear();  // waits for them
     if (error_) std::rethrow_exception(error_);
 
-    if (nothing_left_) throw OutputError(fmt::format("{}", fmt::join(outputs_.problems(), "\n")));
-    finish_records();
+    finish_motion();
+    if (reasons_.none()) throw OutputError(fmt::format("{}", fmt::join(result_.problems, "\n")));
+    if (simulation_) finish_records();
     result_.elapsed_seconds = seconds_since(begin);
     return std::move(result_);
   }
@@ -98,16 +99,24 @@ class Pipeline {
     film_.close();
   }
 
-  void finish_records() {
+  void finish_motion() {
     result_.problems = outputs_.problems();
     if ((!whole_ || cut_) && result_.outcome == Outcome::completed) result_.outcome = Outcome::interrupted;
+    if (!recorder_) return;
+    const bool can_go_on = result_.outcome != Outcome::diverged;
+    result_.motion = recorder_->finish(whole_, can_go_on ? &*simulation_ : nullptr, result_.problems);
+  }
+
+  void finish_records() {
     if (result_.outcome == Outcome::interrupted && result_.statistics.steps() == 0) return;
-    result_.records = records_.finish(simulation_, result_.statistics, outcome_name(result_.outcome),
+    result_.records = records_.finish(*simulation_, result_.statistics, outcome_name(result_.outcome),
                                       whole_ ? Ending::complete : Ending::early, result_.problems);
   }
 
   void simulate() {
+    if (options_.recorded) return play();
     std::vector<StepObserver*> observers{&result_.statistics};
+    if (recorder_) observers.push_back(&*recorder_);
     for (StepObserver* record : records_.observers()) observers.push_back(record);
     if (options_.observer != nullptr) observers.push_back(options_.observer);
 
@@ -122,14 +131,8 @@ class Pipeline {
 
   /// Hands each frame on as soon as the motion has reached it.
   void simulate_and_draw(std::vector<StepObserver*> observers) {
-    const auto send = [this](Frame frame) {
-      if (drawn_) {
-        frames_.push(std::move(frame));
-      } else {
-        film_.push({std::move(frame), std::nullopt});
-      }
-    };
-    FrameSampler sampler(extent_, send, contents());
+    FrameSampler sampler(
+        extent_, [this](Frame frame) { send(std::move(frame)); }, contents());
     StepCounter counter(progress_);
     if (result_.frames_wanted > 0) {
       if (drawn_) place_camera(whole_extent(scene_, options_).frames.count(), {});
@@ -156,7 +159,7 @@ class Pipeline {
     observers.insert(observers.end(), {&sampler, &counter});
     progress_.begin("simulating", "steps", whole.steps);
     take_steps(observers);
-    if (whole_) run_on(scene_.simulation, simulation_.state(), whole.steps, {&sampler, &counter}, stop_.get_token());
+    if (whole_) run_on(scene_.simulation, simulation_->state(), whole.steps, {&sampler, &counter}, stop_.get_token());
     const bool until_here = options_.observer != nullptr;
     if (stop_.stop_requested() && !until_here) return;
     place_camera(tape.count(), [&tape](const auto& visit) { tape.for_each(visit); });
@@ -173,9 +176,9 @@ class Pipeline {
 
   void take_steps(const std::vector<StepObserver*>& observers) {
     try {
-      run_steps(simulation_, extent_.steps, observers, stop_.get_token());
-      result_.statistics.finish(simulation_);
-      whole_ = simulation_.state().step == extent_.steps;
+      run_steps(*simulation_, extent_.steps, observers, stop_.get_token(), options_.from.get());
+      result_.statistics.finish(*simulation_);
+      whole_ = simulation_->state().step == extent_.steps;
     } catch (const DivergedError& diverged) {
       result_.outcome = Outcome::diverged;
       result_.divergence = diverged.what();
@@ -191,6 +194,30 @@ class Pipeline {
     return std::max(outputs_.contents(), annotations_ ? annotations_->contents() : FrameContents::places);
   }
 
+  /// In place of simulate(), where the motion is in a file: it is read as often as it has to be known.
+  void play() {
+    const auto read = [this](const FilmExtent& extent, const auto& visit) {
+      sample_motion(*options_.recorded, scene_, extent, contents(), visit, stop_.get_token());
+    };
+    const FilmExtent whole = whole_extent(scene_, options_);
+    progress_.begin(drawn_ ? "drawing" : "reading", "frames", extent_.frames.count());
+    if (annotations_ && annotations_->needs_motion()) {
+      read(whole, [this](const Frame& frame) { annotations_->survey(frame); });
+    }
+    if (drawn_) place_camera(whole.frames.count(), [&](const auto& visit) { read(whole, visit); });
+    read(extent_, [this](Frame frame) { send(std::move(frame)); });
+    whole_ = !stop_.stop_requested();
+    close_queues();
+  }
+
+  void send(Frame frame) {
+    if (drawn_) {
+      frames_.push(std::move(frame));
+    } else {
+      film_.push({std::move(frame), std::nullopt});
+    }
+  }
+
   /// Ends the flow of frames where it begins. What is on its way is still drawn and written.
   void close_queues() {
     path_.close();
@@ -201,25 +228,16 @@ class Pipeline {
   void draw() {
     const std::optional<CameraPath> path = path_.pop();
     if (!path) return film_.close();
-    Renderer renderer(data_folder(), scene_.video.size, path->at(0), Annotations::look(scene_),
-                      simulation_.cloth().vertex_count(), simulation_.cloth().triangles, scene_.uvs, options_.backend);
-    result_.renderer = renderer.description();
+    FilmPainter painter(scene_, *path, annotations_, options_.backend);
+    result_.renderer = painter.description();
     while (std::optional<Frame> frame = frames_.pop()) {
       const auto begin = Clock::now();
-      renderer.look_from(path->at(frame->index));
       std::optional<Image> image;
-      if (!undrawn_.stop_requested()) image.emplace(picture(renderer, *frame));
+      if (!undrawn_.stop_requested()) image.emplace(painter.paint(*frame));
       result_.draw_seconds += seconds_since(begin);
       film_.push({std::move(*frame), std::move(image)});
     }
     film_.close();
-  }
-
-  /// The film's picture of a frame.
-  Image picture(Renderer& renderer, const Frame& frame) {
-    if (!annotations_) return renderer.draw(frame);
-    const std::vector<Rgb> colors = annotations_->colors(frame);
-    return annotations_->annotate(colors.empty() ? renderer.draw(frame) : renderer.draw(frame, colors), frame);
   }
 
   void write() {
@@ -241,24 +259,24 @@ class Pipeline {
     if (outputs_.none()) stop_writing();
   }
 
-  /// When no output is left. The run goes on for the sake of its records, if there are any.
+  /// When no output is left. The run goes on for the sake of its records and motion file, if there are any.
   void stop_writing() {
     close_queues();
     film_.close();
-    if (records_.wanted()) return;
-    nothing_left_ = true;
-    stop_.request_stop();
+    if (reasons_.lose_outputs()) stop_.request_stop();
   }
 
   const Scene& scene_;
   const RunOptions& options_;
   Progress& progress_;
   FilmExtent extent_;
-  Simulation simulation_;
+  std::optional<Simulation> simulation_;  // unless the motion is in a file
   Outputs outputs_;
   const bool drawn_;  // whether there is anything to draw
   Records records_;
+  ReasonsToRun reasons_;
   std::optional<Annotations> annotations_;  // where there is anything to draw, and the scene asks for them
+  std::optional<MotionRecorder> recorder_;
 
   BoundedQueue<CameraPath> path_{1};
   BoundedQueue<Frame> frames_{queue_capacity};
@@ -268,25 +286,12 @@ class Pipeline {
 
   std::mutex mutex_;
   std::exception_ptr error_;
-  bool whole_ = false;         // every step was taken
-  bool cut_ = false;           // not every frame was drawn
-  bool nothing_left_ = false;  // every output was given up, and there are no records
+  bool whole_ = false;  // every step was taken
+  bool cut_ = false;    // not every frame was drawn
   RunResult result_;
 };
 
 }  // namespace
-
-const char* outcome_name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::completed:
-      return "completed";
-    case Outcome::interrupted:
-      return "interrupted";
-    case Outcome::diverged:
-      return "diverged";
-  }
-  return "";
-}
 
 RunResult run_scene(const Scene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress) {
   return Pipeline(scene, options, progress).run(stop);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -8,6 +10,7 @@
 #include "output/format.hpp"
 #include "render/backend.hpp"
 #include "run/frame_sampler.hpp"
+#include "run/motion_recorder.hpp"
 #include "run/progress.hpp"
 #include "run/records.hpp"
 #include "run/statistics.hpp"
@@ -17,7 +20,10 @@ namespace drape {
 
 /// What a run of a scene should do.
 struct RunOptions {
-  std::vector<std::string> outputs;  ///< films, frames and stills, see make_sink()
+  std::vector<std::string> outputs;        ///< films, frames and stills, see make_sink()
+  std::optional<MotionOptions> motion;     ///< a motion file that is written, too
+  std::shared_ptr<const Resumption> from;  ///< where the run goes on from, whose motion file that is; null: the start
+  std::shared_ptr<MotionReader> recorded;  ///< the motion, which is not simulated then: what there is, is drawn
   RecordPaths records;
   std::optional<std::int64_t> steps;          ///< instead of the scene's duration
   std::optional<FrameRange> frames;           ///< draw only these, and simulate no further than they need
@@ -33,19 +39,23 @@ struct RunOptions {
 enum class Outcome { completed, interrupted, diverged };
 
 /// "completed", "interrupted" or "diverged".
-const char* outcome_name(Outcome outcome);
+inline const char* outcome_name(Outcome outcome) {
+  return std::array{"completed", "interrupted", "diverged"}[static_cast<std::size_t>(outcome)];
+}
 
 /// What a run did.
 struct RunResult {
   Outcome outcome = Outcome::completed;
   std::string divergence;  ///< the message, if it diverged
   Statistics statistics;
+  bool recorded = false;  ///< whether the motion was read from a file
   int frames = 0;         ///< that were written
   int frames_wanted = 0;  ///< 0: there are no outputs
   std::int64_t steps_wanted = 0;
   double draw_seconds = 0, write_seconds = 0, elapsed_seconds = 0;
   std::string renderer;                          ///< what drew; empty if nothing was
   std::vector<std::vector<OutputFile>> outputs;  ///< the files of each output that there is
+  std::optional<MotionOutcome> motion;           ///< where a motion file is written
   std::vector<std::string> records;              ///< likewise
   std::vector<std::string> problems;             ///< a message for each output and record that could not be written
 };

@@ -15,12 +15,25 @@ class Watch final : public StepObserver {
   const std::function<void(const StepReport&)>& after_step_;
 };
 
+/// Tells observers of the steps before.
+void replay(const Resumption& from, double h, std::span<StepObserver* const> observers) {
+  if (from.checkpoint.state.step == 0) return;  // nothing was done: it begins
+  for (std::int64_t step = 0; step <= from.checkpoint.state.step; ++step) {
+    const StepRow& row = from.row(step);
+    const double seconds =
+        step == 0 ? 0 : 1e-6 * static_cast<double>(from.microseconds[static_cast<std::size_t>(step - 1)]);
+    for (StepObserver* observer : observers) observer->replay(row, static_cast<double>(step) * h, seconds);
+  }
+}
+
 }  // namespace
 
 void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserver* const> observers,
-               const std::stop_token& stop) {
+               const std::stop_token& stop, const Resumption* from) {
   using Clock = std::chrono::steady_clock;
+  if (from != nullptr) simulation.restore(from->checkpoint);
   for (StepObserver* observer : observers) observer->begin(simulation);
+  if (from != nullptr) replay(*from, simulation.settings().step, observers);
   while (simulation.state().step < steps && !stop.stop_requested()) {
     const auto begin = Clock::now();
     const StepReport report = simulation.step();

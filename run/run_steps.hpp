@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "motion/checkpoint.hpp"
 #include "run/progress.hpp"
 #include "run/step_observer.hpp"
 
@@ -13,9 +14,10 @@ namespace drape {
 
 /// Advances a simulation until it has done that many steps in all, telling the observers, in their order. Returns early
 /// when a stop is requested.
+/// @param from where the simulation goes on from, if it does
 /// @throws DivergedError after the observers saw the last finite step
 void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserver* const> observers,
-               const std::stop_token& stop);
+               const std::stop_token& stop, const Resumption* from = nullptr);
 
 /// The same, telling one function.
 void run_steps(Simulation& simulation, std::int64_t steps, const std::stop_token& stop,

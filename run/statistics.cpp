@@ -20,14 +20,25 @@ void Statistics::begin(const Simulation& simulation) {
 void Statistics::after_step(const Simulation& simulation, const StepReport& report, double seconds) {
   exactness_.after_step(simulation, report, seconds);
   effect_seconds_ = simulation.effect_seconds();
+  note(report.iterations, report.substeps, report.converged, report.converged ? 0 : simulation.residual(), seconds);
+}
+
+void Statistics::replay(const StepRow& row, double time, double seconds) {
+  if (row.step == 0) return;
+  exactness_.replay(row, time, seconds);
+  note(row.iterations, row.substeps, row.converged, row.residual, seconds);
+  ++replayed_;
+}
+
+void Statistics::note(int iterations, std::int64_t substeps, bool converged, double residual, double seconds) {
   microseconds_.push_back(static_cast<float>(1e6 * seconds));
-  iterations_ += report.iterations;
-  substeps_ += report.substeps;
-  max_substeps_ = std::max(max_substeps_, report.substeps);
-  max_iterations_ = std::max(max_iterations_, report.iterations);
-  if (report.converged) return;
+  iterations_ += iterations;
+  substeps_ += substeps;
+  max_substeps_ = std::max(max_substeps_, substeps);
+  max_iterations_ = std::max(max_iterations_, iterations);
+  if (converged) return;
   ++not_converged_;
-  worst_residual_ = std::max(worst_residual_, simulation.residual());
+  worst_residual_ = std::max(worst_residual_, residual);
 }
 
 double Statistics::mean_iterations() const {
@@ -55,11 +66,16 @@ double Statistics::total_seconds() const {
   return 1e-6 * std::accumulate(microseconds_.begin(), microseconds_.end(), 0.0);
 }
 
+double Statistics::own_seconds() const {
+  return 1e-6 *
+         std::accumulate(microseconds_.begin() + static_cast<std::ptrdiff_t>(replayed_), microseconds_.end(), 0.0);
+}
+
 std::vector<Statistics::EffectShare> Statistics::effects() const {
   std::vector<EffectShare> shares;
   for (std::size_t i = 0; i < effects_.size(); ++i) {
     shares.push_back({effects_[i], {}});
-    if (!effect_seconds_.empty() && total_seconds() > 0) shares.back().share = effect_seconds_[i] / total_seconds();
+    if (!effect_seconds_.empty() && own_seconds() > 0) shares.back().share = effect_seconds_[i] / own_seconds();
   }
   return shares;
 }

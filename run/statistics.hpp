@@ -14,6 +14,7 @@ class Statistics final : public StepObserver {
  public:
   void begin(const Simulation& simulation) override;
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
+  void replay(const StepRow& row, double time, double seconds) override;
   /// After the last step.
   void finish(const Simulation& simulation) { exactness_.finish(simulation); }
 
@@ -28,6 +29,8 @@ class Statistics final : public StepObserver {
   [[nodiscard]] double mean_substeps() const;
   [[nodiscard]] std::int64_t max_substeps() const { return max_substeps_; }
   [[nodiscard]] const Exactness& exactness() const { return exactness_; }
+  /// Of every step.
+  [[nodiscard]] const std::vector<float>& microseconds() const { return microseconds_; }
   [[nodiscard]] double mean_microseconds() const;
   [[nodiscard]] double median_microseconds() const;
   [[nodiscard]] double total_seconds() const;
@@ -35,7 +38,7 @@ class Statistics final : public StepObserver {
   /// An effect of the scene, and which part of the steps' time it took.
   struct EffectShare {
     std::string name;
-    std::optional<double> share;  ///< 0 to 1; absent where it was not measured
+    std::optional<double> share;  ///< 0 to 1; absent where it was not measured, and of a run that goes on its own part
   };
   /// Every effect of the scene, in the order of their evaluation.
   [[nodiscard]] std::vector<EffectShare> effects() const;
@@ -45,6 +48,10 @@ class Statistics final : public StepObserver {
   [[nodiscard]] std::string to_json(const std::string& outcome) const;
 
  private:
+  void note(int iterations, std::int64_t substeps, bool converged, double residual, double seconds);
+  /// Of the steps of this run, without those before.
+  [[nodiscard]] double own_seconds() const;
+
   std::string method_, scheme_;
   std::int64_t vertices_ = 0, springs_ = 0;
   double h_ = 0;
@@ -53,6 +60,7 @@ class Statistics final : public StepObserver {
   std::vector<float> microseconds_;
   std::int64_t iterations_ = 0, not_converged_ = 0, substeps_ = 0, max_substeps_ = 0;
   int max_iterations_ = 0;
+  std::size_t replayed_ = 0;  // steps
   double worst_residual_ = 0;
   Exactness exactness_;
 };

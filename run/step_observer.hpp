@@ -1,5 +1,6 @@
 #pragma once
 
+#include "motion/step_row.hpp"
 #include "sim/simulation.hpp"
 
 namespace drape {
@@ -10,6 +11,10 @@ class StepObserver {
   virtual ~StepObserver() = default;
   /// Before the first step.
   virtual void begin(const Simulation& /*simulation*/) {}
+  /// After that, where a run goes on: every step that was done before, and first of all the start, as step 0.
+  /// @param time    its end [s]
+  /// @param seconds that the step took
+  virtual void replay(const StepRow& /*row*/, double /*time*/, double /*seconds*/) {}
   /// After every step.
   /// @param seconds that the step took
   virtual void after_step(const Simulation& simulation, const StepReport& report, double seconds) = 0;

@@ -12,6 +12,7 @@
 #include "scene/digest.hpp"
 #include "scene/effects_reader.hpp"
 #include "scene/overrides.hpp"
+#include "scene/physics.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/tables.hpp"
 #include "sim/effects/bending.hpp"
@@ -215,6 +216,8 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   if (reader.good("check") && reader.good("time") && reader.good("video")) checks.compared_frames_exist();
   problems.throw_if_any();
   scene.digest = digest(document, {"check", "caption", "overlay"});
+  scene.tables = physics_of_tables(scene_tables(cloth_table, scene), effects, folder);
+  scene.portable = make_portable(document, folder, scene.inputs);
   checks.stability();
   problems.throw_if_any();
   return scene;

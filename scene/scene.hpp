@@ -7,6 +7,7 @@
 #include "overlay/settings.hpp"
 #include "render/settings.hpp"
 #include "scene/check_settings.hpp"
+#include "scene/portable.hpp"
 #include "sim/settings.hpp"
 
 namespace drape {
@@ -16,6 +17,11 @@ struct SceneField {
   std::string path;
   FieldValue value;
   bool operator==(const SceneField&) const = default;
+};
+
+/// What holds for a key of a scene, as a text.
+struct SceneValue {
+  std::string key, text;
 };
 
 /// A scene: plain data, complete and checked.
@@ -38,6 +44,8 @@ struct Scene {
   /// A hash of what the file and the overrides say, but for [check], [caption] and [overlay]: comments, the order of
   /// keys and the way in which a number is written do not change it. 16 hexadecimal digits.
   std::string digest;
+  std::vector<SceneValue> tables;  ///< what the tables say on which the motion depends, see physics_values()
+  PortableScene portable;          ///< all that it was read from
 
   /// The number of steps that cover the duration: duration/step, rounded to the nearest whole number.
   [[nodiscard]] std::int64_t step_count() const;

@@ -34,22 +34,20 @@ BlowUpWatch::BlowUpWatch(const System& system, double limit, int interval)
 }
 
 void BlowUpWatch::begin(const State& state, double energy) {
-  explained_ = std::max(energy, rounding_);
-  looked_at_ = state.x;
-  work_ = 0;
+  books_ = {.explained = std::max(energy, rounding_), .looked_at = state.x, .work = 0};
 }
 
 std::optional<double> BlowUpWatch::look(const State& state, const Vertices& push, bool constant,
                                         const std::function<double()>& energy) {
-  if (!constant) work_ += step_ * std::abs(push.cwiseProduct(state.v).sum());
+  if (!constant) books_.work += step_ * std::abs(push.cwiseProduct(state.v).sum());
   if (state.step % interval_ != 0) return std::nullopt;
-  if (constant) work_ = std::abs(push.cwiseProduct(state.x - looked_at_).sum());
-  explained_ += work_;
-  looked_at_ = state.x;
-  work_ = 0;
+  if (constant) books_.work = std::abs(push.cwiseProduct(state.x - books_.looked_at).sum());
+  books_.explained += books_.work;
+  books_.looked_at = state.x;
+  books_.work = 0;
   const double now = energy();
-  if (!(now > limit_ * explained_)) return std::nullopt;
-  return now / explained_;
+  if (!(now > limit_ * books_.explained)) return std::nullopt;
+  return now / books_.explained;
 }
 
 DivergedError diverged(const State& state, double time, std::optional<double> growth, const std::string& remedy) {

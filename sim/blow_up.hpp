@@ -35,6 +35,17 @@ class BlowUpWatch {
 
   /// Begins with a state of this energy, K + E [J].
   void begin(const State& state, double energy);
+
+  /// What it knows of the motion so far.
+  struct Books {
+    double explained = 0;  ///< [J]
+    Vertices looked_at;    ///< where the cloth was when it last looked, n×3 [m]
+    double work = 0;       ///< since then [J]
+  };
+  [[nodiscard]] const Books& books() const { return books_; }
+  /// Goes on with a motion of which it knew this.
+  void go_on(const Books& books) { books_ = books; }
+
   /// Takes note of a step that has ended, and looks after every interval, see StabilityGuard::look.
   std::optional<double> look(const State& state, const Vertices& push, bool constant,
                              const std::function<double()>& energy);
@@ -43,10 +54,8 @@ class BlowUpWatch {
   double step_;  // [s]
   double limit_;
   int interval_;
-  double rounding_;       // what rounding the positions does to the energy [J]
-  double explained_ = 0;  // [J]
-  Vertices looked_at_;    // where the cloth was when it last looked
-  double work_ = 0;       // since then [J]
+  double rounding_;  // what rounding the positions does to the energy [J]
+  Books books_;
 };
 
 /// Names the step, the time, the worst vertex of a motion's last state (the first that is not finite, else the

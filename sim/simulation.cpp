@@ -96,6 +96,11 @@ void Simulation::restore(const State& state) {
   guard_->begin(state_, energy_);
 }
 
+void Simulation::restore(const Checkpoint& checkpoint) {
+  state_ = checkpoint.state;
+  if (checkpoint.books) guard_->go_on(*checkpoint.books);
+}
+
 Energies Simulation::energies() const {
   const Eigen::VectorXd& m = settings_.cloth.masses;
   ignored_.setZero(state_.x.rows(), 3);
@@ -107,12 +112,6 @@ Energies Simulation::energies() const {
   const double kinetic = 0.5 * m.dot(per_vertex_);
   per_vertex_.noalias() = state_.x * system_->gravity;
   return {.kinetic = kinetic, .gravity = -m.dot(per_vertex_), .elastic = elastic};
-}
-
-std::vector<Collider> Simulation::colliders(double time) const {
-  std::vector<Collider> shapes;
-  for (const auto& motion : system_->colliders) shapes.push_back(motion->at(time));
-  return shapes;
 }
 
 }  // namespace drape

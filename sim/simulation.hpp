@@ -43,6 +43,15 @@ class Simulation {
   /// Goes on from another state of the same cloth, at any step.
   void restore(const State& state);
 
+  /// All that the rest of the motion depends on, to the bit: also the step in which it diverges.
+  struct Checkpoint {
+    State state;
+    std::optional<BlowUpWatch::Books> books;  ///< where something watches the energy
+  };
+  [[nodiscard]] Checkpoint checkpoint() const { return {state_, guard_->books()}; }
+  /// Goes on where a simulation of the same settings was, as that would have gone on.
+  void restore(const Checkpoint& checkpoint);
+
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] double time() const { return system_->time(state_.step); }
   /// Its pins are those of the last step.
@@ -66,7 +75,7 @@ class Simulation {
   /// When a step is accurate enough; nothing where nothing is minimised.
   [[nodiscard]] std::optional<Accuracy> accuracy() const { return scheme_->accuracy(); }
   /// Where everything that the cloth can touch is at a time [s].
-  [[nodiscard]] std::vector<Collider> colliders(double time) const;
+  [[nodiscard]] std::vector<Collider> colliders(double time) const { return system_->colliders_at(time); }
 
  private:
   /// Makes the system and the scheme for the pins of the next step, unless they are those.

@@ -16,6 +16,12 @@ bool System::all_internal() const {
   return std::ranges::all_of(energies, [](const auto& energy) { return energy->internal(); });
 }
 
+std::vector<Collider> System::colliders_at(double at) const {
+  std::vector<Collider> shapes;
+  for (const auto& motion : colliders) shapes.push_back(motion->at(at));
+  return shapes;
+}
+
 void System::move(State& state, const Vertices* reached) const {
   if (filters.empty() && reached != nullptr) {
     state.x = *reached;

@@ -133,6 +133,9 @@ struct System {
   /// Whether every energy is the cloth's own, so that nothing which is solved for pushes it.
   [[nodiscard]] bool all_internal() const;
 
+  /// Where everything is that the cloth can touch, at a time [s].
+  [[nodiscard]] std::vector<Collider> colliders_at(double at) const;
+
   /// When a step begins, and so the one before it ends [s]: never a running sum.
   [[nodiscard]] double time(std::int64_t number) const { return static_cast<double>(number) * step; }
 

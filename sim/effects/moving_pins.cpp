@@ -19,7 +19,10 @@ constexpr double most_steps = 1e15;
 void MovingPins::describe(Keys& keys) {
   keys.add("pins", VertexSelection{&pins}, "", "Which pins; each must be among those of [cloth].").must_be_given();
   keys.add("keyframes",
-           KeyframeList{{"offset", "position"}, &keyframes, [this](std::size_t i) { path = static_cast<Path>(i); }},
+           KeyframeList{{"offset", "position"},
+                        &keyframes,
+                        [this](std::size_t i) { path = static_cast<Path>(i); },
+                        static_cast<std::size_t>(path)},
            "s, m",
            "Where they are at which times: how far from where they start, or where the middle of all of them is. "
            "They start from where the cloth has them at 0 s, do not turn, and stay at the last keyframe.");

@@ -37,6 +37,14 @@ std::optional<double> SafeStepGuard::look(const State& state, const Vertices& pu
   return watch_ ? watch_->look(state, push, constant, energy) : std::nullopt;
 }
 
+std::optional<BlowUpWatch::Books> SafeStepGuard::books() const {
+  return watch_ ? std::optional(watch_->books()) : std::nullopt;
+}
+
+void SafeStepGuard::go_on(const BlowUpWatch::Books& books) {
+  if (watch_) watch_->go_on(books);
+}
+
 std::string SafeStepGuard::remedy() const {
   constexpr const char* others = "method = \"liu13\", \"implicit\" or \"quasi-newton\"";
   if (step_ <= safe_step_) {

@@ -17,6 +17,14 @@ std::optional<double> Sdirk2Guard::look(const State& state, const Vertices& push
   return watch_ ? watch_->look(state, push, constant, energy) : std::nullopt;
 }
 
+std::optional<BlowUpWatch::Books> Sdirk2Guard::books() const {
+  return watch_ ? std::optional(watch_->books()) : std::nullopt;
+}
+
+void Sdirk2Guard::go_on(const BlowUpWatch::Books& books) {
+  if (watch_) watch_->go_on(books);
+}
+
 std::string Sdirk2Guard::remedy() const {
   return "; sdirk2 does not promise that a step gains none where it is solved loosely or the cloth is crumpled: take a "
          "smaller tolerance and more max_iterations, a shorter [time] step, or scheme = \"backward-euler\", which does";

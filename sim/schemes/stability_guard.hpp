@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "sim/blow_up.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
@@ -34,6 +35,11 @@ class StabilityGuard {
                                      const EnergyNow& /*energy*/) {
     return std::nullopt;
   }
+
+  /// What it remembers of the motion, where that is anything: whoever goes on with it elsewhere needs it.
+  [[nodiscard]] virtual std::optional<BlowUpWatch::Books> books() const { return std::nullopt; }
+  /// Goes on with a motion of which it remembered this.
+  virtual void go_on(const BlowUpWatch::Books& /*books*/) {}
 
   /// What to change about a motion that blew up: the end of a message.
   [[nodiscard]] virtual std::string remedy() const = 0;

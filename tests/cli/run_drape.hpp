@@ -27,10 +27,23 @@ inline Finished run(const SceneFolder& folder, const std::string& command) {
   return finished;
 }
 
+/// Runs a shell's command in the folder.
+inline Finished run_shell(const SceneFolder& folder, const std::string& command) {
+  const std::string line = "cd '" + folder.path().string() + "' && " + command + " 2>&1";
+  Finished finished;
+  FILE* pipe = popen(line.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe))
+    finished.text.append(buffer.data(), count);
+  const int status = pclose(pipe);
+  finished.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return finished;
+}
+
 /// Runs the drape that was built, in the folder.
 /// @param environment assignments that stand before it on the shell's command line
 inline Finished drape(const SceneFolder& folder, const std::string& arguments, const std::string& environment = "") {
-  return run(folder, environment + " " + DRAPE_EXECUTABLE + " " + arguments);
+  return run_shell(folder, environment + " " + DRAPE_EXECUTABLE + " " + arguments);
 }
 
 /// A cloth that swings for 0.4 s; a test adds tables.

@@ -1,0 +1,108 @@
+#include "cli/motion_runs.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "core/build_info.hpp"
+#include "core/error.hpp"
+#include "motion/scene_folder.hpp"
+#include "output/registry.hpp"
+
+namespace drape {
+namespace {
+
+/// A motion with the folder that its scene is in.
+struct OpenMotion {
+  MotionReader reader;
+  MotionScene folder;
+
+  explicit OpenMotion(const std::string& file) : reader(file), folder(reader) {}
+};
+
+struct GrowingMotion {
+  Resumption from;
+  MotionScene folder;
+  Scene scene;
+
+  explicit GrowingMotion(const std::string& file)
+      : from(read_resumption(file)), folder(*from.partial), scene(folder.scene()) {}
+};
+
+}  // namespace
+
+bool is_motion_file(const std::string& file) {
+  const OutputFormat* format = find_format(file);
+  return format != nullptr && format->of_steps();
+}
+
+SceneToRun open_motion(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
+  const auto motion = std::make_shared<OpenMotion>(file);
+  SceneToRun found{motion->folder.scene(), std::shared_ptr<MotionReader>(motion, &motion->reader)};
+  if (!look.empty() || !overrides.empty()) {
+    Scene other = look.empty() ? motion->folder.load(overrides) : load_scene(look, overrides);
+    require_same_physics(file, found.scene, other, look.empty() ? "--set" : look);
+    found.scene = std::move(other);
+  }
+  found.scene.file = file;
+  found.scene.name = found.scene.file.stem().string();
+  found.scene.inputs.emplace_back(file);
+  return found;
+}
+
+std::optional<RunToGoOn> find_run_to_go_on(std::string file) {
+  constexpr std::string_view ending = ".partial";
+  if (file.ends_with(ending)) file.resize(file.size() - ending.size());
+  if (!is_motion_file(file)) {
+    throw UsageError(fmt::format("--resume {}: expected the name of a motion file, as in motion.drape", file));
+  }
+  if (!std::filesystem::exists(growing_name(file)) && std::filesystem::exists(file)) {
+    const MotionReader complete(file);
+    return std::nullopt;
+  }
+  const auto motion = std::make_shared<GrowingMotion>(file);
+  motion->scene.file = file;
+  const MotionHeader& header = motion->from.partial->header();
+  if (const std::string program = this_program(); header.program != program) {
+    spdlog::warn("{}: it was begun by drape {}, and this is drape {}: the rest may differ in its bits", file,
+                 header.program, program);
+  }
+  RunOptions options;
+  options.motion = {.path = file, .recorded = header.recorded};
+  options.steps = header.steps;
+  options.from = std::shared_ptr<const Resumption>(motion, &motion->from);
+  return RunToGoOn{std::shared_ptr<const Scene>(motion, &motion->scene), options};
+}
+
+RecordedSteps parse_every(const std::string& text) {
+  if (text == "frames") return {.every = std::nullopt};
+  std::int64_t every = 0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, every);
+  if (read.ec != std::errc() || read.ptr != end || every < 1 || every > 1'000'000'000) {
+    throw UsageError(fmt::format("--every takes a number of steps from 1 on, or frames, found '{}'", text));
+  }
+  return {.every = every};
+}
+
+void limit_to_motion(const MotionReader& motion, RunOptions& options) {
+  const std::string file = motion.file().string();
+  if (options.steps.value_or(0) > motion.last_step()) {
+    throw UsageError(fmt::format("--steps {}: {} has {}", *options.steps, file, motion.last_step()));
+  }
+  options.steps = options.steps.value_or(motion.last_step());
+  const RecordPaths& records = options.records;
+  for (const auto& [option, path] :
+       {std::pair{"--stats", records.stats}, std::pair{"--energies", records.energies},
+        std::pair{"--positions", records.positions}, std::pair{"--trace", records.trace}}) {
+    if (path.empty()) continue;
+    throw UsageError(
+        fmt::format("{} is written by a simulation, and {} is only read: ask drape simulate for it", option, file));
+  }
+  if (options.motion) throw UsageError(fmt::format("-o {}: {} is a motion file already", options.motion->path, file));
+}
+
+}  // namespace drape

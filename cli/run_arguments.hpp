@@ -1,0 +1,41 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/run_scene.hpp"
+
+namespace drape {
+
+/// What render and simulate share.
+struct RunArguments {
+  std::vector<std::string> scenes;
+  std::vector<std::string> overrides;
+  std::vector<std::string> outputs;
+  std::string look;  ///< a scene that says how motions are drawn
+  std::string frames, every, resume, max_size, sheet;
+  bool poster = false;
+  std::optional<std::int64_t> steps;
+  double checkpoint_seconds = MotionOptions{}.checkpoint_seconds;
+  RecordPaths records;
+  GlBackend backend = GlBackend::automatic;
+  bool step_by_step = false;
+  bool drawing = true;  ///< render; simulate draws nothing
+};
+
+/// Adds the options that both have.
+/// @param scenes what may stand as a scene
+void add_shared_options(CLI::App& command, RunArguments& arguments, const char* scenes);
+
+/// Adds -o.
+/// @param drawn whether what must be drawn may be among them
+void add_outputs(CLI::App& command, RunArguments& arguments, const std::string& usage, bool drawn);
+
+/// What a run of a scene should do.
+/// @param verbose whether everything about it is shown
+/// @throws UsageError
+RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool verbose);
+
+}  // namespace drape

@@ -1,0 +1,120 @@
+#include "motion/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <stdexcept>
+
+#include "core/error.hpp"
+#include "motion/block_writer.hpp"
+#include "motion/packing.hpp"
+#include "motion/writer.hpp"
+
+namespace drape {
+namespace fs = std::filesystem;
+namespace {
+
+// Blocks like a motion file's: how long the growing file is that counts, the state, and where there is any what the
+// guard remembers and the rows that are in no block; then the times.
+constexpr const char* checkpoint_magic = "drape checkpoint 1\n";
+constexpr const char* length_tag = "SIZE";
+constexpr const char* books_tag = "BOOK";
+constexpr const char* times_tag = "TIME";
+
+std::string block(std::string_view tag, const std::string& payload) { return block_head(tag, payload) + payload; }
+
+std::string_view bytes_of(const Vertices& v) {
+  return {reinterpret_cast<const char*>(v.data()), static_cast<std::size_t>(v.size()) * sizeof(double)};
+}
+
+BlowUpWatch::Books unpack_books(std::string_view payload, Eigen::Index vertices) {
+  const std::string bytes = unpack(payload);
+  ByteReader reader(bytes);
+  BlowUpWatch::Books books;
+  books.explained = reader.number();
+  books.work = reader.number();
+  books.looked_at.resize(vertices, 3);
+  if (reader.rest().size() != bytes_of(books.looked_at).size()) throw std::invalid_argument("is of another cloth");
+  std::memcpy(books.looked_at.data(), reader.rest().data(), reader.rest().size());
+  return books;
+}
+
+std::vector<float> unpack_times(std::string_view payload) {
+  const std::string bytes = unpack(payload);
+  std::vector<float> times(bytes.size() / sizeof(float));
+  std::memcpy(times.data(), bytes.data(), times.size() * sizeof(float));
+  return times;
+}
+
+/// What is in the blocks after the first.
+void read_blocks(const BlockReader& blocks, std::uint64_t begin, Resumption& found) {
+  const MotionHeader& header = found.partial->header();
+  while (begin < blocks.size()) {
+    const Block block = blocks.block(begin);
+    if (block.tag == state_tag) {
+      found.checkpoint.state = StateCodec(header.vertices, header.step).decode(block.payload);
+    } else if (block.tag == books_tag) {
+      found.checkpoint.books = unpack_books(block.payload, header.vertices);
+    } else if (block.tag == rows_tag) {
+      found.rows = unpack_rows(block.payload, header);
+    } else if (block.tag == times_tag) {
+      found.microseconds = unpack_times(block.payload);
+    }
+    begin = block.end;
+  }
+  // The steps from 0 on, in the blocks and in the rest.
+  const std::int64_t step = found.checkpoint.state.step, in_blocks = found.partial->rows();
+  const bool whole = found.checkpoint.state.x.rows() == header.vertices &&
+                     (found.rows.empty() || found.rows.front().step == in_blocks) &&
+                     in_blocks + static_cast<std::int64_t>(found.rows.size()) == step + 1 &&
+                     found.microseconds.size() == static_cast<std::size_t>(step) && step < header.steps;
+  if (!whole) throw std::invalid_argument("does not go with the file that grows");
+}
+
+}  // namespace
+
+const StepRow& Resumption::row(std::int64_t step) const {
+  const std::int64_t in_blocks = partial->rows();
+  return step < in_blocks ? partial->row(step) : rows[static_cast<std::size_t>(step - in_blocks)];
+}
+
+std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double step, std::uint64_t length,
+                            const std::vector<StepRow>& rows, std::span<const float> microseconds) {
+  std::string bytes = checkpoint_magic;
+  bytes += block(length_tag, ByteWriter().whole(length).text());
+  bytes += block(state_tag, StateCodec(checkpoint.state.x.rows(), step).encode(checkpoint.state));
+  if (const auto& books = checkpoint.books) {
+    bytes +=
+        block(books_tag,
+              pack(ByteWriter().number(books->explained).number(books->work).bytes(bytes_of(books->looked_at)).text()));
+  }
+  if (!rows.empty()) bytes += block(rows_tag, pack_rows(rows));
+  return bytes +
+         block(times_tag, pack({reinterpret_cast<const char*>(microseconds.data()), microseconds.size_bytes()}));
+}
+
+Resumption read_resumption(const fs::path& file) {
+  const fs::path growing = growing_name(file), checkpoint = checkpoint_name(file);
+  if (!fs::exists(growing)) {
+    throw UsageError(fmt::format("{}: there is nothing to go on with: no {}", file.string(), growing.string()));
+  }
+  if (!fs::exists(checkpoint)) {
+    throw UsageError(fmt::format("{}: there is nothing in it to go on with, as there is no {}: simulate anew",
+                                 growing.string(), checkpoint.string()));
+  }
+  const BlockReader blocks(checkpoint, checkpoint_magic, "checkpoint");
+  try {
+    const Block size = blocks.block(std::string_view(checkpoint_magic).size());
+    if (size.tag != length_tag) throw std::invalid_argument("does not begin as it should");
+    Resumption found;
+    found.length = ByteReader(size.payload).whole();
+    found.partial = std::make_shared<MotionReader>(growing, found.length);
+    if (found.partial->size() != found.length) throw std::invalid_argument("is of a longer file than there is");
+    read_blocks(blocks, size.end, found);
+    return found;
+  } catch (const std::invalid_argument& error) {
+    blocks.fail(std::string("the checkpoint ") + error.what());
+  }
+}
+
+}  // namespace drape

@@ -1,0 +1,170 @@
+#include "motion/header.hpp"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "core/build_info.hpp"
+#include "motion/packing.hpp"
+
+namespace drape {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::int64_t most_steps = 1'000'000'000'000;
+constexpr std::size_t own_columns = 9, columns_of_collider = 4;
+
+double bounded(const Json& json, const char* key) {
+  const double value = json.at(key).get<double>();
+  if (!(value > 0 && std::isfinite(value))) throw std::invalid_argument("has a time step that cannot be");
+  return value;
+}
+
+std::int64_t count(const Json& json, const char* key, std::int64_t least, std::int64_t most) {
+  const auto value = json.at(key).get<std::int64_t>();
+  if (!json.at(key).is_number_integer() || value < least || value > most) {
+    throw std::invalid_argument(std::string("has a number of ") + key + " that cannot be");
+  }
+  return value;
+}
+
+/// Four numbers that say what of a collider is drawn.
+std::array<double, columns_of_collider> numbers_of(const Collider& collider) {
+  if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
+    return {sphere->center[0], sphere->center[1], sphere->center[2], sphere->radius};
+  }
+  const auto& ground = std::get<GroundShape>(collider);
+  return {ground.normal[0], ground.normal[1], ground.normal[2], ground.height};
+}
+
+Collider collider_of(const std::string& kind, const std::array<double, columns_of_collider>& n) {
+  if (kind == "sphere") return SphereShape{.center = {n[0], n[1], n[2]}, .radius = n[3], .reach = n[3]};
+  return GroundShape{.normal = {n[0], n[1], n[2]}, .height = n[3]};
+}
+
+}  // namespace
+
+std::vector<std::string> collider_kinds(const std::vector<Collider>& colliders) {
+  std::vector<std::string> kinds;
+  for (const Collider& collider : colliders) {
+    kinds.emplace_back(std::holds_alternative<SphereShape>(collider) ? "sphere" : "ground");
+  }
+  return kinds;
+}
+
+std::string this_program() { return build_info().version + " (" + build_info().revision + ")"; }
+
+std::string pack_header(const MotionHeader& header) {
+  const Json json{{"program", header.program},
+                  {"name", header.name},
+                  {"scene", header.scene},
+                  {"files", header.files},
+                  {"physics", header.physics},
+                  {"step", header.step},
+                  {"steps", header.steps},
+                  {"every", header.recorded.every ? Json(*header.recorded.every) : Json("frames")},
+                  {"vertices", header.vertices},
+                  {"triangles", header.triangles},
+                  {"texture_coordinates", header.textured},
+                  {"colliders", header.colliders},
+                  {"group", states_in_group}};
+  return pack(json.dump(1, ' ', false, Json::error_handler_t::replace));
+}
+
+MotionHeader unpack_header(std::string_view payload) {
+  constexpr std::int64_t most_vertices = std::numeric_limits<int>::max() / 8;
+  MotionHeader header;
+  try {
+    const Json json = Json::parse(unpack(payload));
+    header.program = json.at("program").get<std::string>();
+    header.name = json.at("name").get<std::string>();
+    header.scene = json.at("scene").get<std::string>();
+    header.files = json.at("files").get<std::vector<std::string>>();
+    header.physics = json.at("physics").get<std::string>();
+    header.step = bounded(json, "step");
+    header.steps = count(json, "steps", 0, most_steps);
+    const bool of_frames = json.at("every") == "frames";
+    header.recorded.every = of_frames ? std::nullopt : std::optional(count(json, "every", 1, most_steps));
+    header.vertices = static_cast<int>(count(json, "vertices", 1, most_vertices));
+    header.triangles = static_cast<int>(count(json, "triangles", 0, most_vertices));
+    header.textured = json.at("texture_coordinates").get<bool>();
+    header.colliders = json.at("colliders").get<std::vector<std::string>>();
+    count(json, "group", states_in_group, states_in_group);
+  } catch (const Json::exception&) {
+    throw std::invalid_argument("has a head that is not what it should be");
+  }
+  for (const std::string& kind : header.colliders) {
+    if (kind != "sphere" && kind != "ground") throw std::invalid_argument("has a collider of an unknown kind");
+  }
+  return header;
+}
+
+std::string pack_rows(const std::vector<StepRow>& rows) {
+  std::vector<std::vector<double>> columns(own_columns + columns_of_collider * rows.front().colliders.size());
+  for (const StepRow& row : rows) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const std::array<double, own_columns> own{row.energies.kinetic,          row.energies.gravity,
+                                              row.energies.elastic,          static_cast<double>(row.iterations),
+                                              row.converged ? 1.0 : 0.0,     row.residual,
+                                              row.error.value_or(unknown),   static_cast<double>(row.substeps),
+                                              row.estimate.value_or(unknown)};
+    for (std::size_t k = 0; k < own.size(); ++k) columns[k].push_back(own[k]);
+    for (std::size_t c = 0; c < row.colliders.size(); ++c) {
+      const auto numbers = numbers_of(row.colliders[c]);
+      for (std::size_t k = 0; k < numbers.size(); ++k) {
+        columns[own_columns + columns_of_collider * c + k].push_back(numbers[k]);
+      }
+    }
+  }
+  std::vector<std::uint64_t> words;
+  for (const auto& column : columns) {
+    for (const double number : column) words.push_back(std::bit_cast<std::uint64_t>(number));
+  }
+  return ByteWriter()
+      .whole(static_cast<std::uint64_t>(rows.front().step))
+      .whole(rows.size())
+      .bytes(pack_planes(words))
+      .text();
+}
+
+std::vector<StepRow> unpack_rows(std::string_view payload, const MotionHeader& header) {
+  ByteReader reader(payload);
+  const std::uint64_t first = reader.whole(), size = reader.whole();
+  if (size > rows_in_block || first > static_cast<std::uint64_t>(most_steps)) {
+    throw std::invalid_argument("has rows that cannot be");
+  }
+  const std::size_t columns = own_columns + columns_of_collider * header.colliders.size();
+  const std::vector<std::uint64_t> words = unpack_planes(reader.rest(), columns * size);
+  std::vector<StepRow> rows(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto number = [&](std::size_t column) { return std::bit_cast<double>(words[column * size + i]); };
+    StepRow& row = rows[i];
+    row.step = static_cast<std::int64_t>(first + i);
+    row.energies = {.kinetic = number(0), .gravity = number(1), .elastic = number(2)};
+    if (!(number(3) >= 0 && number(3) < 1e9)) throw std::invalid_argument("has a number of iterations that cannot be");
+    row.iterations = static_cast<int>(number(3));
+    row.converged = number(4) != 0;
+    row.residual = number(5);
+    if (!std::isnan(number(6))) row.error = number(6);
+    if (!(number(7) >= 1 && number(7) < 1e9)) throw std::invalid_argument("has a number of substeps that cannot be");
+    row.substeps = static_cast<std::int64_t>(number(7));
+    if (!std::isnan(number(8))) row.estimate = number(8);
+    for (std::size_t c = 0; c < header.colliders.size(); ++c) {
+      const std::size_t at = own_columns + columns_of_collider * c;
+      row.colliders.push_back(
+          collider_of(header.colliders[c], {number(at), number(at + 1), number(at + 2), number(at + 3)}));
+    }
+  }
+  return rows;
+}
+
+std::string pack_surface(const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs) {
+  ByteWriter writer;
+  writer.bytes({reinterpret_cast<const char*>(triangles.data()), triangles.size() * sizeof(Triangle)});
+  writer.bytes({reinterpret_cast<const char*>(uvs.data()), uvs.size() * sizeof(std::array<float, 2>)});
+  return pack(writer.text());
+}
+
+}  // namespace drape

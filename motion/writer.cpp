@@ -1,0 +1,125 @@
+#include "motion/writer.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/file_identity.hpp"
+#include "core/read_file.hpp"
+#include "motion/checkpoint.hpp"
+#include "motion/packing.hpp"
+#include "scene/physics.hpp"
+
+namespace drape {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{1} << 31;  // of a file that a scene names
+
+MotionHeader complete(MotionHeader header, const Scene& scene) {
+  const Cloth& cloth = scene.simulation.cloth;
+  header.program = this_program();
+  header.name = scene.name;
+  header.scene = scene.portable.text;
+  for (const PortableScene::File& file : scene.portable.files) header.files.push_back(file.name);
+  header.physics = physics_hash(physics_values(scene));
+  header.step = scene.simulation.step;
+  header.vertices = cloth.vertex_count();
+  header.triangles = static_cast<int>(cloth.triangles.size());
+  header.textured = !scene.uvs.empty();
+  return header;
+}
+
+fs::path free_growing_name(const fs::path& file) {
+  require_not_growing(file);
+  if (file.has_parent_path()) fs::create_directories(file.parent_path());
+  fs::path growing = growing_name(file);
+  // Killed before there was anything to go on with, or right after the file was complete.
+  if (fs::exists(growing)) remove_unless_written(growing);
+  fs::remove(checkpoint_name(file));
+  return growing;
+}
+
+}  // namespace
+
+fs::path growing_name(const fs::path& file) { return file.string() + ".partial"; }
+fs::path checkpoint_name(const fs::path& file) { return file.string() + ".checkpoint"; }
+
+void require_not_growing(const fs::path& file) {
+  const fs::path growing = growing_name(file);
+  if (!fs::exists(growing) || !fs::exists(checkpoint_name(file))) return;
+  throw UsageError(fmt::format(
+      "{} is there, of a run that goes on or ended early: drape simulate --resume {} completes it; to begin anew, "
+      "remove it",
+      growing.string(), file.string()));
+}
+
+MotionFileWriter::MotionFileWriter(fs::path file, MotionHeader header, const Scene& scene)
+    : file_(std::move(file)),
+      blocks_(free_growing_name(file_), motion_magic),
+      header_(complete(std::move(header), scene)),
+      codec_(header_.vertices, header_.step) {
+  blocks_.add(header_tag, pack_header(header_));
+  for (const PortableScene::File& input : scene.portable.files) {
+    blocks_.add(file_tag, pack(read_file(input.place, most_bytes)));
+  }
+  blocks_.add(mesh_tag, pack_surface(scene.simulation.cloth.triangles, scene.uvs));
+}
+
+MotionFileWriter::MotionFileWriter(fs::path file, const Resumption& from)
+    : file_(std::move(file)),
+      blocks_(growing_name(file_), from.length),
+      header_(from.partial->header()),
+      codec_(from.partial->codec()),
+      rows_(from.rows),
+      state_index_(from.partial->state_index()),
+      rows_index_(from.partial->rows_index()) {}
+
+void MotionFileWriter::add(const StepRow& row) {
+  rows_.push_back(row);
+  if (rows_.size() == rows_in_block) write_rows();
+}
+
+void MotionFileWriter::add(const State& state) {
+  if (state_index_.size() / 2 % states_in_group == 0) codec_.begin_group();
+  const std::uint64_t begin = blocks_.add(state_tag, codec_.encode(state));
+  state_index_.insert(state_index_.end(), {static_cast<std::uint64_t>(state.step), begin});
+}
+
+void MotionFileWriter::write_rows() {
+  if (rows_.empty()) return;
+  const std::uint64_t begin = blocks_.add(rows_tag, pack_rows(rows_));
+  rows_index_.insert(rows_index_.end(), {static_cast<std::uint64_t>(rows_.front().step), begin});
+  rows_.clear();
+}
+
+void MotionFileWriter::keep(const Simulation::Checkpoint& checkpoint, std::span<const float> microseconds) {
+  blocks_.sync();
+  write_file_atomically(checkpoint_name(file_),
+                        pack_checkpoint(checkpoint, header_.step, blocks_.size(), rows_, microseconds));
+}
+
+void MotionFileWriter::discard() {
+  std::error_code ignored;
+  fs::remove(growing_name(file_), ignored);
+  fs::remove(checkpoint_name(file_), ignored);
+}
+
+std::uint64_t MotionFileWriter::finish() {
+  write_rows();
+  ByteWriter index;
+  index.whole(state_index_.size() / 2).whole(rows_index_.size() / 2);
+  for (const auto* part : {&state_index_, &rows_index_}) {
+    for (const std::uint64_t number : *part) index.whole(number);
+  }
+  const std::uint64_t begin = blocks_.add(index_tag, pack(index.text()));
+  blocks_.write(ByteWriter().whole(begin).bytes(motion_end).text());
+  blocks_.complete_as(link_target(file_));
+  std::error_code ignored;
+  fs::remove(checkpoint_name(file_), ignored);
+  return blocks_.size();
+}
+
+}  // namespace drape

@@ -1,0 +1,117 @@
+#include "scene/physics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/hash.hpp"
+#include "core/read_file.hpp"
+#include "scene/effects_reader.hpp"
+#include "scene/tables.hpp"
+#include "scene/value_text.hpp"
+
+namespace drape {
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{1} << 31;
+
+/// Of numbers that stand one after another.
+template <class Number>
+std::string hash_of(const Number* numbers, std::size_t count) {
+  Hash hash;
+  hash.add(numbers, count * sizeof(Number));
+  return hash.text();
+}
+
+std::string hash_of(const Vertices& v) { return hash_of(v.data(), static_cast<std::size_t>(v.size())); }
+
+std::string springs_text(const std::vector<Spring>& springs) {
+  Hash hash;
+  for (const Spring& spring : springs) {
+    hash.add(&spring.i, sizeof spring.i);
+    hash.add(&spring.j, sizeof spring.j);
+    hash.add(&spring.rest_length, sizeof spring.rest_length);
+    hash.add(&spring.stiffness, sizeof spring.stiffness);
+  }
+  return fmt::format("{} springs ({})", springs.size(), hash.text());
+}
+
+/// What is in a file. A pipe gives that only once.
+std::string file_text(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) return file.string();
+  Hash hash;
+  hash.add(drape::read_file(file, most_bytes));
+  return "a file (" + hash.text() + ")";
+}
+
+}  // namespace
+
+std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, const std::vector<ReadEffect>& effects,
+                                          const std::filesystem::path& folder) {
+  std::vector<SceneValue> values;
+  for (const TableType& table : tables) {
+    if (!table.name.starts_with("cloth") && table.name != "time" && table.name != "integrator") continue;
+    for (const Key& key : table.keys.all()) {
+      // A mesh and what is chosen of it is seen in the cloth that is made of it.
+      if (std::holds_alternative<OwnForm>(key.target) || (table.name == "time" && key.name == "duration")) continue;
+      values.push_back({table.name + "." + key.name, value_text(key.target)});
+    }
+  }
+  std::map<std::string_view, int> counts, numbers;
+  for (const ReadEffect& read : effects) ++counts[read.effect.name()];
+  for (const ReadEffect& read : effects) {
+    std::string name = "effects." + std::string(read.effect.name());
+    const int number = numbers[read.effect.name()]++;
+    if (counts[read.effect.name()] > 1) name += fmt::format(".{}", number);
+    values.push_back({name, "there"});
+    Effect effect = read.effect;
+    Keys keys;
+    effect.describe(keys);
+    for (const Key& key : keys.all()) {
+      const TomlTable* table = read.table->as<TomlTable>();
+      const TomlValue* given = table == nullptr ? nullptr : table->find(key.name);
+      const std::string* file = given == nullptr ? nullptr : given->as<std::string>();
+      const bool is_file = std::holds_alternative<OwnForm>(key.target) && file != nullptr;
+      values.push_back({name + "." + key.name, is_file ? file_text(folder / *file) : value_text(key.target)});
+    }
+  }
+  return values;
+}
+
+std::vector<SceneValue> physics_values(const Scene& scene) {
+  const Cloth& cloth = scene.simulation.cloth;
+  std::vector<SceneValue> values{
+      {"cloth.mesh", fmt::format("{} vertices ({}), {} triangles ({})", cloth.vertex_count(), hash_of(cloth.positions),
+                                 cloth.triangles.size(), hash_of(cloth.triangles.data(), cloth.triangles.size()))},
+      {"cloth.rest", springs_text(cloth.springs)},
+      {"cloth.pins", fmt::format("{} ({})", cloth.pins.size(), hash_of(cloth.pins.data(), cloth.pins.size()))}};
+  values.insert(values.end(), scene.tables.begin(), scene.tables.end());
+  return values;
+}
+
+std::string physics_hash(const std::vector<SceneValue>& values) {
+  Hash hash;
+  for (const SceneValue& value : values) hash.add(fmt::format("{}={}\n", value.key, value.text));
+  return hash.text();
+}
+
+std::string physics_difference(const std::vector<SceneValue>& a, const std::vector<SceneValue>& b,
+                               const std::string& name) {
+  const auto text_in = [](const std::vector<SceneValue>& values, const std::string& key) {
+    const auto found = std::ranges::find(values, key, &SceneValue::key);
+    return found == values.end() || found->text.empty() ? std::string("nothing") : found->text;
+  };
+  std::string text;
+  const auto add = [&](const std::string& key) {
+    const std::string in_a = text_in(a, key), in_b = text_in(b, key);
+    if (in_a != in_b) text += fmt::format("{}{}: {}, and {} in {}", text.empty() ? "" : "\n", key, in_a, in_b, name);
+  };
+  for (const SceneValue& value : a) add(value.key);
+  for (const SceneValue& value : b) {
+    if (std::ranges::find(a, value.key, &SceneValue::key) == a.end()) add(value.key);
+  }
+  return text;
+}
+
+}  // namespace drape

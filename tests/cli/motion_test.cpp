@@ -1,0 +1,263 @@
+// Motion files from the command line: recorded, killed, gone on with, drawn and read by somebody else.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+#include <regex>
+
+#include "motion/reader.hpp"
+#include "tests/cli/run_drape.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/methods.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+const std::filesystem::path source = DRAPE_SOURCE_DIR;
+
+bool is_there(const SceneFolder& folder, const std::string& name) { return std::filesystem::exists(folder.path(name)); }
+
+class HomeworkMotion : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Scene, HomeworkMotion, testing::Range(1, 6), testing::PrintToStringParamName());
+
+TEST_P(HomeworkMotion, IsDrawnAsTheSceneIs) {
+  const SceneFolder folder;
+  const std::string scene = (source / "scenes/homework" / (std::to_string(GetParam()) + ".toml")).string();
+  const std::string small = " --set video.size=[64,48] ";
+  EXPECT_EQ(drape(folder, "simulate " + scene + " -o m.drape").code, 0);
+  const Finished direct = drape(folder, "render " + scene + small + "-o direct.gif -o direct.obj");
+  const Finished later = drape(folder, "render m.drape" + small + "-o later.gif -o later.obj");
+  EXPECT_EQ(direct.code, 0) << direct.text;
+  EXPECT_EQ(later.code, 0) << later.text;
+  EXPECT_TRUE(content(folder.path("later.gif")) == content(folder.path("direct.gif")));
+  EXPECT_EQ(content(folder.path("later.obj")), content(folder.path("direct.obj")));
+}
+
+/// Its sphere follows a USD file, which the motion brings along.
+TEST(ShowcaseMotion, IsDrawnWhereItsFilesAreNot) {
+  const SceneFolder folder;
+  for (const std::string name : {"moving_sphere.toml", "swinging_sphere.usda"}) {
+    folder.write(name, content(source / "scenes/showcase" / name));
+  }
+  const std::string small = " --set video.size=[64,48] --frames 20..30 ";
+  EXPECT_EQ(drape(folder, "simulate moving_sphere.toml -o m.drape").code, 0);
+  EXPECT_EQ(drape(folder, "render moving_sphere.toml" + small + "-o direct.gif").code, 0);
+  std::filesystem::remove(folder.path("moving_sphere.toml"));
+  std::filesystem::remove(folder.path("swinging_sphere.usda"));
+  const Finished later = drape(folder, "render m.drape" + small + "-o later.gif");
+  EXPECT_EQ(later.code, 0) << later.text;
+  EXPECT_TRUE(content(folder.path("later.gif")) == content(folder.path("direct.gif")));
+}
+
+/// Everything acts, for long enough to be killed within it.
+std::string long_scene(const NamedMethod& method) {
+  std::string text =
+      "[cloth]\nmesh = { grid = [10, 10] }\nstiffness = 50\npins = [0, 10]\n[time]\nstep = 0.005\nduration = 3\n"
+      "[integrator]\nmethod = \"" +
+      std::string(method_names[static_cast<std::size_t>(method.method)]) + "\"\n";
+  if (!method.is_explicit()) text += "scheme = \"" + scheme_name(method.scheme) + "\"\n";
+  return text +
+         "[effects.gravity]\n[effects.air]\nvelocity = [1, 2, 0]\ngust = 1\n[effects.damping]\nfactor = 0.5\n"
+         "[effects.moving_pins]\npins = [0, 10]\nkeyframes = [{ time = 1, offset = [0, 0, 0.2] }]\nrelease = 2\n"
+         "[effects.sphere]\nkeyframes = [{ time = 0, center = [0, 0, -0.4] }, { time = 2, center = [0, 0.5, -0.2] }]\n"
+         "radius = 0.3\n[effects.ground]\nheight = -0.6\nfriction = 0.2\n[effects.strain_limit]\nmax_stretch = 1.1\n"
+         "[effects.self_collision]\nthickness = 0.02\n[effects.bending]\nrigidity = 1e-4\n";
+}
+
+/// Starts drape, and sends it a signal so many seconds after it has begun to record, if it is not over by then.
+Finished signal_after(const SceneFolder& folder, const std::string& arguments, double seconds,
+                      const std::string& name) {
+  return run_shell(folder, std::string("{ ") + DRAPE_EXECUTABLE + " " + arguments +
+                               " & p=$!; until [ -e m.drape.checkpoint ] || ! kill -0 $p; do sleep 0.01; done; sleep " +
+                               std::to_string(seconds) + "; kill -" + name + " $p; wait $p; }");
+}
+
+/// Kills a run again and again until it comes to its end.
+void expect_same_after_kills(const NamedMethod& method, int kills) {
+  const SceneFolder folder;
+  folder.write("scene.toml", long_scene(method));
+  ASSERT_EQ(drape(folder, "simulate scene.toml -o whole.drape --energies whole.csv").code, 0);
+  std::mt19937 random(static_cast<unsigned>(kills));
+  std::uniform_real_distribution<double> moment(0, 0.15);
+  signal_after(folder, "simulate scene.toml -o m.drape --checkpoint 0.02", moment(random), "KILL");
+  for (int k = 1; k < kills && !is_there(folder, "m.drape"); ++k) {
+    signal_after(folder, "simulate --resume m.drape --checkpoint 0.02", moment(random), "KILL");
+  }
+  if (!is_there(folder, "m.drape")) {
+    const Finished ended = drape(folder, "simulate --resume m.drape --energies parts.csv");
+    EXPECT_EQ(ended.code, 0) << ended.text;
+    EXPECT_EQ(content(folder.path("parts.csv")), content(folder.path("whole.csv")));
+  }
+  EXPECT_TRUE(content(folder.path("m.drape")) == content(folder.path("whole.drape"))) << method.name;
+  EXPECT_FALSE(is_there(folder, "m.drape.partial"));
+  EXPECT_FALSE(is_there(folder, "m.drape.checkpoint"));
+}
+
+TEST(KilledRun, ComesToTheSameBytes) {
+  for (const int k : {0, 4, 8}) expect_same_after_kills(all_methods[static_cast<std::size_t>(k)], 3);
+}
+
+class ManyKills : public testing::TestWithParam<NamedMethod> {};
+INSTANTIATE_TEST_SUITE_P(Nightly, ManyKills, testing::ValuesIn(all_methods), method_name);
+TEST_P(ManyKills, ComeToTheSameBytes) { expect_same_after_kills(GetParam(), 20); }
+
+TEST(InterruptedRun, SaysHowItGoesOn) {
+  const SceneFolder folder;
+  folder.write("scene.toml", long_scene(all_methods[4]));
+  const Finished begun = signal_after(folder, "simulate scene.toml --steps 4000 -o m.drape", 0.3, "INT");
+  EXPECT_EQ(begun.code, 130);
+  EXPECT_NE(
+      begun.text.find("of 4000 steps; m.drape.partial has what there is of the motion, and drape simulate --resume "
+                      "m.drape goes on"),
+      std::string::npos)
+      << begun.text;
+  const Finished anew = drape(folder, "simulate scene.toml -o m.drape");
+  EXPECT_EQ(anew.code, 2);
+  EXPECT_NE(anew.text.find("drape simulate --resume m.drape completes it; to begin anew, remove it"),
+            std::string::npos);
+  const Finished drawn = drape(folder, "render m.drape.partial -o x.gif");
+  EXPECT_EQ(drawn.code, 2);
+  EXPECT_EQ(drawn.text,
+            "drape: m.drape.partial is not complete: drape simulate --resume m.drape.partial goes on with it\n");
+}
+
+TEST(RecordedRun, KeepsItsMemoryWhateverItsLength) {
+  const SceneFolder folder;
+  folder.write("scene.toml",
+               "[cloth]\nmesh = { grid = [30, 30] }\nstiffness = 10\npins = [0]\n[time]\nstep = 0.001\nduration = 3\n"
+               "[integrator]\nmethod = \"semi-implicit\"\n[effects.gravity]\n");
+  ASSERT_EQ(drape(folder, "simulate scene.toml --steps 10 -o short.drape").code, 0);
+  ASSERT_EQ(drape(folder, "simulate scene.toml --steps 1500 -o long.drape").code, 0);
+  if (std::system("python3 -c '' 2>/dev/null") != 0) GTEST_SKIP() << "there is no python3";
+  folder.write("memory.py",
+               "import resource, subprocess, sys\nsubprocess.run(sys.argv[1:], check=True, stderr=subprocess.DEVNULL)\n"
+               "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)\n");
+  // The most that it has had in memory [kB].
+  const auto memory = [&](const std::string& name) {
+    const Finished finished =
+        run_shell(folder, "python3 memory.py " DRAPE_EXECUTABLE " render " + name + " --every 1 -o " + name + ".obj");
+    return std::atof(finished.text.c_str());
+  };
+  const double small = memory("short.drape"), large = memory("long.drape");
+  const double size = static_cast<double>(std::filesystem::file_size(folder.path("long.drape"))) / 1024;
+  ASSERT_GT(small, 1000);
+  EXPECT_GT(size, 20000) << "kB of file, so that it would be seen";
+  EXPECT_LT(large, small + 0.3 * size);
+}
+
+/// A Python with numpy; empty if there is none.
+std::string python_with_numpy() {
+  for (const std::string python : {"python3", "/usr/bin/python3"}) {
+    if (std::system((python + " -c 'import numpy' 2>/dev/null").c_str()) == 0) return python;
+  }
+  return {};
+}
+
+/// The page's own reader, by whoever has Python and numpy.
+TEST(PagesReader, ReadsWhatDrapeDoes) {
+  const std::string python = python_with_numpy();
+  if (python.empty()) GTEST_SKIP() << "there is no python3 with numpy";
+  const SceneFolder folder;
+  folder.write("scene.toml", long_scene(all_methods[4]));
+  const std::string page = content(source / "docs/motion-file.md"), fence = "```python\n";
+  const std::size_t begin = page.find(fence) + fence.size();
+  folder.write("reader.py",
+               page.substr(begin, page.find("```", begin) - begin) +
+                   "import sys\nm = Motion(sys.argv[1])\nout = open('read.bin', 'wb')\n"
+                   "for step, x, v in m:\n  out.write(struct.pack('<q', step) + x.T.tobytes() + v.T.tobytes())\n"
+                   "out.write(m.rows()[:, :4].astype('<f8').tobytes())\n"
+                   "t, uv = m.surface()\nout.write(t.tobytes() + uv.tobytes())\n");
+  for (const std::string options : {"--steps 100", "--steps 80 --every 7", "--steps 80 --every frames",
+                                    "--steps 70 --set integrator.method=verlet --set time.step=0.0005",
+                                    "--steps 40 --set integrator.scheme=sdirk2"}) {
+    ASSERT_EQ(drape(folder, "simulate scene.toml -o m.drape " + options).code, 0) << options;
+    const Finished read = run_shell(folder, python + " reader.py m.drape");
+    EXPECT_EQ(read.text, "") << options;
+    MotionReader motion(folder.path("m.drape"));
+    std::string expected;
+    const auto add = [&](const void* bytes, std::size_t size) {
+      expected.append(static_cast<const char*>(bytes), size);
+    };
+    for (std::size_t i = 0; i < motion.states(); ++i) {
+      const State& state = motion.state(i);
+      add(&state.step, sizeof state.step);
+      add(state.x.data(), static_cast<std::size_t>(state.x.size()) * sizeof(double));
+      add(state.v.data(), static_cast<std::size_t>(state.v.size()) * sizeof(double));
+    }
+    for (std::int64_t i = 0; i < motion.rows(); ++i) {
+      const StepRow& row = motion.row(i);
+      const std::array<double, 4> numbers{row.energies.kinetic, row.energies.gravity, row.energies.elastic,
+                                          static_cast<double>(row.iterations)};
+      add(numbers.data(), sizeof numbers);
+    }
+    const Mesh mesh = make_grid(10, 10);
+    add(mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle));
+    add(mesh.uvs.data(), mesh.uvs.size() * sizeof mesh.uvs[0]);
+    EXPECT_TRUE(content(folder.path("read.bin")) == expected) << options;
+    std::filesystem::remove(folder.path("m.drape"));
+  }
+}
+
+TEST(MotionOnTheCommandLine, SaysWhatIsWrong) {
+  const SceneFolder folder;
+  folder.write("scene.toml", swinging_scene);
+  folder.write("other.toml", std::regex_replace(swinging_scene, std::regex("stiffness = 50"), "stiffness = 60"));
+  folder.write("look.toml", swinging_scene + "[look]\ncolor = \"red\"\n[video]\nfps = 10\nsize = [64, 48]\n");
+  ASSERT_EQ(drape(folder, "--quiet simulate scene.toml -o m.drape").text, "");
+  const auto text = [&](const std::string& arguments, int code = 2) {
+    const Finished finished = drape(folder, "--quiet " + arguments);
+    EXPECT_EQ(finished.code, code) << arguments;
+    return finished.text;
+  };
+  EXPECT_EQ(text("simulate m.drape"),
+            "drape: m.drape is a motion already: drape render draws it, drape simulate computes one\n");
+  EXPECT_EQ(text("render m.drape --energies e.csv"),
+            "drape: --energies is written by a simulation, and m.drape is only read: ask drape simulate for it\n");
+  EXPECT_EQ(text("render m.drape -o n.drape"), "drape: -o n.drape: m.drape is a motion file already\n");
+  EXPECT_EQ(text("render m.drape --steps 30"), "drape: --steps 30: m.drape has 20\n");
+  const std::string other = text("render m.drape --scene other.toml");
+  EXPECT_TRUE(
+      other.starts_with("drape: m.drape holds another motion than other.toml would give: simulate anew, or leave "
+                        "these as they are\ndrape: cloth.rest: "))
+      << other;
+  EXPECT_NE(other.find("drape: cloth.stiffness: 50, and 60 in other.toml\n"), std::string::npos) << other;
+  EXPECT_NE(text("render m.drape --set cloth.stiffness=60").find("cloth.stiffness: 50, and 60 in --set"),
+            std::string::npos);
+  EXPECT_EQ(text("render m.drape --set look.colour=red"),
+            "drape: --set look.colour=red: unknown key 'colour' in [look]; did you mean 'color'?\n");
+  EXPECT_EQ(text("simulate scene.toml -o a.drape -o b.drape"),
+            "drape: -o a.drape and -o b.drape: a run writes one motion file\n");
+  EXPECT_EQ(text("simulate scene.toml -o a.drape --every 0"),
+            "drape: --every takes a number of steps from 1 on, or frames, found '0'\n");
+  EXPECT_EQ(text("simulate scene.toml -o {frame}.drape"),
+            "drape: '{frame}.drape' is one file for the whole run: it cannot hold {frame}\n");
+  EXPECT_EQ(text("simulate"), "drape: SCENE is required; see drape --help\n");
+  EXPECT_EQ(text("simulate --resume m.gif"),
+            "drape: --resume m.gif: expected the name of a motion file, as in motion.drape\n");
+  EXPECT_EQ(text("simulate --resume n.drape"), "drape: n.drape: there is nothing to go on with: no n.drape.partial\n");
+  EXPECT_NE(text("simulate scene.toml --resume m.drape").find("takes no SCENE"), std::string::npos);
+  EXPECT_EQ(text("simulate --resume m.drape", 0), "");
+  EXPECT_EQ(drape(folder, "simulate --resume m.drape.partial").text, "drape: m.drape.partial is complete\n");
+  EXPECT_EQ(text("render m.drape --scene look.toml -o red.gif", 0), "");
+  EXPECT_EQ(text("render look.toml -o direct.gif", 0), "");
+  EXPECT_EQ(content(folder.path("red.gif")), content(folder.path("direct.gif")));
+  EXPECT_EQ(text("render m.drape --set look.color=red --set video.fps=10 --set video.size=[64,48] -o set.gif", 0), "");
+  EXPECT_EQ(content(folder.path("set.gif")), content(folder.path("direct.gif")));
+}
+
+TEST(MotionOnTheCommandLine, WarnsOfGaps) {
+  const SceneFolder folder;
+  folder.write("scene.toml", swinging_scene);
+  ASSERT_EQ(drape(folder, "simulate scene.toml -o m.drape --every 10").code, 0);
+  const Finished rendered = drape(folder, "render m.drape -o x{frame}.obj");
+  EXPECT_EQ(rendered.code, 0);
+  EXPECT_NE(
+      rendered.text.find("m.drape: 8 frames lie between states that are more than a step apart, and are interpolated"),
+      std::string::npos)
+      << rendered.text;
+}
+
+}  // namespace
+}  // namespace drape::test

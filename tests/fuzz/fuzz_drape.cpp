@@ -1,0 +1,83 @@
+// Motion files: as the bytes of one, and as one made of their parts, since hardly any change of bytes that have a
+// checksum and are packed can be read.
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "motion/block_writer.hpp"
+#include "motion/packing.hpp"
+#include "motion/reader.hpp"
+#include "tests/fuzz/accepts_or_refuses.hpp"
+
+namespace {
+
+/// The reader takes a file.
+class File {
+ public:
+  ~File() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  const std::filesystem::path& put(std::string_view bytes) {
+    std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
+    return path_;
+  }
+
+ private:
+  std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() / ("drape-fuzz-" + std::to_string(getpid()) + ".drape");
+};
+
+void read(std::string_view bytes) {
+  static File file;
+  drape::accepts_or_refuses([&] {
+    drape::MotionReader motion(file.put(bytes));
+    for (std::size_t k = 0; k < motion.header().files.size(); ++k) static_cast<void>(motion.scene_file(k));
+    for (std::size_t i = 0; i < motion.states(); ++i) {
+      const drape::State& state = motion.state(i);
+      if (state.step != motion.step(i) || state.x.rows() != motion.header().vertices) std::abort();
+      if (!state.x.allFinite() || !state.v.allFinite()) std::abort();
+    }
+    for (std::int64_t step = 0; step < motion.rows(); ++step) {
+      if (motion.row(step).step != step) std::abort();
+    }
+  });
+}
+
+/// A file of parts that say their tag in four bytes and their size in one: blocks with checksums, packed as they should
+/// be. What is "INDX" becomes the index of the blocks before it.
+std::string assembled(std::string_view parts) {
+  std::string bytes = drape::motion_magic;
+  std::uint64_t index = 0;
+  drape::ByteWriter states, rows;
+  std::uint64_t state_count = 0, rows_count = 0;
+  while (parts.size() > 5) {
+    const std::string_view tag = parts.substr(0, 4);
+    const std::string_view payload = parts.substr(5, static_cast<unsigned char>(parts[4]));
+    parts.remove_prefix(5 + payload.size());
+    std::string packed = drape::pack(payload);
+    if ((tag == drape::state_tag || tag == drape::rows_tag) && payload.size() >= 16) {
+      packed = std::string(payload.substr(0, 16)) + drape::pack(payload.substr(16));
+      const bool state = tag == drape::state_tag;
+      (state ? states : rows).bytes(payload.substr(0, 8)).whole(bytes.size());
+      ++(state ? state_count : rows_count);
+    } else if (tag == drape::index_tag) {
+      index = bytes.size();
+      packed = drape::pack(
+          drape::ByteWriter().whole(state_count).whole(rows_count).bytes(states.text()).bytes(rows.text()).text());
+    }
+    bytes += drape::block_head(tag, packed) + packed;
+  }
+  return bytes + drape::ByteWriter().whole(index).bytes(drape::motion_end).text();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  read(bytes);
+  read(assembled(bytes));
+  return 0;
+}

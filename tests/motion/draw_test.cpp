@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include "run/motion_frames.hpp"
+#include "run/motion_space.hpp"
+#include "run/outputs.hpp"
+#include "run/run_steps.hpp"
+#include "tests/motion/recorded.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+std::vector<Frame> simulated(const Scene& scene, const FilmExtent& extent) {
+  std::vector<Frame> frames;
+  FrameSampler sampler(
+      extent, [&](Frame frame) { frames.push_back(std::move(frame)); }, FrameContents::motion);
+  Simulation simulation(scene.simulation);
+  run_steps(simulation, extent.steps, std::array<StepObserver*, 1>{&sampler}, {});
+  return frames;
+}
+
+std::vector<Frame> recorded(const std::string& file, const Scene& scene, const FilmExtent& extent) {
+  std::vector<Frame> frames;
+  MotionReader motion(file);
+  sample_motion(motion, scene, extent, FrameContents::motion, [&](Frame frame) { frames.push_back(std::move(frame)); },
+                {});
+  return frames;
+}
+
+void expect_same(const std::vector<Frame>& frames, const std::vector<Frame>& expected) {
+  ASSERT_EQ(frames.size(), expected.size());
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    EXPECT_EQ(frames[k].index, expected[k].index);
+    EXPECT_EQ(frames[k].time, expected[k].time);
+    EXPECT_TRUE(same_bits(frames[k].positions, expected[k].positions)) << k;
+    EXPECT_TRUE(same_bits(frames[k].velocities, expected[k].velocities)) << k;
+    EXPECT_EQ(frames[k].energies->elastic, expected[k].energies->elastic);
+    EXPECT_EQ(std::get<SphereShape>(frames[k].colliders[0]).center,
+              std::get<SphereShape>(expected[k].colliders[0]).center);
+  }
+}
+
+TEST(RecordedFrames, AreThoseOfTheSimulation) {
+  const SceneFolder folder;
+  const Scene scene = folder.load(recorded_scene);
+  record(scene, folder.path("m.drape"));
+  for (const double fps : {20.0, 50.0, 7.3, 200.0}) {
+    for (const std::optional<FrameRange> range : {std::optional<FrameRange>(), std::optional(FrameRange{3, 5})}) {
+      Video video = scene.video;
+      video.fps = fps;
+      const FilmExtent extent(video, scene.simulation.step, scene.step_count(), range);
+      expect_same(recorded(folder.path("m.drape"), scene, extent), simulated(scene, extent));
+    }
+  }
+  const FilmExtent steps(scene.video, scene.simulation.step, scene.step_count(), {}, 7);
+  expect_same(recorded(folder.path("m.drape"), scene, steps), simulated(scene, steps));
+}
+
+TEST(RecordedFrames, AreThoseOfTheSimulationWhereOnlyWhatTheyNeedIsRecorded) {
+  for (const std::string fps : {"20", "50", "7.3", "200"}) {
+    const SceneFolder folder;
+    const Scene scene = folder.load(recorded_scene, {"video.fps=" + fps});
+    RunOptions options;
+    options.motion = MotionOptions{.recorded = {.every = std::nullopt}};
+    record(scene, folder.path("m.drape"), options);
+    const FilmExtent extent = film_extent(scene, {});
+    expect_same(recorded(folder.path("m.drape"), scene, extent), simulated(scene, extent));
+    EXPECT_EQ(frames_in_gaps(MotionReader(folder.path("m.drape")), extent), 0);
+  }
+}
+
+TEST(RecordedFrames, AreCountedWhereTheyAreMissing) {
+  const SceneFolder folder;
+  const Scene scene = folder.load(recorded_scene);
+  RunOptions options;
+  options.motion = MotionOptions{.recorded = {.every = 5}};
+  record(scene, folder.path("m.drape"), options);
+  // Frame k is at step 2.5 k: the odd ones fall between.
+  EXPECT_EQ(frames_in_gaps(MotionReader(folder.path("m.drape")), film_extent(scene, {})), 10);
+  EXPECT_EQ(recorded(folder.path("m.drape"), scene, film_extent(scene, {})).size(), 21u);
+}
+
+/// Pictures from a motion file, whose camera is found without another simulation.
+TEST(RecordedFrames, AreDrawnAsTheSimulationsAre) {
+  const SceneFolder folder;
+  const Scene scene = folder.load(recorded_scene);
+  record(scene, folder.path("m.drape"));
+  RunOptions options;
+  options.outputs = {folder.path("direct.gif"), folder.path("direct.npz")};
+  Progress progress;
+  run_scene(scene, options, {}, progress);
+  options.outputs = {folder.path("later.gif"), folder.path("later.npz")};
+  options.recorded = std::make_shared<MotionReader>(folder.path("m.drape"));
+  const RunResult result = run_scene(scene, options, {}, progress);
+  EXPECT_TRUE(result.recorded);
+  EXPECT_EQ(result.outcome, Outcome::completed);
+  EXPECT_EQ(result.frames, 21);
+  EXPECT_EQ(result.statistics.steps(), 0);
+  EXPECT_TRUE(content(folder.path("later.gif")) == content(folder.path("direct.gif")));
+  EXPECT_TRUE(content(folder.path("later.npz")) == content(folder.path("direct.npz")));
+}
+
+TEST(MotionSpace, IsNoLessThanWhatAFileTakes) {
+  const SceneFolder folder;
+  const Scene scene = folder.load(recorded_scene, {"cloth.mesh={grid=[20,20]}", "time.duration=3"});
+  for (const std::optional<std::int64_t> every :
+       {std::optional<std::int64_t>(1), std::optional<std::int64_t>(10), std::optional<std::int64_t>()}) {
+    RunOptions options;
+    options.motion = MotionOptions{.path = folder.path("m.drape"), .recorded = {every}};
+    const MotionSpace space = motion_space(scene, options);
+    record(scene, folder.path("m.drape"), options);
+    const auto size = static_cast<double>(std::filesystem::file_size(folder.path("m.drape")));
+    EXPECT_LE(size, space.most);
+    EXPECT_LE(size, 1.2 * space.expected);
+    EXPECT_GE(size, 0.3 * space.expected);
+    EXPECT_GT(space.free, 0);
+  }
+}
+
+TEST(MotionSpace, IsAskedForBeforeARun) {
+  const SceneFolder folder;
+  const MotionOptions options{.path = folder.path("m.drape")};
+  EXPECT_NO_THROW(require_motion_file(options, {.expected = 4e9, .most = 9e9, .free = 5e9}, false));
+  const std::string message = folder.without_folder(
+      usage_error([&] { require_motion_file(options, {.expected = 6e9, .most = 9e9, .free = 5e6}, false); }));
+  EXPECT_EQ(
+      message,
+      "m.drape will take about 6 GB (9 GB at most), and 5 MB are free there: make room, or take fewer states with "
+      "--every frames or --every N, or a shorter [time] duration");
+}
+
+}  // namespace
+}  // namespace drape::test

@@ -1,0 +1,197 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "run/run_steps.hpp"
+#include "tests/motion/recorded.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+/// Every state and row of a scene's motion, from its simulation.
+struct Straight final : StepObserver {
+  std::vector<State> states;
+  std::vector<Energies> energies;
+  std::vector<int> iterations;
+
+  explicit Straight(const Scene& scene) {
+    Simulation simulation(scene.simulation);
+    run_steps(simulation, scene.step_count(), std::array<StepObserver*, 1>{this}, {});
+  }
+  void begin(const Simulation& simulation) override { add(simulation, 0); }
+  void after_step(const Simulation& simulation, const StepReport& report, double) override {
+    add(simulation, report.iterations);
+  }
+  void add(const Simulation& simulation, int count) {
+    states.push_back(simulation.state());
+    energies.push_back(simulation.energies());
+    iterations.push_back(count);
+  }
+};
+
+TEST(MotionFile, HoldsEveryStepToTheBit) {
+  const SceneFolder folder;
+  const Scene scene = folder.load(recorded_scene);
+  const RunResult result = record(scene, folder.path("m.drape"));
+  ASSERT_TRUE(result.motion && result.motion->complete);
+  EXPECT_EQ(result.motion->complete->size, std::filesystem::file_size(folder.path("m.drape")));
+  EXPECT_EQ(folder.file_count(), 2u) << "the scene and the motion";
+
+  const Straight straight(scene);
+  MotionReader motion(folder.path("m.drape"));
+  ASSERT_EQ(motion.states(), 51u);
+  ASSERT_EQ(motion.rows(), 51);
+  for (std::size_t i = 0; i < 51; ++i) {
+    EXPECT_TRUE(same_bits(motion.state(i).x, straight.states[i].x)) << i;
+    EXPECT_TRUE(same_bits(motion.state(i).v, straight.states[i].v)) << i;
+    const StepRow& row = motion.row(static_cast<std::int64_t>(i));
+    EXPECT_EQ(row.energies.elastic, straight.energies[i].elastic);
+    EXPECT_EQ(row.energies.kinetic, straight.energies[i].kinetic);
+    EXPECT_EQ(row.energies.gravity, straight.energies[i].gravity);
+    EXPECT_EQ(row.iterations, straight.iterations[i]);
+    ASSERT_EQ(row.colliders.size(), 1u);
+    const Eigen::Vector3d center = std::get<SphereShape>(row.colliders[0]).center;
+    EXPECT_EQ(center, (Eigen::Vector3d(0.1, 0.2, 0) * (static_cast<double>(i) * 0.02) + Eigen::Vector3d(0, 0, -0.5)));
+  }
+}
+
+TEST(MotionFile, CanBeReadInAnyOrder) {
+  const SceneFolder folder;
+  record(folder.load(recorded_scene), folder.path("m.drape"));
+  MotionReader inwards(folder.path("m.drape")), forwards(folder.path("m.drape"));
+  std::vector<Vertices> places;
+  for (std::size_t i = 0; i < forwards.states(); ++i) places.push_back(forwards.state(i).x);
+  for (std::size_t i = places.size(); i-- > 0;) EXPECT_TRUE(same_bits(inwards.state(i).x, places[i])) << i;
+  for (const std::size_t i : {40, 2, 33, 31, 32, 0}) EXPECT_TRUE(same_bits(inwards.state(i).x, places[i])) << i;
+}
+
+TEST(MotionFile, HoldsEveryNthStepAndTheLast) {
+  const SceneFolder folder;
+  const Scene scene = folder.load(recorded_scene);
+  RunOptions options;
+  options.motion = MotionOptions{.recorded = {.every = 20}};
+  record(scene, folder.path("m.drape"), options);
+  const Straight straight(scene);
+  MotionReader motion(folder.path("m.drape"));
+  ASSERT_EQ(motion.states(), 4u);
+  EXPECT_EQ(motion.rows(), 51) << "energies and iterations of every step";
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(motion.step(i), (std::array{0, 20, 40, 50})[i]);
+    EXPECT_TRUE(same_bits(motion.state(i).x, straight.states[static_cast<std::size_t>(motion.step(i))].x));
+  }
+}
+
+/// 20 frames in a second of 50 steps: frame k is at step 2.5 k, so of five steps it needs those at 0, 2 and 3.
+TEST(MotionFile, HoldsWhatFramesNeed) {
+  const SceneFolder folder;
+  RunOptions options;
+  options.motion = MotionOptions{.recorded = {.every = std::nullopt}};
+  record(folder.load(recorded_scene), folder.path("m.drape"), options);
+  const MotionReader motion(folder.path("m.drape"));
+  ASSERT_EQ(motion.states(), 31u);
+  for (std::size_t i = 0; i < 31; ++i) EXPECT_EQ(motion.step(i) % 5, (std::array{0, 2, 3})[i % 3]);
+}
+
+TEST(MotionFile, IsTheSameBytesEveryTime) {
+  const SceneFolder folder;
+  const Scene scene = folder.load(recorded_scene);
+  record(scene, folder.path("a.drape"));
+  record(scene, folder.path("b.drape"));
+  EXPECT_TRUE(content(folder.path("a.drape")) == content(folder.path("b.drape")));
+}
+
+TEST(MotionFile, KeepsTheFilesOfItsScene) {
+  const SceneFolder folder;
+  folder.write("meshes/sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+  const Scene scene = folder.load(
+      "[cloth]\nmesh = \"meshes/sheet.obj\"\nstiffness = 10\npins = [0]\n[time]\nstep = 0.01\nduration = 0.1\n"
+      "[effects.gravity]\n[look]\ntexture = \"plaid.png\"\n[check]\nframes = [1]\n",
+      {"cloth.mass=2"});
+  record(scene, folder.path("m.drape"));
+  std::filesystem::remove_all(folder.path("meshes"));
+  const MotionReader motion(folder.path("m.drape"));
+  const MotionScene own(motion);
+  EXPECT_EQ(own.scene().simulation.cloth.masses.sum(), 2);
+  EXPECT_TRUE(same_bits(own.scene().simulation.cloth.positions, scene.simulation.cloth.positions));
+  EXPECT_EQ(own.scene().uvs, scene.uvs);
+  EXPECT_EQ(content(own.scene().look.texture), content(scene.look.texture));
+  EXPECT_NE(content(own.scene().look.texture), "");
+}
+
+/// Everything of a motion file is read.
+void read_all(const std::string& file) {
+  MotionReader motion(file);
+  for (std::size_t i = 0; i < motion.states(); ++i) motion.state(i);
+  for (std::int64_t i = 0; i < motion.rows(); ++i) motion.row(i);
+  const MotionScene scene(motion);
+}
+
+class DamagedMotion : public testing::Test {
+ protected:
+  DamagedMotion() {
+    folder_.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    record(folder_.load("[cloth]\nmesh = \"t.obj\"\nstiffness = 10\n[time]\nstep = 0.01\nduration = 0.05\n"
+                        "[effects.gravity]\n"),
+           folder_.path("good.drape"));
+    good_ = content(folder_.path("good.drape"));
+  }
+  [[nodiscard]] std::string error_of(const std::string& bytes) const {
+    std::ofstream(folder_.path("bad.drape"), std::ios::binary) << bytes;
+    return folder_.without_folder(usage_error([&] { read_all(folder_.path("bad.drape")); }));
+  }
+  SceneFolder folder_;
+  std::string good_;
+};
+
+TEST_F(DamagedMotion, IsRefusedWhereverItIsCutShort) {
+  EXPECT_EQ(error_of(good_), "(no error)");
+  for (std::size_t size = 0; size < good_.size(); ++size) {
+    const std::string message = error_of(good_.substr(0, size));
+    ASSERT_TRUE(message.starts_with("bad.drape: ")) << size << ": " << message;
+    ASSERT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST_F(DamagedMotion, IsRefusedWhicheverByteIsAnother) {
+  for (std::size_t i = 0; i < good_.size(); ++i) {
+    std::string bytes = good_;
+    bytes[i] = static_cast<char>(bytes[i] ^ (1 << (i % 8)));
+    const std::string message = error_of(bytes);
+    ASSERT_TRUE(message.starts_with("bad.drape: ")) << "byte " << i << ": " << message;
+    ASSERT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST_F(DamagedMotion, SaysWhatItIs) {
+  EXPECT_EQ(error_of("drape recorded motion 2\n"),
+            "bad.drape: this is a motion of version 2, and this drape reads version 1");
+  EXPECT_EQ(error_of("solid cube\n"), "bad.drape: this is no motion of drape's");
+  EXPECT_EQ(error_of(good_.substr(0, good_.size() - 1)), "bad.drape: the file is cut short: it has no end");
+  EXPECT_EQ(usage_error([] { read_all("/nowhere/m.drape"); }), "/nowhere/m.drape: no such file");
+  EXPECT_EQ(folder_.without_folder(usage_error([&] { read_all(folder_.path().string()); })).substr(0, 4), "/tmp");
+}
+
+TEST_F(DamagedMotion, OfAnotherSceneIsRefused) {
+  const SceneFolder folder;
+  const Scene scene = folder.load(recorded_scene);
+  const auto error = [&](const std::vector<std::string>& overrides) {
+    return usage_error(
+        [&] { require_same_physics("m.drape", scene, folder.load(recorded_scene, overrides), "look.toml"); });
+  };
+  EXPECT_EQ(error({}), "(no error)");
+  EXPECT_EQ(error({"look.color=red", "video.fps=3", "camera.azimuth=10", "time.duration=3"}), "(no error)");
+  EXPECT_EQ(error({"cloth.mass=1"}), "(no error)") << "the default";
+  EXPECT_EQ(error({"effects.sphere.radius=0.25", "integrator.tolerance=1e-5", "cloth.mass=2"}),
+            "m.drape holds another motion than look.toml would give: simulate anew, or leave these as they are\n"
+            "cloth.mass: 1, and 2 in look.toml\n"
+            "integrator.tolerance: nothing, and 1e-05 in look.toml\n"
+            "effects.sphere.radius: 0.3, and 0.25 in look.toml");
+  EXPECT_NE(error({"cloth.mesh={grid=[5,5]}"}).find("cloth.mesh: 30 vertices"), std::string::npos);
+  EXPECT_NE(error({"effects.wind.acceleration=[1,0,0]"}).find("effects.wind: nothing, and there in look.toml"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace drape::test
