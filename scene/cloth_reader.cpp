@@ -108,9 +108,15 @@ std::string difference(const Mesh& rest, const Mesh& mesh) {
   return {};
 }
 
+/// Whether a value is a table with this key.
+bool says(const TomlValue& value, const char* key) {
+  const TomlTable* table = value.as<TomlTable>();
+  return table != nullptr && table->find(key) != nullptr;
+}
+
 /// Gives a cloth the masses and stiffnesses that its table asks for by area; false if there were problems.
 bool give_material(const ClothTable& table, const TomlValue& value, Cloth& cloth, Problems& problems) {
-  const auto by_area = [&](const char* key, const auto& one, const auto& other, double of_fabric, const auto& give) {
+  const auto by_area = [&](const char* key, bool one, const auto& other, double of_fabric, const auto& give) {
     const bool asked = other || (!one && table.material != nullptr);
     if (!asked) return true;
     const char* blamed = other ? key : "material";
@@ -123,8 +129,8 @@ bool give_material(const ClothTable& table, const TomlValue& value, Cloth& cloth
     }
   };
   const Fabric fabric = table.material != nullptr ? *table.material : Fabric{};
-  const bool massive = by_area("density", table.mass, table.density, fabric.density, share_mass_by_area);
-  return by_area("modulus", table.stiffness, table.modulus, fabric.modulus, stiffen_by_area) && massive;
+  const bool massive = by_area("density", says(value, "mass"), table.density, fabric.density, share_mass_by_area);
+  return by_area("modulus", table.stiffness.has_value(), table.modulus, fabric.modulus, stiffen_by_area) && massive;
 }
 
 /// Complains where a table says its mass or its stiffness twice.
@@ -132,7 +138,7 @@ void check_said_once(const ClothTable& table, const TomlValue& value, Problems& 
   const auto both = [&](const char* one, const char* other) {
     problems.add(place_of(value, other), fmt::format("{}: '{}' already says it; give only one of them", other, one));
   };
-  if (table.mass && table.density) both("mass", "density");
+  if (says(value, "mass") && table.density) both("mass", "density");
   if (table.stiffness && table.modulus) both("stiffness", "modulus");
 }
 
@@ -175,7 +181,7 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
     return std::nullopt;
   }
 
-  ClothAndUvs result{make_cloth(*start, *rest, table.mass.value_or(1), table.stiffness.value_or(1), std::move(pins)),
+  ClothAndUvs result{make_cloth(*start, *rest, table.mass, table.stiffness.value_or(1), std::move(pins)),
                      std::move(start->uvs), std::move(unplaced)};
   if (!give_material(table, value, result.cloth, problems)) return std::nullopt;
   result.cloth.velocities.rowwise() = table.velocity.transpose();

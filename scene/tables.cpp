@@ -10,7 +10,7 @@ Keys cloth_keys(ClothTable& cloth) {
            "The shape whose edges are as long as the springs want to be, with the vertices and triangles of `mesh`. "
            "Without it that is the starting shape.");
   keys.add("mass", &cloth.mass, "kg",
-           "Of the whole cloth, shared equally by all vertices. 1 without it, `density` and `material`.")
+           "Of the whole cloth, shared equally by all vertices; without `density` and `material`.")
       .above(0);
   keys.add("density", &cloth.density, "kg/m²",
            "Mass per area of the rest shape, instead of `mass`: each triangle gives its vertices a third of its own.")
@@ -24,8 +24,10 @@ Keys cloth_keys(ClothTable& cloth) {
       .above(0);
   std::vector<std::string> names;
   for (const Fabric& fabric : fabrics()) names.emplace_back(fabric.name);
+  std::optional<std::size_t> chosen;
+  if (cloth.material != nullptr) chosen = static_cast<std::size_t>(cloth.material - fabrics().data());
   keys.add(
-      "material", Choice{std::move(names), [&cloth](std::size_t i) { cloth.material = &fabrics()[i]; }, {}}, "",
+      "material", Choice{std::move(names), [&cloth](std::size_t i) { cloth.material = &fabrics()[i]; }, chosen}, "",
       "A fabric that has been measured: its density, modulus and rigidity against bending, where nothing else says "
       "them, see [Materials](#materials).");
   keys.add("pins", OwnForm{"pins", &cloth.pins}, "", "The vertices that do not move.");

@@ -21,7 +21,8 @@ struct ClothTable {
   const TomlValue* rest = nullptr;
   const TomlValue* pins = nullptr;
   const Fabric* material = nullptr;                    ///< of what nothing else says
-  std::optional<double> mass, density;                 ///< at most one; of the whole [kg], and by area [kg/m²]
+  double mass = 1;                                     ///< of the whole, where no density is said [kg]
+  std::optional<double> density;                       ///< [kg/m²]
   std::optional<double> stiffness, modulus;            ///< at most one; of every spring, and by area [N/m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
 

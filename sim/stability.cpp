@@ -105,7 +105,10 @@ double safe_step(const System& system) {
   return frequency > 0 ? 2 / frequency : std::numeric_limits<double>::infinity();
 }
 
-double safe_step_of_pushes(const System& system) { return 2 / std::sqrt(pushes_bound(system)); }
+double safe_step_of_pushes(const System& system) {
+  const double pushes = pushes_bound(system);
+  return pushes > 0 && std::isfinite(pushes) ? 2 / std::sqrt(pushes) : std::numeric_limits<double>::infinity();
+}
 
 double condition_bound(const System& system) {
   const Eigen::VectorXd& masses = system.cloth.masses;

@@ -14,7 +14,7 @@ namespace drape {
 double safe_step(const System& system);
 
 /// That of a vertex without springs under the forces which depend on its place [s], with every scheme that evaluates
-/// them once in a step; infinite where there are none.
+/// them once in a step; infinite where there are none, or where nobody knows how steep one is.
 double safe_step_of_pushes(const System& system);
 
 /// How much smaller the inertia of a vertex is than what holds it, 1 + h² max (2 Σ k + c)/m over the free vertices, k

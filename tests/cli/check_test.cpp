@@ -61,7 +61,7 @@ TEST(CheckCommand, QuietPrintsOnlyWhatChanged) {
 
 TEST(CheckCommand, LimitsCanBeWiderOnTheCommandLine) {
   const test::SceneFolder folder;
-  folder.write("swing.toml", scene);
+  folder.write("swing.toml", scene + "[look]\nbackground = \"white\"\n");
   EXPECT_EQ(drape(folder, "bless swing.toml").code, 0);
   const std::string check = "check swing.toml --set look.background=#fefefe";
   EXPECT_EQ(drape(folder, check).code, 1);
