@@ -85,7 +85,6 @@ std::vector<SceneValue> physics_values(const Scene& scene) {
       {"cloth.mesh", fmt::format("{} vertices ({}), {} triangles ({})", cloth.vertex_count(), hash_of(cloth.positions),
                                  cloth.triangles.size(), hash_of(cloth.triangles.data(), cloth.triangles.size()))},
       {"cloth.rest", springs_text(cloth.springs)},
-      {"cloth.masses", hash_of(cloth.masses.data(), static_cast<std::size_t>(cloth.masses.size()))},
       {"cloth.pins", fmt::format("{} ({})", cloth.pins.size(), hash_of(cloth.pins.data(), cloth.pins.size()))}};
   values.insert(values.end(), scene.tables.begin(), scene.tables.end());
   return values;
