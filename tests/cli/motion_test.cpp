@@ -149,7 +149,7 @@ TEST(RecordedRun, KeepsItsMemoryWhateverItsLength) {
 
 /// A Python with numpy; empty if there is none.
 std::string python_with_numpy() {
-  for (const std::string python : {"python3", "/usr/bin/python3"}) {
+  for (std::string python : {"python3", "/usr/bin/python3"}) {
     if (std::system((python + " -c 'import numpy' 2>/dev/null").c_str()) == 0) return python;
   }
   return {};
