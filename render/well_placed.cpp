@@ -21,10 +21,10 @@ constexpr std::array<double, 2> elevations{20, 30};                      // [deg
 constexpr double least_above_ground = 0.1;                               // sine of the angle
 
 // What things count.
-constexpr double back = 0.85;     // of the cloth, where its front is 1
-constexpr double bodies = 0.6;    // spheres that are seen whole, where a cloth that fills the picture is 1
-constexpr double movement = 0.1;  // of half the picture's height between two of the frames
-constexpr double unusual = 0.05;  // taken off where the camera stands opposite to where it usually does
+constexpr double back_side = 0.85;  // of the cloth, where its front is 1
+constexpr double bodies = 0.6;      // spheres that are seen whole, where a cloth that fills the picture is 1
+constexpr double movement = 0.1;    // of half the picture's height between two of the frames
+constexpr double unusual = 0.05;    // taken off where the camera stands opposite to where it usually does
 
 /// Frames of a film, evenly spread.
 std::vector<Frame> samples_of(const KnownFilm& film) {
@@ -84,7 +84,7 @@ class Onlooker {
         return static_cast<double>(std::count(seen_.begin(), seen_.end(), what));
       };
       // The root: a cloth that nearly vanishes for a while is worse than one that is smaller all the time.
-      cloth += std::sqrt((count(Seen::front) + back * count(Seen::back)) / static_cast<double>(seen_.size()));
+      cloth += std::sqrt((count(Seen::front) + back_side * count(Seen::back)) / static_cast<double>(seen_.size()));
       for (const Ball& ball : scene.balls) {
         seen += std::min(1.0, visible(ball));
         ++ball_count;
