@@ -105,6 +105,10 @@ class Onlooker {
     std::vector<Ball> balls;
   };
 
+  [[nodiscard]] std::size_t pixel_at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
+  }
+
   /// Calls visit(pixel, column, row) for the pixels whose middles are within a box.
   template <class Visit>
   void for_each_pixel(const Eigen::Array2d& low, const Eigen::Array2d& high, const Visit& visit) const {
@@ -112,7 +116,7 @@ class Onlooker {
     const auto last = [](double to, int size) { return std::min(size - 1, static_cast<int>(std::floor(to - 0.5))); };
     for (int y = first(low[1]); y <= last(high[1], rows); ++y) {
       for (int x = first(low[0]); x <= last(high[0], columns_); ++x) {
-        visit(static_cast<std::size_t>(y * columns_ + x), x + 0.5, y + 0.5);
+        visit(pixel_at(x, y), x + 0.5, y + 0.5);
       }
     }
   }
@@ -134,7 +138,7 @@ class Onlooker {
   }
 
   void draw(const Scene& scene) {
-    const auto size = static_cast<std::size_t>(columns_ * rows);
+    const auto size = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows);
     depth_.assign(size, -unlimited);
     seen_.assign(size, Seen::nothing);
     for (const Ball& ball : scene.balls) {
