@@ -43,8 +43,8 @@ std::string plain_style() {
   for (std::size_t at = 0; (at = css.find("var(", at)) != std::string::npos;) {
     const std::size_t end = css.find(')', at);
     const std::string name = css.substr(at + 4, end - at - 4) + ": ";
-    const std::size_t value = page_css.find(name) + name.size();  // the light theme comes first
-    css.replace(at, end + 1 - at, page_css.substr(value, page_css.find(';', value) - value));
+    const std::size_t value = theme_css.find(name) + name.size();  // the light theme comes first
+    css.replace(at, end + 1 - at, theme_css.substr(value, theme_css.find(';', value) - value));
   }
   return css;
 }

@@ -22,12 +22,13 @@ Markup meta(const std::string& name, const std::string& content) {
 }  // namespace
 
 std::string render(const Page& page) {
+  const std::string style =
+      fmt::format("{}{}{}{}{}{}", theme_css, diagram_css, page_css, chart_css, comparison_css, film_css);
   const Markup head = element("meta", {{"charset", "utf-8"}}) +
                       element("meta", {{"http-equiv", "Content-Security-Policy"}, {"content", policy}}) +
                       meta("viewport", "width=device-width, initial-scale=1") + meta("color-scheme", "light dark") +
                       meta("generator", "drape " + build_info().version) + element("title", page.title) +
-                      element("link", {{"rel", "icon"}, {"href", "data:,"}}) +
-                      element("style", Markup::trusted(fmt::format("{}{}{}", diagram_css, page_css, film_css)));
+                      element("link", {{"rel", "icon"}, {"href", "data:,"}}) + element("style", Markup::trusted(style));
   const Markup header =
       element("header", element("p", {{"class", "kind"}}, page.kind) + element("h1", page.heading) + page.introduction);
   const Markup footer = element("footer", element("h2", "How this was made") + facts(page.foot));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "run/run_steps.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/simulation.hpp"
 
@@ -27,6 +28,36 @@ SimulationSettings swinging_cloth(StepMethod method, double step) {
   return settings;
 }
 
+/// Keeps the energies of every so many steps.
+class EnergySamples final : public StepObserver {
+ public:
+  EnergySamples(std::int64_t every, EnergyCurve& curve) : every_(every), curve_(curve) {}
+
+  void begin(const Simulation& simulation) override {
+    first_ = simulation.energies().total();
+    keep(simulation);
+  }
+  void after_step(const Simulation& simulation, const StepReport&, double) override { keep(simulation); }
+
+  /// Relates the curve to what gravity has moved at most.
+  void finish() {
+    for (double& energy : curve_.energies) energy /= moved_;
+  }
+
+ private:
+  void keep(const Simulation& simulation) {
+    const Energies now = simulation.energies();
+    moved_ = std::max(moved_, -now.gravity);  // it starts at height 0
+    if (simulation.state().step % every_ != 0) return;
+    curve_.times.push_back(simulation.time());
+    curve_.energies.push_back(now.total() - first_);
+  }
+
+  std::int64_t every_;
+  EnergyCurve& curve_;
+  double first_ = 0, moved_ = 0;
+};
+
 std::string name_of(const EnergyCurve& curve) {
   return fmt::format("{}, h = {:g} s", step_method_name(curve.method), curve.step);
 }
@@ -43,19 +74,11 @@ std::optional<std::vector<EnergyCurve>> measure_energies(const std::stop_token& 
   progress.begin("measuring energies over time", "motions", static_cast<std::int64_t>(curves.size()));
   for (EnergyCurve& curve : curves) {
     Simulation simulation(swinging_cloth(curve.method, curve.step));
-    const double first = simulation.energies().total();
-    double moved = 0;
-    const auto every = std::llround(between / curve.step);
-    for (std::int64_t step = 0; step <= std::llround(duration / curve.step); ++step) {
-      if (stop.stop_requested()) return std::nullopt;
-      if (step > 0) simulation.step();
-      const Energies now = simulation.energies();
-      moved = std::max(moved, -now.gravity);  // it starts at height 0
-      if (step % every != 0) continue;
-      curve.times.push_back(simulation.time());
-      curve.energies.push_back(now.total() - first);
-    }
-    for (double& energy : curve.energies) energy /= moved;
+    EnergySamples samples(std::llround(between / curve.step), curve);
+    StepObserver* const observer = &samples;
+    run_steps(simulation, std::llround(duration / curve.step), {&observer, 1}, stop);
+    if (stop.stop_requested()) return std::nullopt;
+    samples.finish();
     ++progress.done;
   }
   return curves;
