@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "core/nearest.hpp"
 
@@ -49,6 +50,18 @@ std::vector<ReadEffect> read_effects(const TomlValue& document, TableReader& rea
     }
   }
   return effects;
+}
+
+std::vector<std::string> effect_paths(const std::vector<ReadEffect>& effects) {
+  std::map<std::string_view, int> counts, numbers;
+  for (const ReadEffect& read : effects) ++counts[read.effect.name()];
+  std::vector<std::string> paths;
+  for (const ReadEffect& read : effects) {
+    const std::string_view name = read.effect.name();
+    paths.push_back(counts[name] == 1 ? fmt::format("effects.{}", name)
+                                      : fmt::format("effects.{}.{}", name, numbers[name]++));
+  }
+  return paths;
 }
 
 void check_effects(const std::vector<ReadEffect>& effects, const SimulationSettings& settings, Problems& problems) {

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-
 #include "scene/color.hpp"
 #include "scene/effects_reader.hpp"
 #include "scene/table_reader.hpp"
@@ -86,16 +83,13 @@ std::vector<SceneField> scene_fields(const std::string& name, const std::vector<
       fields.push_back({table.name + "." + key.name, field_value(key, entry_of(written, key.name))});
     }
   }
-  std::map<std::string_view, int> counts, numbers;
-  for (const ReadEffect& read : effects) ++counts[read.effect.name()];
-  for (const ReadEffect& read : effects) {
-    std::string path = "effects." + std::string(read.effect.name());
-    if (counts[read.effect.name()] > 1) path += fmt::format(".{}", numbers[read.effect.name()]++);
-    Effect effect = read.effect;
+  const std::vector<std::string> paths = effect_paths(effects);
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    Effect effect = effects[i].effect;
     Keys keys;
     effect.describe(keys);
     for (const Key& key : keys.all()) {
-      fields.push_back({path + "." + key.name, field_value(key, entry_of(read.table, key.name))});
+      fields.push_back({paths[i] + "." + key.name, field_value(key, entry_of(effects[i].table, key.name))});
     }
   }
   return fields;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "core/hash.hpp"
 #include "core/read_file.hpp"
@@ -58,22 +57,18 @@ std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, 
       values.push_back({table.name + "." + key.name, value_text(key.target)});
     }
   }
-  std::map<std::string_view, int> counts, numbers;
-  for (const ReadEffect& read : effects) ++counts[read.effect.name()];
-  for (const ReadEffect& read : effects) {
-    std::string name = "effects." + std::string(read.effect.name());
-    const int number = numbers[read.effect.name()]++;
-    if (counts[read.effect.name()] > 1) name += fmt::format(".{}", number);
-    values.push_back({name, "there"});
-    Effect effect = read.effect;
+  const std::vector<std::string> paths = effect_paths(effects);
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    values.push_back({paths[i], "there"});
+    Effect effect = effects[i].effect;
     Keys keys;
     effect.describe(keys);
     for (const Key& key : keys.all()) {
-      const TomlTable* table = read.table->as<TomlTable>();
+      const TomlTable* table = effects[i].table->as<TomlTable>();
       const TomlValue* given = table == nullptr ? nullptr : table->find(key.name);
       const std::string* file = given == nullptr ? nullptr : given->as<std::string>();
       const bool is_file = std::holds_alternative<OwnForm>(key.target) && file != nullptr;
-      values.push_back({name + "." + key.name, is_file ? file_text(folder / *file) : value_text(key.target)});
+      values.push_back({paths[i] + "." + key.name, is_file ? file_text(folder / *file) : value_text(key.target)});
     }
   }
   return values;
