@@ -46,8 +46,10 @@ double largest_distance(const Vertices& a, const Vertices& b) {
   return std::isfinite(distance) && std::isfinite(norm(a)) ? distance : std::numeric_limits<double>::infinity();
 }
 
+}  // namespace
+
 /// A scheme with steps of another length.
-struct Motion {
+struct SubstepScheme::Motion {
   /// @param acceleration that a solve may leave out of a substep [m/s²] @param looseness how many times its tolerance
   /// is what would follow
   Motion(const SubstepScheme::MakeSystem& make_system, double step, IntegratorSettings integrator, const State& start,
@@ -81,8 +83,6 @@ struct Motion {
   std::unique_ptr<Scheme> scheme;
   State state;
 };
-
-}  // namespace
 
 /// Two motions through a step, one in 2^k substeps and beside it one in a quarter as many.
 class SubstepScheme::Attempt {

@@ -55,6 +55,7 @@ class SubstepScheme final : public Scheme {
   [[nodiscard]] std::optional<Accuracy> accuracy() const override;
 
  private:
+  struct Motion;
   class Attempt;
 
   /// The attempt with 2^k substeps. Some are kept, because each has its factors.

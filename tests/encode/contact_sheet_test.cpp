@@ -19,7 +19,9 @@ TEST(ContactSheet, ChoosesMomentsEvenlyWithBothEnds) {
       }
       ASSERT_EQ(chosen.size(), static_cast<std::size_t>(std::min(count, shown))) << count << " " << shown;
       EXPECT_EQ(chosen.front(), 0);
-      if (shown > 1) EXPECT_EQ(chosen.back(), count - 1);
+      if (shown > 1) {
+        EXPECT_EQ(chosen.back(), count - 1);
+      }
       for (std::size_t i = 2; i < chosen.size(); ++i) {
         EXPECT_LE(std::abs((chosen[i] - chosen[i - 1]) - (chosen[1] - chosen[0])), 1) << count << " " << shown;
       }
