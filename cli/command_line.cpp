@@ -93,6 +93,8 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   Command command;
   add_run_commands(app, common, command);
   add_compare_command(app, common, command);
+  add_sweep_command(app, common, command);
+  add_merge_command(app, common, command);
   add_check_command(app, common, command);
   add_accept_command(app, common, command);
   add_bless_command(app, common, command);

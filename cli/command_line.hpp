@@ -28,6 +28,10 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
 void add_accept_command(CLI::App& app, const CommonOptions& common, Command& command);
 void add_bless_command(CLI::App& app, const CommonOptions& common, Command& command);
 
+/// Adds sweep, which runs scenes with many values, and merge, which puts together what several machines have done.
+void add_sweep_command(CLI::App& app, const CommonOptions& common, Command& command);
+void add_merge_command(CLI::App& app, const CommonOptions& common, Command& command);
+
 /// Adds study, whose subcommands are the studies.
 void add_study_command(CLI::App& app, const CommonOptions& common, Command& command);
 

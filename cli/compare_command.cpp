@@ -18,6 +18,7 @@
 #include "core/shell.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
+#include "sweep/variation.hpp"
 
 namespace drape {
 namespace {
@@ -28,56 +29,16 @@ struct CompareArguments {
   CompareOptions options;
 };
 
-/// Splits at commas that are not within brackets, braces or quotes.
-std::vector<std::string> split_values(const std::string& text) {
-  std::vector<std::string> values(1);
-  int depth = 0;
-  char quote = 0;
-  for (const char c : text) {
-    if (quote != 0) {
-      if (c == quote) quote = 0;
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '[' || c == '{') {
-      ++depth;
-    } else if (c == ']' || c == '}') {
-      --depth;
-    } else if (c == ',' && depth == 0) {
-      values.emplace_back();
-      continue;
-    }
-    values.back() += c;
-  }
-  return values;
-}
-
-/// Every combination of what varies, as overrides. One, of nothing, where nothing does.
-std::vector<std::vector<std::string>> variations(const std::vector<std::string>& varied) {
-  std::vector<std::vector<std::string>> all(1);
-  for (const std::string& text : varied) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw UsageError(fmt::format("--vary takes key.path=value,value…, found '{}'", text));
-    }
-    std::vector<std::vector<std::string>> longer;
-    for (const std::vector<std::string>& before : all) {
-      for (const std::string& value : split_values(text.substr(equals + 1))) {
-        longer.push_back(before);
-        longer.back().push_back(text.substr(0, equals + 1) + value);
-      }
-    }
-    all = std::move(longer);
-  }
-  return all;
-}
-
 /// The scenes, each in all its variations.
 std::vector<Scene> load_variations(const CompareArguments& arguments) {
   std::vector<Scene> scenes;
-  const std::vector<std::vector<std::string>> all = variations(arguments.varied);
+  std::vector<Variation> varied;
+  for (const std::string& text : arguments.varied) varied.push_back(parse_variation(text));
+  const std::vector<std::vector<std::string>> all = combinations(varied);
   for (const std::string& file : arguments.scenes) {
-    for (const std::vector<std::string>& some : all) {
+    for (const std::vector<std::string>& values : all) {
       std::vector<std::string> overrides = arguments.overrides;
+      const std::vector<std::string> some = overrides_of(varied, values);
       overrides.insert(overrides.end(), some.begin(), some.end());
       for (Scene& scene : load_scenes({file}, overrides)) scenes.push_back(std::move(scene));
     }
@@ -162,7 +123,8 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
   one_each(
       sub->add_option("--set", arguments->overrides, "key.path=value: replaces a value of all scenes; repeatable"));
   one_each(sub->add_option("--vary", arguments->varied,
-                           "key.path=value,value…: each scene once with each of these values; repeatable"));
+                           "key.path=value,value…: each scene once with each of these values; FROM..TO/COUNT and "
+                           "FROM..TO/COUNTlog are ranges; repeatable"));
   sub->add_option("--grid", arguments->grid, "COLUMNSxROWS of the panels");
   sub->add_flag("--difference", options.difference, "Colour each cloth by its distance to the first, vertex by vertex");
   sub->add_option("--sheet", arguments->sheet, sheet_help);

@@ -22,8 +22,10 @@ Markup points_table(const Chart& chart) {
   for (const ChartSeries& series : chart.series) {
     for (const ChartPoint& point : series.points) {
       if (points.rows.size() == table_rows) break;
-      points.rows.push_back({series.name, short_number(point.x), short_number(point.y),
-                             point.command.empty() ? Markup() : code(point.command)});
+      const std::string x =
+          chart.x_names.empty() ? short_number(point.x) : chart.x_names.at(static_cast<std::size_t>(point.x));
+      points.rows.push_back(
+          {series.name, x, short_number(point.y), point.command.empty() ? Markup() : code(point.command)});
     }
   }
   return details("Points as a table", series_commands(chart) + table(points));

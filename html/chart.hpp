@@ -41,6 +41,7 @@ struct Chart {
   Scale x_scale = Scale::linear, y_scale = Scale::linear;
   std::vector<ChartSeries> series;
   std::vector<ChartLevel> levels;
+  std::vector<std::string> x_names = {};  ///< of the places 0, 1, 2… where the horizontal axis has no numbers
 };
 
 /// A chart as inline SVG with a legend. A point that is pointed at, or reached with the arrow keys, shows its label

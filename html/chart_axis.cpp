@@ -76,6 +76,15 @@ AxisMap::AxisMap(Scale scale, const std::vector<double>& values) : scale_(scale)
   make_logarithmic(std::log10(low), std::log10(high));
 }
 
+AxisMap::AxisMap(const std::vector<std::string>& names)
+    : scale_(Scale::linear), low_(-0.5), high_(static_cast<double>(names.size()) - 0.5) {
+  constexpr std::size_t room = 60;  // letters, about
+  std::size_t letters = 0;
+  for (const std::string& name : names) letters += name.size() + 1;
+  const std::size_t stride = letters / room + 1;
+  for (std::size_t i = 0; i < names.size(); i += stride) ticks_.push_back({place(static_cast<double>(i)), names[i]});
+}
+
 void AxisMap::make_linear(double low, double high) {
   if (low == high) low -= 0.5 * std::max(1.0, std::abs(low)), high += 0.5 * std::max(1.0, std::abs(high));
   const double step = round_step(low, high);

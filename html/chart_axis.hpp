@@ -19,6 +19,9 @@ class AxisMap {
   /// @param values that the axis must hold; those that are not finite do not count
   AxisMap(Scale scale, const std::vector<double>& values);
 
+  /// An axis that has names instead of numbers, at 0, 1, 2…
+  explicit AxisMap(const std::vector<std::string>& names);
+
   /// 0 at the beginning to 1 at the end.
   [[nodiscard]] double place(double value) const;
   [[nodiscard]] const std::vector<Tick>& ticks() const { return ticks_; }

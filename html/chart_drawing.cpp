@@ -29,7 +29,7 @@ Frame frame_of(const Chart& chart) {
     }
   }
   for (const ChartLevel& level : chart.levels) ys.push_back(level.y);
-  return {AxisMap(chart.x_scale, xs), AxisMap(chart.y_scale, ys)};
+  return {chart.x_names.empty() ? AxisMap(chart.x_scale, xs) : AxisMap(chart.x_names), AxisMap(chart.y_scale, ys)};
 }
 
 Markup axes(const Chart& chart, const Frame& frame) {

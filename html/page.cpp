@@ -23,7 +23,7 @@ Markup meta(const std::string& name, const std::string& content) {
 
 std::string render(const Page& page) {
   const std::string style =
-      fmt::format("{}{}{}{}{}{}", theme_css, diagram_css, page_css, chart_css, comparison_css, film_css);
+      fmt::format("{}{}{}{}{}{}{}", theme_css, diagram_css, page_css, chart_css, comparison_css, film_css, explore_css);
   const Markup head = element("meta", {{"charset", "utf-8"}}) +
                       element("meta", {{"http-equiv", "Content-Security-Policy"}, {"content", policy}}) +
                       meta("viewport", "width=device-width, initial-scale=1") + meta("color-scheme", "light dark") +
@@ -34,7 +34,7 @@ std::string render(const Page& page) {
   const Markup footer = element("footer", element("h2", "How this was made") + facts(page.foot));
   const Markup body = header + element("main", page.content) + footer +
                       element("div", {{"id", "tip"}, {"role", "status"}, {"hidden?", "hidden"}}) +
-                      element("script", Markup::trusted(fmt::format("{}{}", page_js, film_js)));
+                      element("script", Markup::trusted(fmt::format("{}{}{}", page_js, film_js, explore_js)));
   return "<!doctype html>\n" + element("html", {{"lang", "en"}}, element("head", head) + element("body", body)).html() +
          "\n";
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <span>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
 
 namespace drape {
@@ -15,10 +14,9 @@ std::string Problems::text(const Place& place) const {
                                     : fmt::format("--set {}", overrides_[place.override_number - 1]);
 }
 
-void Problems::throw_if_any() const {
+std::string Problems::text() const {
   // More than these nobody reads.
   constexpr std::size_t most_told = 100;
-  if (found_.empty()) return;
   std::vector<const Problem*> sorted;
   for (const Problem& problem : found_) sorted.push_back(&problem);
   std::stable_sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->place < b->place; });
@@ -29,7 +27,7 @@ void Problems::throw_if_any() const {
     text += fmt::format("{}: {}", this->text(place), message);
   }
   if (sorted.size() > most_told) text += fmt::format("\nand {} more", sorted.size() - most_told);
-  throw UsageError(escape_controls(text));
+  return escape_controls(text);
 }
 
 }  // namespace drape

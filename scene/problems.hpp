@@ -5,9 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "scene/document.hpp"
 
 namespace drape {
+
+/// A scene whose values are all valid, but not together: its steps are too long for its method, say.
+class SceneConflict : public UsageError {
+ public:
+  using UsageError::UsageError;
+};
 
 /// Collects what is wrong with a scene, so that a person sees all of it at once.
 class Problems {
@@ -25,9 +32,15 @@ class Problems {
   /// "scene.toml:4:9" or "--set key.path=value".
   [[nodiscard]] std::string text(const Place& place) const;
 
-  /// @throws UsageError that lists the problems in the order of their places, if there are any; of many the first
-  /// hundred and how many more there are
-  void throw_if_any() const;
+  /// What lists the problems in the order of their places, a line each; of many the first hundred and how many more
+  /// there are.
+  [[nodiscard]] std::string text() const;
+
+  /// @throws Wrong that says so, if there are any
+  template <class Wrong = UsageError>
+  void throw_if_any() const {
+    if (!found_.empty()) throw Wrong(text());
+  }
 
  private:
   struct Problem {

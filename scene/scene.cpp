@@ -152,6 +152,7 @@ std::int64_t Scene::step_count() const { return static_cast<std::int64_t>(std::l
 
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   TomlValue document = read_document(file);
+  std::erase_if(document.as<TomlTable>()->entries, [](const TomlEntry& entry) { return entry.name == "sweep"; });
   Problems problems(file, overrides);
   apply_overrides(document, overrides, problems);
 
@@ -195,6 +196,7 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
     scene.caption_place = problems.text(place);
   }
 
+  const bool keys_good = problems.count() == 0;
   // A rule between keys means nothing where one of them could not be read: the default stands in its place.
   const Checks checks(scene, document, problems);
   if (reader.good("time") && reader.good("video")) checks.length();
@@ -214,12 +216,13 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   }
   if (reader.good("check")) checks.compared_frames();
   if (reader.good("check") && reader.good("time") && reader.good("video")) checks.compared_frames_exist();
+  if (keys_good) problems.throw_if_any<SceneConflict>();
   problems.throw_if_any();
   scene.digest = digest(document, {"check", "caption", "overlay"});
   scene.tables = physics_of_tables(scene_tables(cloth_table, scene), effects, folder);
   scene.portable = make_portable(document, folder, scene.inputs);
   checks.stability();
-  problems.throw_if_any();
+  problems.throw_if_any<SceneConflict>();
   return scene;
 }
 

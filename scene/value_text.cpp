@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "scene/color.hpp"
+#include "scene/document.hpp"
 
 namespace drape {
 namespace {
@@ -46,7 +50,57 @@ struct WriteValue {
   }
 };
 
+std::string number_text(double number) {
+  const std::string text = fmt::format("{}", number);
+  // Without a point or an exponent it would be a whole number, of which TOML has fewer.
+  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+
 }  // namespace
+
+std::string toml_quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      result += '\\';
+      result += c;
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+namespace {
+
+/// A name as TOML writes it: bare where it can be.
+std::string name_text(const std::string& name) {
+  const auto bare = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+  return !name.empty() && std::ranges::all_of(name, bare) ? name : toml_quoted(name);
+}
+
+}  // namespace
+
+std::string toml_literal(const TomlValue& value) {
+  std::string text;
+  if (const TomlTable* table = value.as<TomlTable>()) {
+    for (const TomlEntry& entry : table->entries) {
+      text += fmt::format("{}{} = {}", text.empty() ? "{ " : ", ", name_text(entry.name), toml_literal(entry.value));
+    }
+    return text.empty() ? "{}" : text + " }";
+  }
+  if (const TomlArray* array = value.as<TomlArray>()) {
+    for (const TomlValue& item : *array) text += (text.empty() ? "" : ", ") + toml_literal(item);
+    return "[" + text + "]";
+  }
+  if (const std::string* string = value.as<std::string>()) return toml_quoted(*string);
+  if (const bool* flag = value.as<bool>()) return *flag ? "true" : "false";
+  if (const std::int64_t* whole = value.as<std::int64_t>()) return fmt::format("{}", *whole);
+  if (const double* number = value.as<double>()) return number_text(*number);
+  return "1970-01-01";  // no key takes a date, so no scene has one
+}
 
 std::string value_text(const Key::Target& target) { return std::visit(WriteValue{}, target); }
 

@@ -10,4 +10,12 @@ namespace drape {
 /// Different values have different texts.
 std::string value_text(const Key::Target& target);
 
+struct TomlValue;
+
+/// A value of a document as TOML writes it, on one line.
+std::string toml_literal(const TomlValue& value);
+
+/// A string in TOML's quotes.
+std::string toml_quoted(const std::string& text);
+
 }  // namespace drape

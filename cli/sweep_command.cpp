@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+
+#include "cli/interruption.hpp"
+#include "cli/number_option.hpp"
+#include "cli/sweep_results.hpp"
+#include "cli/watched.hpp"
+#include "core/console.hpp"
+#include "core/shell.hpp"
+#include "sweep/merge.hpp"
+#include "sweep/report.hpp"
+#include "sweep/run_sweep.hpp"
+#include "sweep/slurm.hpp"
+
+namespace drape {
+namespace {
+
+struct SweepArguments {
+  SweepRequest request;
+  std::vector<std::string> varied;
+  std::string folder = "out/sweep", shard;
+  std::size_t jobs = 1, tasks = 0;
+  std::vector<std::string> slurm_options;
+  bool resume = false, dry_run = false, report_only = false, submit = false;
+};
+
+std::string readable_time(double seconds) {
+  if (seconds < 10) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 600) return fmt::format("{:.0f} s", seconds);
+  return seconds < 36000 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.0f} h", seconds / 3600);
+}
+
+/// The request with what files say in [sweep].
+SweepRequest complete_request(const SweepArguments& arguments) {
+  SweepRequest request = arguments.request;
+  std::vector<std::string> scenes;
+  for (const std::string& text : arguments.varied) request.varied.push_back(parse_variation(text));
+  for (const std::string& file : arguments.request.scenes) {
+    for (std::string& scene : add_sweep_table(file, request)) scenes.push_back(std::move(scene));
+  }
+  request.scenes = std::move(scenes);
+  return request;
+}
+
+ExitCode list_runs(const SweepPlan& plan, const SweepOptions& options) {
+  double total = 0;
+  std::string text;
+  for (const std::size_t i : runs_of_shard(plan, options.shard)) {
+    const PlannedRun& run = plan.runs[i];
+    const std::optional<RunRecord> before = options.resume ? read_run(options.folder, run.key) : std::nullopt;
+    const bool done = before && before->settled();
+    if (!done) total += run.cost;
+    text += fmt::format("{:4}  {}  {}\n", i + 1, label_of(plan, run),
+                        !run.refusal.empty() ? "refused: " + run.refusal
+                        : done               ? "done: " + before->outcome
+                                             : "about " + readable_time(run.cost));
+  }
+  const double seconds = total / static_cast<double>(options.jobs);
+  print_text(stdout, text + fmt::format("about {} in all, within a factor of three\n", readable_time(seconds)));
+  return ExitCode::ok;
+}
+
+/// @throws UsageError if the folder's runs are another program's
+void require_same_program(const SweepOptions& options, const SweepPlan& plan) {
+  const std::optional<SweepFile> before = read_sweep_file(options.folder);
+  if (!before || before->plan.program == plan.program) return;
+  throw UsageError(
+      fmt::format("{} was made by {}, and this is {}, whose runs may differ in their bits: go on with that program, or "
+                  "take another folder with -o",
+                  options.folder.string(), before->plan.program, plan.program));
+}
+
+ExitCode report_again(const SweepArguments& arguments, const CommonOptions& common) {
+  std::optional<SweepFile> file = read_sweep_file(arguments.folder);
+  if (!file) throw UsageError(fmt::format("{}: there is no sweep in it", arguments.folder));
+  return conclude_sweep(read_results(arguments.folder, std::move(*file)), arguments.folder, common);
+}
+
+/// Writes the jobs that do it on a cluster, and submits them if that is asked for.
+ExitCode write_jobs(const SweepArguments& arguments, const SweepPlan& plan, const CommonOptions& common) {
+  std::string command = command_of(plan.request);
+  command.erase(0, command.find(' ') + 1);  // the program's name
+  const std::size_t tasks = std::min(arguments.tasks, plan.runs.size());
+  const std::filesystem::path submit = write_slurm_jobs(
+      {.sweep = fmt::format("{} -o {} --jobs {}", command, shell_word(arguments.folder), arguments.jobs),
+       .program = std::filesystem::read_symlink("/proc/self/exe").string(),
+       .folder = arguments.folder,
+       .tasks = tasks,
+       .options = arguments.slurm_options});
+  if (!common.quiet) {
+    print_text(stdout, fmt::format("{} runs in {} tasks\n{}\n", plan.runs.size(), tasks, submit.string()));
+  }
+  if (!arguments.submit) return ExitCode::ok;
+  if (const int status = std::system(("sh " + shell_word(submit.string())).c_str()); status != 0) {
+    throw OutputError(fmt::format("{}: Slurm did not take it", submit.string()));
+  }
+  return ExitCode::ok;
+}
+
+ExitCode sweep(const SweepArguments& arguments, const CommonOptions& common) {
+  interruption();
+  if (arguments.report_only) return report_again(arguments, common);
+  SweepOptions options{.folder = {}, .jobs = arguments.jobs, .resume = arguments.resume, .shard = {}};
+  if (!arguments.shard.empty()) options.shard = parse_shard(arguments.shard);
+  options.folder = shard_place(arguments.folder, options.shard);
+  const SweepPlan plan = make_plan(complete_request(arguments));
+  if (arguments.resume) require_same_program(options, plan);
+  if (arguments.dry_run) return list_runs(plan, options);
+  if (arguments.tasks > 0) return write_jobs(arguments, plan, common);
+
+  const SweepLock lock(options.folder);
+  write_sweep_file(options.folder, {plan, options.shard});
+  std::map<std::size_t, RunRecord> unwritten;
+  run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) {
+    unwritten = run_sweep(plan, options, stop, progress);
+  });
+  return conclude_sweep(read_results(options.folder, {plan, options.shard}, unwritten), options.folder, common);
+}
+
+}  // namespace
+
+ExitCode conclude_sweep(const SweepResults& results, const std::filesystem::path& folder, const CommonOptions& common) {
+  for (const std::string& trouble : results.troubles()) spdlog::error(trouble);
+  write_sweep_report(results, folder);
+  if (!common.quiet) {
+    print_text(stdout, fmt::format("{}\n{}\n", results.headline(), (folder / sweep_page_name).string()));
+  }
+  if (const std::size_t left = results.count("not run"); left > 0) {
+    spdlog::error("{} of {} runs were not run: --resume goes on", left, results.rows.size());
+  }
+  return results.exit_code();
+}
+
+void add_sweep_command(CLI::App& app, const CommonOptions& common, Command& command) {
+  auto arguments = std::make_shared<SweepArguments>();
+  SweepRequest& request = arguments->request;
+  CLI::App* sub = app.add_subcommand("sweep", "Run scenes with many values, and write tables, diagrams and a page");
+  const auto one_each = [](CLI::Option* option) { option->allow_extra_args(false); };
+  sub->add_option("SCENE", request.scenes, "Scene files (TOML), or a file whose table [sweep] says all of this");
+  one_each(sub->add_option("--vary", arguments->varied,
+                           "key.path=value,value…: every run once with each of these values; FROM..TO/COUNT and "
+                           "FROM..TO/COUNTlog are ranges; repeatable. The last goes across, the one before it down"));
+  sub->add_flag("--zip", request.zipped,
+                "Take the first values of all keys, the second…, instead of every combination");
+  one_each(sub->add_option("--set", request.overrides, "key.path=value: replaces a value of all scenes; repeatable"));
+  sub->add_option("--steps", request.steps, "Simulate this many steps instead of the scenes' durations")
+      ->check(whole_number_in({0, 1e9}));
+  one_each(sub->add_option("--film", request.films, "gif, webp, mp4…: make this of every run; repeatable"));
+  sub->add_flag("--motion", request.motion, "Keep every run's motion, as .drape");
+  add_backend_option(*sub, request.backend);
+  sub->add_option("-o,--output", arguments->folder, "Folder for the runs and the report; default out/sweep");
+  sub->add_option("--jobs", arguments->jobs, "Runs at once; default 1, which alone measures times well")
+      ->check(whole_number_in({1, 1024}));
+  sub->add_option("--shard", arguments->shard, "K/N: run only the K-th of N parts that take about as long");
+  sub->add_flag("--resume", arguments->resume, "Leave out what is complete in the folder");
+  CLI::Option* slurm = sub->add_option("--slurm", arguments->tasks,
+                                       "N: run nothing, write jobs for Slurm: an array of N shards, and their merge");
+  slurm->check(whole_number_in({1, 100'000}))->excludes("--shard");
+  one_each(sub->add_option("--slurm-option", arguments->slurm_options,
+                           "--partition=short…: an option of sbatch for these jobs; repeatable"));
+  sub->add_flag("--submit", arguments->submit, "Submit them")->needs(slurm);
+  sub->add_flag("--dry-run", arguments->dry_run, "Check everything and list the runs, with how long they will take");
+  sub->add_flag("--report-only", arguments->report_only, "Run nothing: write the report again from the folder");
+  sub->callback(
+      [arguments, &common, &command] { command = [arguments, &common] { return sweep(*arguments, common); }; });
+}
+
+}  // namespace drape

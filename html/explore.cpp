@@ -1,0 +1,61 @@
+#include "html/explore.hpp"
+
+#include <fmt/format.h>
+
+namespace drape::html {
+
+Markup strip(const Strip& strip) {
+  const int rows = (strip.count + strip.columns - 1) / strip.columns;
+  const auto [width, height] = strip.size;
+  return element("div",
+                 {{"class", "strip"},
+                  {"data-columns", std::to_string(strip.columns)},
+                  {"data-rows", std::to_string(rows)},
+                  {"data-count", std::to_string(strip.count)},
+                  {"style", fmt::format("--columns: {}; aspect-ratio: {} / {}", strip.columns, width, height)}},
+                 picture("image/png", strip.bytes, strip.alt));
+}
+
+Markup strips(const std::string& id, const std::vector<std::string>& moments, const Markup& content) {
+  Markup names;
+  for (const std::string& moment : moments) names += element("li", moment);
+  const Attributes slider{{"type", "range"},
+                          {"min", "0"},
+                          {"max", std::to_string(moments.size() - 1)},
+                          {"step", "1"},
+                          {"value", "0"},
+                          {"autocomplete", "off"},
+                          {"aria-label", "Moment"},
+                          {"aria-valuetext", moments.front()}};
+  const Markup sheets =
+      element("label", element("input", {{"type", "checkbox"}, {"class", "as-sheets"}, {"autocomplete", "off"}}) +
+                           " Contact sheets");
+  const Markup controls = element("button", {{"type", "button"}, {"class", "play"}}, "Play") +
+                          element("input", slider) + element("output", {{"for", id}}, moments.front()) + sheets +
+                          element("ol", {{"class", "names"}, {"hidden?", "hidden"}}, names);
+  return element("div", {{"class", "strips"}, {"id", id}},
+                 element("div", {{"class", "film-controls"}}, controls) + content);
+}
+
+Markup sortable_table(const Table& table) { return element("div", {{"class", "sortable"}}, html::table(table)); }
+
+Markup choices(const std::string& id, const Choices& choices) {
+  Markup lists, pieces;
+  for (std::size_t l = 0; l < choices.lists.size(); ++l) {
+    const auto& [label, names] = choices.lists[l];
+    Markup options;
+    for (std::size_t n = 0; n < names.size(); ++n) {
+      const bool first = !choices.pieces.empty() && choices.pieces.front().chosen[l] == n;
+      options += element("option", {{"value", std::to_string(n)}, {"selected?", first ? "selected" : ""}}, names[n]);
+    }
+    lists += element("label", Markup(label) + " " + element("select", {{"autocomplete", "off"}}, options));
+  }
+  for (const Choices::Piece& piece : choices.pieces) {
+    std::string chosen;
+    for (const std::size_t place : piece.chosen) chosen += fmt::format("{}{}", chosen.empty() ? "" : " ", place);
+    pieces += element("div", {{"class", "choice"}, {"data-chosen", chosen}}, piece.content);
+  }
+  return element("div", {{"class", "choices"}, {"id", id}}, element("p", {{"class", "choice-lists"}}, lists) + pieces);
+}
+
+}  // namespace drape::html

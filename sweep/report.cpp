@@ -1,0 +1,16 @@
+#include "sweep/report.hpp"
+
+#include "core/atomic_file.hpp"
+#include "sweep/page.hpp"
+#include "sweep/tables.hpp"
+
+namespace drape {
+
+void write_sweep_report(const SweepResults& results, const std::filesystem::path& folder) {
+  write_file_atomically(folder / "runs.csv", runs_csv(results));
+  write_file_atomically(folder / "report.md", sweep_markdown(results));
+  write_file_atomically(folder / "table.tex", sweep_latex(results));
+  write_file_atomically(folder / sweep_page_name, sweep_page(results, folder));
+}
+
+}  // namespace drape

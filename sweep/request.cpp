@@ -1,0 +1,193 @@
+#include "sweep/request.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <map>
+
+#include "core/error.hpp"
+#include "core/nearest.hpp"
+#include "core/shell.hpp"
+#include "scene/document.hpp"
+#include "scene/problems.hpp"
+#include "scene/value_text.hpp"
+
+namespace drape {
+namespace {
+
+/// Reads a table [sweep].
+class SweepTable {
+ public:
+  SweepTable(const std::filesystem::path& file, SweepRequest& request) : problems_(file, {}), request_(request) {}
+
+  void read(const TomlValue& value) {
+    const TomlTable* table = value.as<TomlTable>();
+    if (table == nullptr) return fail(value, "[sweep]", "a table");
+    static const std::map<std::string, void (SweepTable::*)(const TomlValue&)> readers{
+        {"scenes", &SweepTable::read_scenes}, {"set", &SweepTable::read_set},   {"vary", &SweepTable::read_vary},
+        {"zip", &SweepTable::read_zip},       {"film", &SweepTable::read_film}, {"motion", &SweepTable::read_motion},
+        {"steps", &SweepTable::read_steps}};
+    std::vector<std::string> names;
+    for (const auto& [name, reader] : readers) names.push_back(name);
+    for (const TomlEntry& entry : in_order(*table)) {
+      const auto reader = readers.find(entry.name);
+      if (reader == readers.end()) {
+        problems_.add(entry.place, fmt::format("unknown key '{}' in [sweep]{}", entry.name,
+                                               did_you_mean(entry.name, names, "the keys are")));
+      } else {
+        (this->*reader->second)(entry.value);
+      }
+    }
+  }
+
+  /// @throws UsageError
+  std::vector<std::string> scenes() const {
+    problems_.throw_if_any();
+    return scenes_;
+  }
+
+ private:
+  static std::vector<TomlEntry> in_order(const TomlTable& table) {
+    std::vector<TomlEntry> entries = table.entries;
+    std::ranges::sort(entries, std::less(), &TomlEntry::place);
+    return entries;
+  }
+
+  void fail(const TomlValue& value, const std::string& name, const std::string& expected) {
+    problems_.add(value.place, fmt::format("{}: expected {}, found {}", name, expected, value.kind()));
+  }
+
+  std::vector<std::string> strings(const TomlValue& value, const char* name) {
+    std::vector<std::string> texts;
+    if (const std::string* text = value.as<std::string>()) return {*text};
+    const TomlArray* array = value.as<TomlArray>();
+    if (array == nullptr) return fail(value, name, "strings"), texts;
+    for (const TomlValue& item : *array) {
+      const std::string* text = item.as<std::string>();
+      if (text == nullptr) return fail(item, name, "a string"), texts;
+      texts.push_back(*text);
+    }
+    return texts;
+  }
+
+  void flag(const TomlValue& value, const char* name, bool& target) {
+    if (const bool* given = value.as<bool>()) {
+      target = target || *given;
+    } else {
+      fail(value, name, "true or false");
+    }
+  }
+
+  void read_scenes(const TomlValue& value) { scenes_ = strings(value, "scenes"); }
+  void read_zip(const TomlValue& value) { flag(value, "zip", request_.zipped); }
+  void read_motion(const TomlValue& value) { flag(value, "motion", request_.motion); }
+  void read_set(const TomlValue& value) {
+    const std::vector<std::string> given = strings(value, "set");
+    request_.overrides.insert(request_.overrides.begin(), given.begin(), given.end());  // the command line's win
+  }
+  void read_film(const TomlValue& value) {
+    const std::vector<std::string> given = strings(value, "film");
+    if (request_.films.empty()) request_.films = given;
+  }
+  void read_steps(const TomlValue& value) {
+    const std::int64_t* given = value.as<std::int64_t>();
+    if (given == nullptr || *given < 0) return fail(value, "steps", "a whole number from 0 on");
+    if (!request_.steps) request_.steps = *given;
+  }
+
+  void read_vary(const TomlValue& value) {
+    if (value.as<TomlTable>() == nullptr) return fail(value, "vary", "a table of keys with their values");
+    std::vector<Variation> found;
+    collect(value, "", found);
+    for (Variation& variation : request_.varied) {
+      std::erase_if(found, [&](const Variation& of_file) { return of_file.key == variation.key; });
+      found.push_back(std::move(variation));
+    }
+    request_.varied = std::move(found);
+  }
+
+  /// "integrator.tolerance" may be written as a name in quotes, or as a table in a table.
+  void collect(const TomlValue& value, const std::string& name, std::vector<Variation>& found) {
+    if (const TomlTable* table = value.as<TomlTable>()) {
+      for (const TomlEntry& entry : in_order(*table)) {
+        collect(entry.value, name.empty() ? entry.name : name + "." + entry.name, found);
+      }
+    } else if (const TomlArray* array = value.as<TomlArray>(); array != nullptr && !array->empty()) {
+      found.push_back({name, {}});
+      for (const TomlValue& item : *array) found.back().values.push_back(override_text(item));
+    } else if (const std::string* text = value.as<std::string>()) {
+      try {
+        found.push_back({name, parse_values(*text)});
+      } catch (const UsageError& error) {
+        problems_.add(value.place, fmt::format("{}: {}", name, error.what()));
+      }
+    } else {
+      fail(value, name, "an array of values, or a text as --vary takes it");
+    }
+  }
+
+  /// As --set takes it: a word without quotes where that is the same.
+  static std::string override_text(const TomlValue& value) {
+    const std::string* text = value.as<std::string>();
+    const auto of_a_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
+    if (text == nullptr || text->empty() || std::isalpha(static_cast<unsigned char>(text->front())) == 0 ||
+        !std::ranges::all_of(*text, of_a_word)) {
+      return toml_literal(value);
+    }
+    return *text == "true" || *text == "false" || *text == "inf" || *text == "nan" ? toml_literal(value) : *text;
+  }
+
+  Problems problems_;
+  SweepRequest& request_;
+  std::vector<std::string> scenes_;
+};
+
+}  // namespace
+
+std::vector<std::string> add_sweep_table(const std::string& file, SweepRequest& request) {
+  const TomlValue document = read_document(file);
+  const TomlValue* value = document.as<TomlTable>()->find("sweep");
+  if (value == nullptr) return {file};
+  SweepTable table(file, request);
+  table.read(*value);
+  std::vector<std::string> scenes = table.scenes();
+  if (scenes.empty()) return {file};
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  for (std::string& scene : scenes) scene = (folder / scene).string();
+  return scenes;
+}
+
+std::string command_of(const SweepRequest& request) {
+  std::string text = "drape sweep";
+  for (const std::string& scene : request.scenes) text += " " + shell_word(scene);
+  for (const std::string& value : request.overrides) text += " --set " + shell_word(value);
+  for (const Variation& variation : request.varied) {
+    std::string values;
+    for (const std::string& value : variation.values) values += (values.empty() ? "" : ",") + value;
+    text += " --vary " + shell_word(variation.key + "=" + values);
+  }
+  if (request.zipped) text += " --zip";
+  for (const std::string& film : request.films) text += " --film " + shell_word(film);
+  if (request.motion) text += " --motion";
+  if (request.steps) text += fmt::format(" --steps {}", *request.steps);
+  if (request.backend != GlBackend::automatic) text += fmt::format(" --backend {}", backend_name(request.backend));
+  return text;
+}
+
+RunOptions run_options(const SweepRequest& request, const std::filesystem::path& folder) {
+  RunOptions options;
+  for (const std::string& film : request.films) options.outputs.push_back((folder / ("film." + film)).string());
+  if (!request.films.empty()) {
+    options.outputs.push_back((folder / "sheet.png").string());
+    options.sheet = sweep_sheet;
+  }
+  if (request.motion) options.motion = {.path = (folder / "motion.drape").string()};
+  options.steps = request.steps;
+  options.backend = request.backend;
+  options.time_effects = true;
+  return options;
+}
+
+}  // namespace drape

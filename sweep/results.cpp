@@ -1,0 +1,186 @@
+#include "sweep/results.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.hpp"
+#include "core/read_file.hpp"
+
+namespace drape {
+using Json = nlohmann::ordered_json;
+namespace {
+
+constexpr int format_number = 1;
+constexpr const char* sweep_name = "sweep.json";
+constexpr std::size_t most_sweep_bytes = std::size_t{1} << 30;
+
+/// The place of a value on an axis, where it is put if it is new.
+std::size_t place_on(SweepAxis& axis, const std::string& value) {
+  const auto found = std::ranges::find(axis.values, value);
+  if (found != axis.values.end()) return static_cast<std::size_t>(found - axis.values.begin());
+  axis.values.push_back(value);
+  return axis.values.size() - 1;
+}
+
+/// The value of a run on each axis.
+std::vector<std::string> values_on_axes(const SweepPlan& plan, const PlannedRun& run) {
+  std::vector<std::string> values{plan.names[run.scene]};
+  if (plan.request.zipped) {
+    values.push_back(fmt::format("{}", fmt::join(run.values, ", ")));
+  } else {
+    values.insert(values.end(), run.values.begin(), run.values.end());
+  }
+  return values;
+}
+
+std::vector<SweepAxis> all_axes(const SweepPlan& plan) {
+  std::vector<SweepAxis> axes{{"scene", {}}};
+  std::vector<std::string> keys;
+  for (const Variation& variation : plan.request.varied) keys.push_back(variation.key);
+  if (plan.request.zipped) keys = {fmt::format("{}", fmt::join(keys, ", "))};
+  for (const std::string& key : keys) axes.push_back({key, {}});
+  return axes;
+}
+
+/// Leaves those axes on which there is anything to see.
+void drop_single_values(SweepResults& results) {
+  for (std::size_t a = results.axes.size(); a-- > 0;) {
+    if (results.axes[a].values.size() > 1) continue;
+    results.axes.erase(results.axes.begin() + static_cast<std::ptrdiff_t>(a));
+    for (SweepRow& row : results.rows) row.places.erase(row.places.begin() + static_cast<std::ptrdiff_t>(a));
+  }
+}
+
+RunRecord record_of(const PlannedRun& run, const std::filesystem::path& folder) {
+  if (!run.refusal.empty()) {
+    RunRecord refused;
+    refused.outcome = "refused";
+    refused.reason = run.refusal;
+    refused.code = ExitCode::usage;
+    return refused;
+  }
+  if (auto record = read_run(folder, run.key)) return *record;
+  RunRecord none;
+  none.outcome = "not run";
+  none.code = ExitCode::interrupted;
+  return none;
+}
+
+}  // namespace
+
+void write_sweep_file(const std::filesystem::path& folder, const SweepFile& file) {
+  const Json json{{"format", format_number}, {"shard", file.shard.text()}, {"plan", plan_json(file.plan)}};
+  write_file_atomically(folder / sweep_name, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+std::optional<SweepFile> read_sweep_file(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / sweep_name;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return std::nullopt;
+  try {
+    const Json json = Json::parse(read_file(file, most_sweep_bytes));
+    if (const int found = json.at("format"); found != format_number) {
+      throw UsageError(fmt::format("{}: it is of format {}, and this drape reads format {}: use the one that wrote it",
+                                   file.string(), found, format_number));
+    }
+    return SweepFile{plan_of(json.at("plan")), parse_shard(json.at("shard"))};
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw UsageError(fmt::format("{}: it is damaged ({}); drape sweep writes it anew", file.string(), error.what()));
+  }
+}
+
+std::size_t SweepResults::count(const std::string& outcome) const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(rows, [&](const SweepRow& row) { return row.record.outcome == outcome; }));
+}
+
+ExitCode SweepResults::exit_code() const {
+  ExitCode worst = ExitCode::ok;
+  for (const SweepRow& row : rows) worst = std::max(worst, row.record.code);
+  return worst;
+}
+
+std::string SweepResults::headline() const {
+  std::vector<std::string> parts;
+  for (const char* outcome : {"completed", "diverged", "refused", "failed", "not run"}) {
+    if (const std::size_t found = count(outcome); found > 0) parts.push_back(fmt::format("{} {}", found, outcome));
+  }
+  return fmt::format("{} {}: {}", rows.size(), rows.size() == 1 ? "run" : "runs",
+                     parts.empty() ? "nothing to do" : fmt::format("{}", fmt::join(parts, ", ")));
+}
+
+std::vector<std::string> SweepResults::troubles() const {
+  constexpr std::size_t most_told = 20;
+  std::vector<std::pair<const SweepRow*, std::size_t>> found;  // the first run of a reason, and how many have it
+  for (const SweepRow& row : rows) {
+    if (row.record.reason.empty()) continue;
+    const auto same = std::ranges::find_if(found, [&](const auto& other) {
+      return other.first->record.reason == row.record.reason && other.first->record.outcome == row.record.outcome;
+    });
+    if (same == found.end()) {
+      found.emplace_back(&row, 1);
+    } else {
+      ++same->second;
+    }
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [row, count] : found) {
+    if (sentences.size() == most_told) break;
+    const std::string label = label_of(plan, planned(*row));
+    sentences.push_back(fmt::format("{}: {}: {}",
+                                    count == 1 ? label : fmt::format("{} runs, the first of them {}", count, label),
+                                    row->record.outcome, row->record.reason));
+  }
+  if (found.size() > most_told) sentences.push_back(fmt::format("and {} more, see runs.csv", found.size() - most_told));
+  return sentences;
+}
+
+SweepResults read_results(const std::filesystem::path& folder, SweepFile file,
+                          const std::map<std::size_t, RunRecord>& unwritten) {
+  SweepResults results{.plan = std::move(file.plan), .shard = file.shard, .axes = {}, .rows = {}};
+  results.axes = all_axes(results.plan);
+  for (const std::size_t i : runs_of_shard(results.plan, results.shard)) {
+    const PlannedRun& run = results.plan.runs[i];
+    const auto lost = unwritten.find(i);
+    SweepRow row{i, {}, lost == unwritten.end() ? record_of(run, folder) : lost->second};
+    const std::vector<std::string> values = values_on_axes(results.plan, run);
+    for (std::size_t a = 0; a < values.size(); ++a) row.places.push_back(place_on(results.axes[a], values[a]));
+    results.rows.push_back(std::move(row));
+  }
+  drop_single_values(results);
+  return results;
+}
+
+std::vector<SweepGrid> grids_of(const SweepResults& results) {
+  const std::vector<SweepAxis>& axes = results.axes;
+  const SweepAxis* across = axes.empty() ? nullptr : &axes.back();
+  const SweepAxis* down = axes.size() < 2 ? nullptr : &axes[axes.size() - 2];
+  const std::size_t others = axes.size() < 2 ? 0 : axes.size() - 2;
+  std::map<std::vector<std::size_t>, SweepGrid> found;
+  for (const SweepRow& row : results.rows) {
+    const std::vector<std::size_t> rest(row.places.begin(), row.places.begin() + static_cast<std::ptrdiff_t>(others));
+    SweepGrid& grid = found[rest];
+    if (grid.cells.empty()) {
+      grid.down = down;
+      grid.across = across;
+      grid.cells.assign(down == nullptr ? 1 : down->values.size(),
+                        std::vector<const SweepRow*>(across == nullptr ? 1 : across->values.size()));
+      std::vector<std::string> common;
+      for (std::size_t a = 0; a < others; ++a) {
+        common.push_back(fmt::format("{} = {}", axes[a].name, axes[a].values[rest[a]]));
+      }
+      grid.title = fmt::format("{}", fmt::join(common, ", "));
+    }
+    grid.cells[down == nullptr ? 0 : row.places[others]][across == nullptr ? 0 : row.places.back()] = &row;
+  }
+  std::vector<SweepGrid> grids;
+  for (auto& [rest, grid] : found) grids.push_back(std::move(grid));
+  return grids;
+}
+
+}  // namespace drape

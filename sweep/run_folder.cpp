@@ -1,0 +1,128 @@
+#include "sweep/run_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "core/atomic_file.hpp"
+#include "core/read_file.hpp"
+
+namespace drape {
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+namespace {
+
+constexpr const char *record_name = "run.json", *stats_name = "stats.json";
+constexpr std::size_t most_record_bytes = std::size_t{1} << 24;
+
+void flatten(const Json& json, const std::string& name, std::vector<std::pair<std::string, std::string>>& figures) {
+  if (json.is_null()) return;
+  if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) flatten(value, name.empty() ? key : name + "." + key, figures);
+  } else if (json.is_array()) {
+    std::string text;
+    for (const Json& item : json)
+      text += (text.empty() ? "" : " ") + (item.is_string() ? item.get<std::string>() : item.dump());
+    figures.emplace_back(name, text);
+  } else {
+    figures.emplace_back(name, json.is_string() ? json.get<std::string>() : json.dump());
+  }
+}
+
+[[noreturn]] void fail(const fs::path& place, const std::error_code& error) {
+  throw OutputError(fmt::format("cannot write {}: {}", place.string(), error.message()));
+}
+
+void write_small_file(const fs::path& file, const std::string& text) {
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  int error = descriptor < 0 ? errno : write_all(descriptor, text);
+  if (descriptor >= 0 && ::close(descriptor) != 0 && error == 0) error = errno;
+  if (error != 0) fail(file, {error, std::generic_category()});
+}
+
+}  // namespace
+
+std::string RunRecord::figure(const std::string& name) const {
+  const auto found = std::ranges::find(figures, name, &std::pair<std::string, std::string>::first);
+  return found == figures.end() ? "" : found->second;
+}
+
+fs::path run_place(const fs::path& sweep, const std::string& key) { return sweep / "runs" / key; }
+
+std::optional<RunRecord> read_run(const fs::path& sweep, const std::string& key) {
+  const fs::path file = run_place(sweep, key) / record_name;
+  std::error_code ignored;
+  if (key.empty() || !fs::exists(file, ignored)) return std::nullopt;
+  try {
+    const Json json = Json::parse(read_file(file, most_record_bytes));
+    if (json.at("format") != 1 || json.at("key") != key) return std::nullopt;
+    RunRecord record{.outcome = json.at("outcome"),
+                     .reason = json.at("reason"),
+                     .code = static_cast<ExitCode>(json.at("exit_code").get<int>()),
+                     .timed = json.at("timed"),
+                     .seconds = json.at("seconds"),
+                     .files = json.at("files"),
+                     .moments = json.at("moments"),
+                     .figures = {}};
+    flatten(json.at("figures"), "", record.figures);
+    return record;
+  } catch (const Json::exception&) {
+    return std::nullopt;  // it is run again, and replaced
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
+RunFolder::RunFolder(const fs::path& sweep, const std::string& key)
+    : key_(key), place_(run_place(sweep, key)), hidden_(place_.parent_path() / ("." + key)) {
+  clear();
+}
+
+RunFolder::~RunFolder() {
+  std::error_code ignored;
+  fs::remove_all(hidden_, ignored);
+}
+
+void RunFolder::clear() {
+  std::error_code error;
+  fs::remove_all(hidden_, error);
+  fs::create_directories(hidden_, error);
+  if (error) fail(hidden_, error);
+}
+
+void RunFolder::commit(const RunRecord& record, const std::string& stats) {
+  Json figures = stats.empty() ? Json::object() : Json::parse(stats);
+  figures.erase("outcome");
+  const Json json{{"format", 1},
+                  {"key", key_},
+                  {"outcome", record.outcome},
+                  {"reason", record.reason},
+                  {"exit_code", static_cast<int>(record.code)},
+                  {"timed", record.timed},
+                  {"seconds", record.seconds},
+                  {"files", record.files},
+                  {"moments", record.moments},
+                  {"figures", figures}};
+  if (!stats.empty()) write_small_file(hidden_ / stats_name, stats);
+  write_small_file(hidden_ / record_name, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  std::error_code error;
+  fs::remove_all(place_, error);
+  fs::rename(hidden_, place_, error);
+  if (error) fail(place_, error);
+}
+
+void remove_unfinished(const fs::path& sweep) {
+  std::error_code ignored;
+  std::vector<fs::path> hidden;
+  for (const auto& entry : fs::directory_iterator(sweep / "runs", ignored)) {
+    if (entry.path().filename().string().starts_with('.')) hidden.push_back(entry.path());
+  }
+  for (const fs::path& folder : hidden) fs::remove_all(folder, ignored);
+}
+
+}  // namespace drape

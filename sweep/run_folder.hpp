@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace drape {
+
+/// What became of a run.
+struct RunRecord {
+  std::string outcome;             ///< "completed", "diverged", "refused", "failed" or "not run"
+  std::string reason;              ///< why it is not complete, a sentence; empty: it is
+  ExitCode code = ExitCode::ok;    ///< that it would have had alone
+  std::string timed;               ///< what else ran beside it, as far as its sweep knows: "alone", "beside 3 others"
+  double seconds = 0;              ///< that it took, with drawing and encoding
+  std::vector<std::string> files;  ///< in its folder, that it wrote
+  std::vector<double> moments;     ///< of the motion that its contact sheet shows [s]
+  std::vector<std::pair<std::string, std::string>> figures;  ///< of its --stats: "step_us.median", "12.5"
+
+  /// Whether it need not be run again: it would end in the same way.
+  [[nodiscard]] bool settled() const { return outcome == "completed" || outcome == "diverged"; }
+  /// The figure of this name; empty: it has none.
+  [[nodiscard]] std::string figure(const std::string& name) const;
+};
+
+/// Where a run's folder is.
+std::filesystem::path run_place(const std::filesystem::path& sweep, const std::string& key);
+
+/// What a run's folder says of it; nothing if there is none, or it is no record of this run.
+std::optional<RunRecord> read_run(const std::filesystem::path& sweep, const std::string& key);
+
+/// The folder of a run, which appears under its name only when the run is complete. Until then it is hidden, and gone
+/// with this object; one of a process that was killed is removed by the next sweep, see remove_unfinished().
+class RunFolder {
+ public:
+  /// @throws OutputError
+  RunFolder(const std::filesystem::path& sweep, const std::string& key);
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  /// Where to write.
+  [[nodiscard]] const std::filesystem::path& place() const { return hidden_; }
+
+  /// Removes what was written so far.
+  void clear();
+
+  /// Adds what became of the run and its stats.json, and gives the folder its name, in place of what has it. These two
+  /// are not forced onto the disk, which would take longer than many a run: one that a power cut has damaged is run
+  /// again.
+  /// @param stats of the run, as JSON; empty: it took no step
+  /// @throws OutputError
+  void commit(const RunRecord& record, const std::string& stats);
+
+ private:
+  std::string key_;
+  std::filesystem::path place_, hidden_;
+};
+
+/// Removes what killed processes left of runs.
+void remove_unfinished(const std::filesystem::path& sweep);
+
+}  // namespace drape

@@ -1,0 +1,60 @@
+#include "sweep/variation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/usage_error.hpp"
+
+namespace drape {
+namespace {
+
+using Values = std::vector<std::string>;
+using test::usage_error;
+
+TEST(Values, AreSplitAtCommasOutsideOfBracketsAndQuotes) {
+  EXPECT_EQ(parse_values("liu13,implicit"), (Values{"liu13", "implicit"}));
+  EXPECT_EQ(parse_values("{ grid = [4, 4] },{ grid = [8, 8] }"), (Values{"{ grid = [4, 4] }", "{ grid = [8, 8] }"}));
+  EXPECT_EQ(parse_values("\"a,b\",c"), (Values{"\"a,b\"", "c"}));
+}
+
+TEST(Values, OfARangeHaveBothEnds) {
+  EXPECT_EQ(parse_values("10..80/8"), (Values{"10", "20", "30", "40", "50", "60", "70", "80"}));
+  EXPECT_EQ(parse_values("1e-1..1e-6/6log"), (Values{"0.1", "0.01", "0.001", "0.0001", "1e-05", "1e-06"}));
+  EXPECT_EQ(parse_values("-1..1/3,7"), (Values{"-1", "0", "1", "7"}));
+}
+
+TEST(Values, ThatOnlyLookLikeARangeAreNone) {
+  EXPECT_EQ(parse_values("../mesh.obj"), (Values{"../mesh.obj"}));
+  EXPECT_EQ(parse_values("a..b/3"), (Values{"a..b/3"}));
+  for (const char* wrong : {"1..2", "1..2/1", "1..2/2.5", "1..x/3", "1../3"}) {
+    EXPECT_NE(usage_error([&] { parse_values(wrong); }).find("FROM..TO/COUNT"), std::string::npos) << wrong;
+  }
+  EXPECT_NE(usage_error([] { parse_values("0..1/3log"); }).find("above 0"), std::string::npos);
+}
+
+TEST(Combinations, AreTheProductInWhichTheLastChangesFastest) {
+  const std::vector<Variation> varied{parse_variation("a=1,2"), parse_variation("b=x,y,z")};
+  const std::vector<Values> all = combinations(varied);
+  ASSERT_EQ(all.size(), 6U);
+  EXPECT_EQ(all[0], (Values{"1", "x"}));
+  EXPECT_EQ(all[1], (Values{"1", "y"}));
+  EXPECT_EQ(all[5], (Values{"2", "z"}));
+  EXPECT_EQ(overrides_of(varied, all[5]), (Values{"a=2", "b=z"}));
+  EXPECT_EQ(combinations({}).size(), 1U);
+}
+
+TEST(Combinations, AreZippedWhereKeysHaveAsManyValues) {
+  const std::vector<Variation> varied{parse_variation("a=1,2"), parse_variation("b=x,y")};
+  EXPECT_EQ(combinations(varied, true), (std::vector<Values>{{"1", "x"}, {"2", "y"}}));
+  EXPECT_EQ(usage_error([] {
+              combinations({parse_variation("a=1,2"), parse_variation("b=x")}, true);
+            }),
+            "--zip pairs values: a has 2 of them, b has 1");
+}
+
+TEST(Combinations, ThatNobodyCanRunAreRefused) {
+  const Variation many = parse_variation("a=1..1000/1000");
+  EXPECT_NE(usage_error([&] { combinations({many, many}); }).find("100000"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace drape
