@@ -280,7 +280,7 @@ SceneResult unjudged_scene(const Scene& scene, const std::string& name, const Ch
                            const Error& error) {
   SceneResult result = unchecked(scene, name, settings);
   result.verdict = SceneVerdict::error;
-  result.error = error.code();
+  result.error = error.kind();
   result.findings.emplace_back(error.what());
   return result;
 }

@@ -7,28 +7,8 @@
 
 namespace drape {
 
-namespace {
-
-ExitCode exit_code_of(const SceneResult& scene) {
-  switch (scene.verdict) {
-    case SceneVerdict::passed:
-    case SceneVerdict::updated:
-      return ExitCode::ok;
-    case SceneVerdict::changed:
-    case SceneVerdict::missing:
-      return ExitCode::differs;
-    case SceneVerdict::error:
-      return scene.error;
-  }
-  return scene.error;
-}
-
-}  // namespace
-
-ExitCode CheckReport::exit_code() const {
-  ExitCode worst = ExitCode::ok;
-  for (const SceneResult& scene : scenes) worst = std::max(worst, exit_code_of(scene));
-  return worst;
+bool CheckReport::passed() const {
+  return std::ranges::all_of(scenes, [](const SceneResult& scene) { return scene.passed(); });
 }
 
 std::string describe_ignored(const SceneResult& scene) {

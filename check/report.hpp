@@ -107,7 +107,7 @@ struct SceneResult {
   std::filesystem::path file;    ///< the scene's
   std::filesystem::path golden;  ///< the golden's folder
   SceneVerdict verdict = SceneVerdict::passed;
-  ExitCode error = ExitCode::ok;      ///< of the verdict "error": what is wrong
+  ErrorKind error = ErrorKind::usage;  ///< of the verdict "error": what is wrong
   std::vector<std::string> findings;  ///< sentences, most important first: "the motion changed at step 37 by up to …"
   Comparison windows;                 ///< the motion in windows from golden states, and the pictures of those states
   std::optional<Comparison> end_to_end;  ///< the whole motion run again and drawn, if that was asked for
@@ -126,6 +126,9 @@ struct SceneResult {
   std::string rerun_command;
   std::string accept_command;  ///< makes what it is now the golden: drape accept, or drape bless without a candidate
   double seconds = 0;          ///< that the check took
+
+  /// Whether it is as its golden, or has become it.
+  [[nodiscard]] bool passed() const { return verdict == SceneVerdict::passed || verdict == SceneVerdict::updated; }
 };
 
 /// A run of `drape check`.
@@ -138,9 +141,7 @@ struct CheckReport {
   double seconds = 0;
 
   /// Whether nothing changed, nothing was missing, and everything could be judged.
-  [[nodiscard]] bool passed() const { return exit_code() == ExitCode::ok; }
-  /// Of the scene that is worst off, where an error is worse than a change.
-  [[nodiscard]] ExitCode exit_code() const;
+  [[nodiscard]] bool passed() const;
 };
 
 /// "2.1 % of the picture and frame 40 are ignored"; empty if nothing is.

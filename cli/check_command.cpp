@@ -120,7 +120,7 @@ class Verdicts {
 };
 
 void tell(const SceneResult& result, const CommonOptions& common, Verdicts& verdicts) {
-  const bool good = result.verdict == SceneVerdict::passed || result.verdict == SceneVerdict::updated;
+  const bool good = result.passed();
   if (result.verdict == SceneVerdict::error) {
     spdlog::error(describe(result));
   } else if (!common.quiet || !good) {
@@ -195,9 +195,9 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   write_reports(report, folder);
   if (!common.quiet) verdicts.print((folder / "report.html").string());
-  if (verdicts.reason().empty()) return report.exit_code();
+  if (verdicts.reason().empty()) return exit_code(report);
   spdlog::error("the verdicts cannot be written to standard output: {}", verdicts.reason());
-  return std::max(report.exit_code(), ExitCode::output);
+  return std::max(exit_code(report), ExitCode::output);
 }
 
 void add_limits(CLI::App& sub, CheckArguments& arguments) {

@@ -8,6 +8,7 @@
 #include <new>
 #include <system_error>
 
+#include "cli/environment.hpp"
 #include "core/build_info.hpp"
 #include "core/console.hpp"
 #include "core/nearest.hpp"
@@ -56,7 +57,7 @@ ExitCode report(const Error& error) {
     end = std::string_view(error.what()).find('\n', begin);
     spdlog::error(std::string_view(error.what()).substr(begin, end == std::string::npos ? end : end - begin));
   }
-  return error.code();
+  return exit_code(error.kind());
 }
 
 }  // namespace
@@ -113,7 +114,11 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   }
 
   set_up_logging(common);
-  const ExitCode code = reported(command);
+  const bool diagnosed = app.got_subcommand("doctor");  // what is wrong with the environment is a finding of its own
+  const ExitCode code = reported([&] {
+    if (!diagnosed) use_environment();
+    return command();
+  });
   if (const int error = lost_output()) {
     spdlog::error("cannot write to standard output: {}", std::generic_category().message(error));
     return std::max(code, ExitCode::output);

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "core/error.hpp"
+#include "cli/exit_code.hpp"
 #include "render/backend.hpp"
 
 namespace drape {

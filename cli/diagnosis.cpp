@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "cli/environment.hpp"
 #include "codecs/codecs.hpp"
 #include "core/error.hpp"
 #include "output/registry.hpp"
@@ -53,7 +54,10 @@ void find_kernels(Diagnosis& diagnosis) {
     if (version->supported() != 0) diagnosis.runnable_kernels.emplace_back(version->name);
   }
   diagnosis.chosen_kernels.name = "instruction set";
-  diagnosis.chosen_kernels.problem = problem_of([&] { diagnosis.chosen_kernels.detail = std::string(kernels().name); });
+  diagnosis.chosen_kernels.problem = problem_of([&] {
+    use_environment_isa();
+    diagnosis.chosen_kernels.detail = std::string(kernels().name);
+  });
 }
 
 /// The library that CHOLMOD's calls of the BLAS end in.
@@ -88,6 +92,7 @@ BackendFinding find_backend(GlBackend backend) {
 
 /// Draws a square that fills the picture's middle, and looks at the middle and a corner.
 void draw_a_square() {
+  use_environment_data();
   const Mesh mesh = make_grid(1, 1);
   Look look;
   look.background = Rgb{0, 0, 1};

@@ -22,6 +22,7 @@
 #include "run/outputs.hpp"
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
+#include "sim/make_system.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/simulation.hpp"
 
@@ -34,14 +35,14 @@ void look_ahead(const std::vector<Scene>& scenes, const std::vector<RunOptions>&
   require_files_of_their_own(scenes, options);
   const bool drawn = std::any_of(options.begin(), options.end(), needs_drawing);
   const int largest_texture = drawn ? inspect_backend(options.front().backend).max_texture_size : 0;
-  ExitCode worst = ExitCode::ok;
+  std::optional<ErrorKind> worst;
   std::string problems;
   const auto attempt = [&](const auto& work) {
     try {
       work();
     } catch (const Error& error) {
       problems += (problems.empty() ? "" : "\n") + std::string(error.what());
-      worst = std::max(worst, error.code());
+      worst = std::max(worst.value_or(error.kind()), error.kind());
     }
   };
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -51,7 +52,7 @@ void look_ahead(const std::vector<Scene>& scenes, const std::vector<RunOptions>&
     attempt([&] { require_texture(scene, largest_texture); });
     if (Annotations::wanted(scene)) attempt([&] { const Annotations fonts_are_there(scene); });
   }
-  if (worst != ExitCode::ok) throw Error(worst, problems);
+  if (worst) throw Error(*worst, problems);
 }
 
 /// @throws UsageError if an output must be drawn where nothing is

@@ -3,21 +3,21 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/installation.hpp"
 #include "core/shared_library.hpp"
 
 namespace drape {
 
 std::filesystem::path codecs_module() {
+  std::vector<std::filesystem::path> roots = installation_roots();
+  roots.push_back(configured_prefix());
   std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  // A program that is installed is in bin/; of one that was built the module is in its folder or one or two above it.
-  std::filesystem::path folder = program.parent_path();
-  for (int above = 0; above < 3; ++above, folder = folder.parent_path()) {
-    if (const auto file = folder / DRAPE_CODECS_MODULE; std::filesystem::exists(file, error)) return file;
+  for (const auto& root : roots) {
+    if (auto file = root / DRAPE_CODECS_MODULE; std::filesystem::exists(file, error)) return file;
   }
   throw OutputError(
       fmt::format("cannot encode or decode: a part of drape is missing, {}; it is built and installed with the program",
-                  (program.parent_path().parent_path() / DRAPE_CODECS_MODULE).string()));
+                  ((roots.size() > 2 ? roots[1] : roots.back()) / DRAPE_CODECS_MODULE).string()));
 }
 
 const Codecs& codecs() {

@@ -1,41 +1,51 @@
 #pragma once
 
+// Example:
+//   try {
+//     drape::load_scene("scene.toml");
+//   } catch (const drape::Error& error) {
+//     std::fputs(error.what(), stderr);  // every problem, a line each
+//   }
+
 #include <stdexcept>
 #include <string>
 
 namespace drape {
 
-/// What the drape process returns to its caller.
-enum class ExitCode : int {
-  ok = 0,
-  differs = 1,       ///< images or motion differ from the golden ones
-  usage = 2,         ///< the command line, the scene or a file it names is wrong
-  diverged = 3,      ///< the simulation left the range of finite numbers
-  output = 4,        ///< drawing, encoding or writing failed
-  interrupted = 130  ///< Ctrl-C or SIGTERM
+/// What an error is of, the worse the later: several errors together are of the kind of the worst.
+enum class ErrorKind {
+  usage,     ///< what is asked for, the scene or a file it names is wrong
+  diverged,  ///< the simulation left the range of finite numbers, or gained energy out of nothing
+  output     ///< drawing, encoding or writing failed
 };
 
-/// A failure with a message for the person at the terminal and the exit code it leads to. The message is complete: it
-/// names the file or key, what was expected and what was found.
+/// A failure with a message for people. The message is complete: it names the file or key, what was expected and what
+/// was found.
 class Error : public std::runtime_error {
  public:
-  Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
-  [[nodiscard]] ExitCode code() const { return code_; }
+  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  [[nodiscard]] ErrorKind kind() const { return kind_; }
 
  private:
-  ExitCode code_;
+  ErrorKind kind_;
 };
 
-/// The command line, a scene or an input file is wrong. The message may have several lines, one per problem.
+/// What is asked for, a scene or an input file is wrong. The message may have several lines, one per problem.
 class UsageError : public Error {
  public:
-  explicit UsageError(const std::string& message) : Error(ExitCode::usage, message) {}
+  explicit UsageError(const std::string& message) : Error(ErrorKind::usage, message) {}
+};
+
+/// The motion blew up, or left the range of finite numbers.
+class DivergedError : public Error {
+ public:
+  explicit DivergedError(const std::string& message) : Error(ErrorKind::diverged, message) {}
 };
 
 /// Drawing, encoding or writing a file failed.
 class OutputError : public Error {
  public:
-  explicit OutputError(const std::string& message) : Error(ExitCode::output, message) {}
+  explicit OutputError(const std::string& message) : Error(ErrorKind::output, message) {}
 };
 
 }  // namespace drape

@@ -27,10 +27,10 @@ std::string_view bytes_of(const Vertices& v) {
   return {reinterpret_cast<const char*>(v.data()), static_cast<std::size_t>(v.size()) * sizeof(double)};
 }
 
-BlowUpWatch::Books unpack_books(std::string_view payload, Eigen::Index vertices) {
+EnergyMemory unpack_books(std::string_view payload, Eigen::Index vertices) {
   const std::string bytes = unpack(payload);
   ByteReader reader(bytes);
-  BlowUpWatch::Books books;
+  EnergyMemory books;
   books.explained = reader.number();
   books.work = reader.number();
   books.looked_at.resize(vertices, 3);

@@ -1,5 +1,8 @@
 #pragma once
 
+// Example:
+//   std::printf("%s", drape::backend_name(drape::GlBackend::osmesa));
+
 namespace drape {
 
 /// Where the OpenGL context comes from. Both draw the same bytes where Mesa's software renderer is behind them.

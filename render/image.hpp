@@ -1,5 +1,9 @@
 #pragma once
 
+// Example:
+//   drape::Image image(480, 400);
+//   image.at(10, 20)[0] = 255;  // red, of column 10 and row 20
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,11 @@
 #pragma once
 
+// Example:
+//   const drape::Mesh mesh = drape::make_grid(20, 20);
+//   const drape::View view{.position = {0, -4, 2}, .target = {0, 0, 0}, .up = {0, 0, 1}};
+//   drape::Renderer renderer(drape::data_folder(), {480, 400}, view, drape::Look{}, 441, mesh.triangles, mesh.uvs);
+//   const drape::Image image = renderer.draw({.positions = mesh.positions});
+
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>

@@ -1,5 +1,9 @@
 #pragma once
 
+// Example:
+//   drape::Camera camera{.azimuth = -60, .elevation = 20};
+//   drape::Look look{.color = {0.2, 0.3, 0.8}, .mesh_lines = true};
+
 #include <Eigen/Core>
 #include <cmath>
 #include <filesystem>
@@ -15,15 +19,15 @@ namespace drape {
 struct Camera {
   static constexpr double usual_azimuth = -60, usual_elevation = 20;  ///< where nothing says more [degrees]
 
-  std::optional<Eigen::Vector3d> position;  ///< [m]
-  std::optional<Eigen::Vector3d> target;    ///< [m]; absent: the middle of the motion
+  std::optional<Eigen::Vector3d> position = {};  ///< [m]
+  std::optional<Eigen::Vector3d> target = {};    ///< [m]; absent: the middle of the motion
   Eigen::Vector3d up{0, 0, 1};
-  double field_of_view = 30;        ///< of the picture's height [degrees]
-  std::optional<double> azimuth;    ///< from the target to the camera in the xy plane, from +x towards +y [degrees]
-  std::optional<double> elevation;  ///< of that direction above the xy plane [degrees]
-  double margin = 0.06;             ///< free border around the motion, as a fraction of the picture
-  bool follow = false;              ///< stays near what moves, instead of where all of the motion is in view
-  double orbit = 0;                 ///< how far it goes around the target, about `up`, in the whole film [degrees]
+  double field_of_view = 30;           ///< of the picture's height [degrees]
+  std::optional<double> azimuth = {};  ///< from the target to the camera in the xy plane, from +x towards +y [degrees]
+  std::optional<double> elevation = {};  ///< of that direction above the xy plane [degrees]
+  double margin = 0.06;                  ///< free border around the motion, as a fraction of the picture
+  bool follow = false;                   ///< stays near what moves, instead of where all of the motion is in view
+  double orbit = 0;                      ///< how far it goes around the target, about `up`, in the whole film [degrees]
 };
 
 /// What the colours of a cloth's vertices show, in place of its texture and its colour. The order is that of the names
@@ -32,21 +36,21 @@ enum class ColorBy { stretch, speed, curvature };
 
 /// What things look like. Colours are sRGB.
 struct Look {
-  std::filesystem::path texture;  ///< an image file; empty: the plain `color`
-  Rgb color{0.85, 0.65, 0.13};    ///< of the cloth, where it has no texture
-  int anisotropy = 1;             ///< of the texture's filter, 1 is off: in software it is slow
-  bool mesh_lines = false;        ///< draw the triangles' edges as thin dark lines
+  std::filesystem::path texture = {};  ///< an image file; empty: the plain `color`
+  Rgb color{0.85, 0.65, 0.13};         ///< of the cloth, where it has no texture
+  int anisotropy = 1;                  ///< of the texture's filter, 1 is off: in software it is slow
+  bool mesh_lines = false;             ///< draw the triangles' edges as thin dark lines
   Rgb line_color{0.16, 0.12, 0.06};
-  double line_width = 0.8;            ///< [pixels]
-  std::optional<Rgb> background;      ///< at the bottom of the picture, and everywhere without the next
-  std::optional<Rgb> background_top;  ///< at the top: a gradient; absent, with the other: the grey of a studio
+  double line_width = 0.8;                 ///< [pixels]
+  std::optional<Rgb> background = {};      ///< at the bottom of the picture, and everywhere without the next
+  std::optional<Rgb> background_top = {};  ///< at the top: a gradient; absent, with the other: the grey of a studio
   Rgb sphere_color{0.75, 0.04, 0.04};
   Rgb ground_color{0.84, 0.83, 0.81};
   double ground_grid = 0.5;  ///< distance of the lines on the ground, 0 without lines [m]
   int samples = 4;           ///< per pixel: 1 (off), 2, 4
-  std::optional<ColorBy> color_by;
-  std::optional<double> color_limit;  ///< what the last colour stands for: as a part of 1, [m/s] or [1/m]
-  bool shadows = true;                ///< of cloth and spheres, in the key light
+  std::optional<ColorBy> color_by = {};
+  std::optional<double> color_limit = {};  ///< what the last colour stands for: as a part of 1, [m/s] or [1/m]
+  bool shadows = true;                     ///< of cloth and spheres, in the key light
   bool ambient_occlusion = true;
   double translucency = 0.3;  ///< part of the key light that shines through the cloth
 

@@ -1,5 +1,10 @@
 #pragma once
 
+// Example:
+//   drape::Framing framing(drape::Camera{.azimuth = -60, .elevation = 20}, 480.0 / 400);
+//   framing.add(drape::make_grid(20, 20).positions);
+//   const drape::View view = framing.view();  // all of it is in the picture
+
 #include <Eigen/Core>
 #include <array>
 

@@ -1,4 +1,5 @@
 #include "run/motion_frames.hpp"
+#include "sim/make_system.hpp"
 
 namespace drape {
 namespace {

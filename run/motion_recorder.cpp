@@ -1,4 +1,5 @@
 #include "run/motion_recorder.hpp"
+#include "sim/make_system.hpp"
 
 #include <cmath>
 #include <utility>

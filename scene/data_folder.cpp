@@ -1,11 +1,13 @@
-#include <cstdlib>
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/installation.hpp"
 #include "scene/scene.hpp"
 
 namespace drape {
 namespace {
+
+std::filesystem::path chosen_data_folder;
 
 bool is_folder(const std::filesystem::path& path) {
   std::error_code error;
@@ -14,20 +16,23 @@ bool is_folder(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::filesystem::path data_folder() {
-  if (const char* given = std::getenv("DRAPE_DATA"); given != nullptr && *given != '\0') {
-    if (is_folder(given)) return given;
-    throw UsageError("DRAPE_DATA: no such folder: " + std::string(given));
-  }
-  std::error_code error;
-  const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::filesystem::path installed = executable.parent_path().parent_path() / "share" / "drape";
-  if (!error && is_folder(installed)) return installed;
+void use_data_folder(const std::filesystem::path& folder) {
+  if (!folder.empty() && !is_folder(folder)) throw UsageError("no such folder: " + folder.string());
+  chosen_data_folder = folder;
+}
 
-  const std::filesystem::path source = DRAPE_SOURCE_TREE;
+std::filesystem::path data_folder() {
+  if (!chosen_data_folder.empty()) return chosen_data_folder;
+  const std::filesystem::path installed = std::filesystem::path("share") / "drape";
+  std::filesystem::path source = DRAPE_SOURCE_TREE;
+  for (const auto& root : installation_roots()) {
+    if (is_folder(root / installed)) return root / installed;
+  }
   if (is_folder(source)) return source;
-  throw UsageError("no data folder: neither " + installed.string() + " nor " + source.string() +
-                   " is one; DRAPE_DATA can name another");
+  std::filesystem::path configured = configured_prefix() / installed;
+  if (is_folder(configured)) return configured;
+  throw UsageError("no data folder: none is beside the program, and neither " + configured.string() + " nor " +
+                   source.string() + " is one");
 }
 
 }  // namespace drape

@@ -13,7 +13,7 @@ namespace drape {
 /// Where something was written. Places sort as a person meets them: through the file, then through the overrides.
 struct Place {
   std::size_t override_number = 0;  ///< 0: in the file; n: in the n-th override, which has no line and column
-  std::size_t line = 1;             ///< from 1
+  std::size_t line = 1;             ///< from 1; 0: it is nowhere in a text
   std::size_t column = 1;           ///< from 1, in characters
   auto operator<=>(const Place&) const = default;
 };

@@ -10,8 +10,9 @@
 namespace drape {
 
 std::string Problems::text(const Place& place) const {
-  return place.override_number == 0 ? fmt::format("{}:{}:{}", file_.string(), place.line, place.column)
-                                    : fmt::format("--set {}", overrides_[place.override_number - 1]);
+  if (place.override_number > 0) return fmt::format("--set {}", overrides_[place.override_number - 1]);
+  if (place.line == 0) return file_.string();
+  return fmt::format("{}:{}:{}", file_.string(), place.line, place.column);
 }
 
 std::string Problems::text() const {

@@ -29,7 +29,7 @@ class Problems {
 
   [[nodiscard]] std::size_t count() const { return found_.size(); }
 
-  /// "scene.toml:4:9" or "--set key.path=value".
+  /// "scene.toml:4:9" or "--set key.path=value"; the file alone for a place that is in no text.
   [[nodiscard]] std::string text(const Place& place) const;
 
   /// What lists the problems in the order of their places, a line each; of many the first hundred and how many more

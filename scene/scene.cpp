@@ -16,6 +16,7 @@
 #include "scene/table_reader.hpp"
 #include "scene/tables.hpp"
 #include "sim/effects/bending.hpp"
+#include "sim/make_system.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/simulation.hpp"
 
@@ -151,7 +152,12 @@ class Checks {
 std::int64_t Scene::step_count() const { return static_cast<std::int64_t>(std::llround(duration / simulation.step)); }
 
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  TomlValue document = read_document(file);
+  Scene scene = make_scene(read_document(file), file, overrides);
+  scene.inputs.push_back(file);
+  return scene;
+}
+
+Scene make_scene(TomlValue document, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   std::erase_if(document.as<TomlTable>()->entries, [](const TomlEntry& entry) { return entry.name == "sweep"; });
   Problems problems(file, overrides);
   apply_overrides(document, overrides, problems);
@@ -177,7 +183,6 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   }
   const std::vector<ReadEffect> effects = read_effects(document, reader, problems);
   scene.inputs = reader.files();
-  scene.inputs.push_back(file);
   for (const TomlValue* mesh : {cloth_table.mesh, cloth_table.rest}) {
     if (mesh != nullptr && mesh->as<std::string>() != nullptr) {
       scene.inputs.push_back(folder / *mesh->as<std::string>());

@@ -1,5 +1,10 @@
 #pragma once
 
+// Example:
+//   const drape::Scene scene = drape::load_scene("scene.toml", {"cloth.stiffness=300"});
+//   drape::Simulation simulation(scene.simulation);
+//   while (simulation.state().step < scene.step_count()) simulation.step();
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -58,9 +63,20 @@ struct Scene {
 ///         "file:line:col: message", or "--set key.path=value: message"
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-/// The data folder that holds textures/, shaders/ and scenes/: DRAPE_DATA if set, else beside the executable's install
-/// prefix (../share/drape), else the source tree it was built from.
+/// Makes a scene of what a file would say.
+/// @param document a table, whose places messages name; of line 0: the scene was made by a program, and has none
+/// @param file     what messages call it; the files that it names are looked for in its folder
+/// @throws UsageError as load_scene()
+Scene make_scene(TomlValue document, const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The data folder that holds textures/, shaders/ and scenes/: the one that use_data_folder() has named, else what was
+/// installed with the program or the library (share/drape), else the source tree it was built from.
 /// @throws UsageError if there is none
 std::filesystem::path data_folder();
+
+/// Has data_folder() return this one from now on; with an empty path, what is found again. Not while another thread
+/// reads scenes or draws.
+/// @throws UsageError if there is no such folder
+void use_data_folder(const std::filesystem::path& folder);
 
 }  // namespace drape

@@ -10,12 +10,6 @@
 
 namespace drape {
 
-/// The motion blew up, or left the range of finite numbers.
-class DivergedError : public Error {
- public:
-  explicit DivergedError(const std::string& message) : Error(ExitCode::diverged, message) {}
-};
-
 /// Recognises that a motion has more energy than can be explained: than what the cloth had and what the forces gave
 /// it, Σ|f·Δx|.
 class BlowUpWatch {
@@ -37,11 +31,7 @@ class BlowUpWatch {
   void begin(const State& state, double energy);
 
   /// What it knows of the motion so far.
-  struct Books {
-    double explained = 0;  ///< [J]
-    Vertices looked_at;    ///< where the cloth was when it last looked, n×3 [m]
-    double work = 0;       ///< since then [J]
-  };
+  using Books = EnergyMemory;
   [[nodiscard]] const Books& books() const { return books_; }
   /// Goes on with a motion of which it knew this.
   void go_on(const Books& books) { books_ = books; }

@@ -1,5 +1,12 @@
 #pragma once
 
+// Example:
+//   const drape::Mesh rest = drape::make_grid(10, 10);
+//   drape::Mesh start = rest;
+//   start.positions.col(2).array() += 1;  // a metre above where it was cut
+//   drape::Cloth cloth = drape::make_cloth(start, rest, 0.5, 100, {});
+//   drape::share_mass_by_area(0.3, cloth);  // 0.3 kg/m²
+
 #include <Eigen/Core>
 #include <vector>
 

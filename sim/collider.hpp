@@ -1,5 +1,9 @@
 #pragma once
 
+// Example:
+//   const drape::Collider ball = drape::SphereShape{.center = {0, 0, 1}, .radius = 0.4, .reach = 0.44};
+//   if (const auto* sphere = std::get_if<drape::SphereShape>(&ball)) std::printf("%g m", sphere->radius);
+
 #include <Eigen/Core>
 #include <variant>
 

@@ -1,5 +1,9 @@
 #pragma once
 
+// Example:
+//   const drape::Energies now{.kinetic = 2, .gravity = -3, .elastic = 0.5};
+//   const double all = now.total();  // -0.5 J
+
 namespace drape {
 
 /// The energies of a cloth at one moment [J].

@@ -1,5 +1,8 @@
 #pragma once
 
+// Example:
+//   for (const drape::Fabric& fabric : drape::fabrics()) std::printf("%g kg/m2", fabric.density);
+
 #include <span>
 #include <string_view>
 

@@ -1,5 +1,12 @@
 #pragma once
 
+// Example:
+//   const auto frame_of = [](const drape::Simulation& simulation) {
+//     return drape::Frame{.time = simulation.time(),
+//                         .positions = simulation.state().x,
+//                         .colliders = simulation.colliders(simulation.time())};
+//   };
+
 #include <optional>
 #include <vector>
 
@@ -13,8 +20,8 @@ namespace drape {
 struct Frame {
   int index = 0;                          ///< number of the frame, from 0
   double time = 0;                        ///< [s], in the scene's time
-  Vertices positions;                     ///< n×3 [m]
-  std::vector<Collider> colliders;        ///< in the order of the scene
+  Vertices positions = {};                ///< n×3 [m]
+  std::vector<Collider> colliders = {};   ///< in the order of the scene
   Vertices velocities = {};               ///< n×3 [m/s]; empty where nobody has asked for them
   std::optional<Energies> energies = {};  ///< likewise absent
   int iterations = 0;                     ///< of the step that it is in, or ends with

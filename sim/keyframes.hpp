@@ -1,5 +1,10 @@
 #pragma once
 
+// Example:
+//   const drape::Keyframes up({{.time = 0, .value = {0, 0, 0}}, {.time = 2, .value = {0, 0, 1}}},
+//                             drape::Interpolation::smooth);
+//   const Eigen::Vector3d middle = up.at(1);  // (0, 0, 0.5)
+
 #include <vector>
 
 #include "core/keys.hpp"

@@ -1,5 +1,11 @@
 #pragma once
 
+// Example:
+//   drape::Mesh triangle;
+//   triangle.positions.resize(3, 3);
+//   triangle.positions << 0, 0, 0, 1, 0, 0, 0, 1, 0;  // a row for each vertex
+//   triangle.triangles = {{0, 1, 2}};
+
 #include <Eigen/Core>
 #include <array>
 #include <vector>
@@ -17,10 +23,10 @@ using Edge = std::array<int, 2>;
 
 /// A triangle mesh. Several pieces, boundary and non-manifold edges, and isolated vertices are allowed.
 struct Mesh {
-  Vertices positions;                     ///< n×3 [m]
-  std::vector<Triangle> triangles;        ///< indices below n
-  std::vector<std::array<float, 2>> uvs;  ///< texture coordinates, v upwards: entry 3t+c is corner c of triangle t;
-                                          ///< empty where the mesh has none
+  Vertices positions = {};                     ///< n×3 [m]
+  std::vector<Triangle> triangles = {};        ///< indices below n
+  std::vector<std::array<float, 2>> uvs = {};  ///< texture coordinates, v upwards: entry 3t+c is corner c of triangle
+                                               ///< t; empty where the mesh has none
 };
 
 /// The square [-1,1]² at z = 0 with columns×rows cells, (columns+1)·(rows+1) vertices in row-major order (x fastest),

@@ -1,5 +1,10 @@
 #pragma once
 
+// Example:
+//   drape::SimulationSettings settings{.step = 0.02};
+//   settings.integrator = {.method = drape::Method::implicit, .scheme = drape::TimeScheme::sdirk2};
+//   settings.effects.add(drape::Gravity{});
+
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -105,10 +110,10 @@ enum class LinearSolver {
 struct IntegratorSettings {
   Method method = Method::quasi_newton;
   TimeScheme scheme = TimeScheme::backward_euler;
-  std::optional<StoppingRule> stop;   ///< absent: see Accuracy
-  std::optional<double> tolerance;    ///< [m] or [N], see `stop`; absent: see Accuracy
-  std::optional<int> max_iterations;  ///< absent: the homework's 20 for implicit and 100 for liu13; 500 for
-                                      ///< quasi_newton, 2000 where it stops at an error
+  std::optional<StoppingRule> stop = {};   ///< absent: see Accuracy
+  std::optional<double> tolerance = {};    ///< [m] or [N], see `stop`; absent: see Accuracy
+  std::optional<int> max_iterations = {};  ///< absent: the homework's 20 for implicit and 100 for liu13; 500 for
+                                           ///< quasi_newton, 2000 where it stops at an error
   LinearSolver linear_solver = LinearSolver::automatic;  ///< of the implicit method
   bool allow_unstable = false;                           ///< run what stability_problem() refuses
 
@@ -119,11 +124,12 @@ struct IntegratorSettings {
 
 /// Everything a simulation is made from.
 struct SimulationSettings {
-  Cloth cloth;
-  double step = 0.01;              ///< h [s]
-  std::optional<double> accuracy;  ///< the most that a step may add to the error of a vertex [m], see SubstepScheme
-  IntegratorSettings integrator;
-  Effects effects;
+  Cloth cloth = {};
+  double step = 0.01;  ///< h [s]
+  std::optional<double> accuracy =
+      {};  ///< the most that a step may add to the error of a vertex [m], see SubstepScheme
+  IntegratorSettings integrator = {};
+  Effects effects = {};
 };
 
 }  // namespace drape

@@ -1,11 +1,14 @@
 #include "sim/simulation.hpp"
 
 #include <cmath>
+#include <utility>
 
+#include "sim/make_system.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/schemes/substep_guard.hpp"
 #include "sim/schemes/substeps.hpp"
-#include "sim/timed_effects.hpp"
+#include "sim/spring_network.hpp"
+#include "sim/step_forces.hpp"
 
 namespace drape {
 namespace {
@@ -25,93 +28,130 @@ State initial_state(const Cloth& cloth) {
 
 }  // namespace
 
-System make_system(const SimulationSettings& settings, std::vector<double>* effect_seconds) {
-  return make_system(settings, settings.step, effect_seconds);
-}
+/// What a simulation is made of. Its parts refer to each other, so it stays where it is.
+class Simulation::Motion {
+ public:
+  SimulationSettings settings;
+  std::vector<double> effect_seconds;
+  std::optional<System> system;  // always there, and made anew for every phase
+  std::vector<PinPhase> phases;  // by step, the first from 0 on
+  std::size_t phase = 0;
+  State state;
+  StepForces forces;
+  std::unique_ptr<StabilityGuard> guard;
+  std::unique_ptr<Scheme> scheme;
+  SpringNetwork springs;
+  Eigen::VectorXd per_vertex;        // for energies(), which takes nothing from the heap…
+  Vertices ignored;                  // …and this is a gradient that comes with an energy
+  StabilityGuard::EnergyNow energy;  // K + E
 
-System make_system(const SimulationSettings& settings, double step, std::vector<double>* effect_seconds) {
-  System system(settings.cloth, step);
-  for (std::size_t i = 0; i < settings.effects.size(); ++i) {
-    const SystemSizes before(system);
-    settings.effects[i].install(system);
-    if (effect_seconds != nullptr) time_additions(system, before, (*effect_seconds)[i]);
+  Motion(SimulationSettings given, Timing timing)
+      : settings(std::move(given)),
+        effect_seconds(timing == Timing::effects ? settings.effects.size() : 0, 0.0),
+        system(make_system(settings, measured())),
+        phases(pin_phases(settings.cloth.pins, system->pin_releases)),
+        state(initial_state(settings.cloth)),
+        forces(*system, state),
+        guard(make_asked_guard(settings, *system)),
+        scheme(make_scheme()),
+        springs(system->springs, settings.cloth.vertex_count()),
+        energy([this] {
+          const Energies now = energies();
+          return now.kinetic + now.elastic;
+        }) {
+    guard->begin(state, energy);
   }
-  return system;
+  Motion(const Motion&) = delete;
+  Motion& operator=(const Motion&) = delete;
+
+  StepReport step();
+  Energies energies();
+  [[nodiscard]] double time() const { return system->time(state.step); }
+  /// Makes the system and the scheme for the pins of the next step, unless they are those.
+  void enter_phase();
+  /// Of the system, for the settings.
+  std::unique_ptr<Scheme> make_scheme();
+  /// Where to add what the effects take, if that is measured.
+  std::vector<double>* measured() { return effect_seconds.empty() ? nullptr : &effect_seconds; }
+  /// @param growth of the energy, see BlowUpWatch; absent: the numbers are no longer finite
+  [[nodiscard]] DivergedError diverged_by(std::optional<double> growth) const {
+    return diverged(state, time(), growth, guard->remedy());
+  }
+};
+
+void Simulation::Motion::enter_phase() {
+  std::size_t now = phases.size() - 1;
+  while (phases[now].first_step > state.step) --now;
+  if (now == phase) return;
+  scheme.reset();  // it refers to the system
+  phase = now;
+  settings.cloth.pins = phases[now].pins;
+  system.emplace(make_system(settings, measured()));
+  scheme = make_scheme();
 }
 
-Simulation::Simulation(SimulationSettings settings, Timing timing)
-    : settings_(std::move(settings)),
-      effect_seconds_(timing == Timing::effects ? settings_.effects.size() : 0, 0.0),
-      system_(make_system(settings_, measured())),
-      phases_(pin_phases(settings_.cloth.pins, system_->pin_releases)),
-      state_(initial_state(settings_.cloth)),
-      forces_(*system_, state_),
-      guard_(make_asked_guard(settings_, *system_)),
-      scheme_(make_scheme()),
-      springs_(system_->springs, settings_.cloth.vertex_count()),
-      energy_([this] {
-        const Energies now = energies();
-        return now.kinetic + now.elastic;
-      }) {
-  guard_->begin(state_, energy_);
+std::unique_ptr<Scheme> Simulation::Motion::make_scheme() {
+  if (!settings.accuracy) return method_type(settings.integrator.method).make(settings.integrator, *system);
+  const auto make = [this](double step) { return make_system(settings, step, measured()); };
+  const int fewest = SubstepGuard::fewest_halvings(settings.step, guard->longest_step());
+  return std::make_unique<SubstepScheme>(settings, fewest, make);
 }
 
-Simulation::~Simulation() = default;
-
-void Simulation::enter_phase() {
-  std::size_t now = phases_.size() - 1;
-  while (phases_[now].first_step > state_.step) --now;
-  if (now == phase_) return;
-  scheme_.reset();  // it refers to the system
-  phase_ = now;
-  settings_.cloth.pins = phases_[now].pins;
-  system_.emplace(make_system(settings_, measured()));
-  scheme_ = make_scheme();
-}
-
-std::unique_ptr<Scheme> Simulation::make_scheme() {
-  if (!settings_.accuracy) return method_type(settings_.integrator.method).make(settings_.integrator, *system_);
-  const auto make = [this](double step) { return make_system(settings_, step, measured()); };
-  const int fewest = SubstepGuard::fewest_halvings(settings_.step, guard_->longest_step());
-  return std::make_unique<SubstepScheme>(settings_, fewest, make);
-}
-
-StepReport Simulation::step() {
-  if (phases_.size() > 1) enter_phase();
-  StepReport report = scheme_->advance(state_, forces_);
-  for (const auto& filter : system_->filters) report.converged = report.converged && filter->converged();
-  ++state_.step;
+StepReport Simulation::Motion::step() {
+  if (phases.size() > 1) enter_phase();
+  StepReport report = scheme->advance(state, forces);
+  for (const auto& filter : system->filters) report.converged = report.converged && filter->converged();
+  ++state.step;
   // What is not finite makes the sum of its squares so, and any velocity that is not moves its vertex there.
-  if (!std::isfinite(norm(state_.x))) throw diverged_by(std::nullopt);
-  if (const auto growth = guard_->look(state_, forces_.push(), forces_.constant(), energy_)) throw diverged_by(growth);
+  if (!std::isfinite(norm(state.x))) throw diverged_by(std::nullopt);
+  if (const auto growth = guard->look(state, forces.push(), forces.constant(), energy)) throw diverged_by(growth);
   return report;
 }
 
-DivergedError Simulation::diverged_by(std::optional<double> growth) const {
-  return diverged(state_, time(), growth, guard_->remedy());
+Energies Simulation::Motion::energies() {
+  const Eigen::VectorXd& m = settings.cloth.masses;
+  ignored.setZero(state.x.rows(), 3);
+  double elastic = springs.add_value_gradient(state.x, ignored);
+  for (const auto& one : system->energies) {
+    if (one->internal()) elastic += one->add_gradient(state.x, time(), ignored);
+  }
+  per_vertex = state.v.rowwise().squaredNorm();
+  const double kinetic = 0.5 * m.dot(per_vertex);
+  per_vertex.noalias() = state.x * system->gravity;
+  return {.kinetic = kinetic, .gravity = -m.dot(per_vertex), .elastic = elastic};
 }
+
+Simulation::Simulation(SimulationSettings settings, Timing timing)
+    : motion_(std::make_unique<Motion>(std::move(settings), timing)) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+StepReport Simulation::step() { return motion_->step(); }
 
 void Simulation::restore(const State& state) {
-  state_ = state;
-  guard_->begin(state_, energy_);
+  motion_->state = state;
+  motion_->guard->begin(state, motion_->energy);
 }
+
+Simulation::Checkpoint Simulation::checkpoint() const { return {motion_->state, motion_->guard->books()}; }
 
 void Simulation::restore(const Checkpoint& checkpoint) {
-  state_ = checkpoint.state;
-  if (checkpoint.books) guard_->go_on(*checkpoint.books);
+  motion_->state = checkpoint.state;
+  if (checkpoint.books) motion_->guard->go_on(*checkpoint.books);
 }
 
-Energies Simulation::energies() const {
-  const Eigen::VectorXd& m = settings_.cloth.masses;
-  ignored_.setZero(state_.x.rows(), 3);
-  double elastic = springs_.add_value_gradient(state_.x, ignored_);
-  for (const auto& energy : system_->energies) {
-    if (energy->internal()) elastic += energy->add_gradient(state_.x, time(), ignored_);
-  }
-  per_vertex_ = state_.v.rowwise().squaredNorm();
-  const double kinetic = 0.5 * m.dot(per_vertex_);
-  per_vertex_.noalias() = state_.x * system_->gravity;
-  return {.kinetic = kinetic, .gravity = -m.dot(per_vertex_), .elastic = elastic};
-}
+const State& Simulation::state() const { return motion_->state; }
+double Simulation::time() const { return motion_->time(); }
+const SimulationSettings& Simulation::settings() const { return motion_->settings; }
+const std::vector<Spring>& Simulation::springs() const { return motion_->system->springs; }
+const std::vector<double>& Simulation::effect_seconds() const { return motion_->effect_seconds; }
+Energies Simulation::energies() const { return motion_->energies(); }
+double Simulation::residual() const { return motion_->scheme->residual(); }
+double Simulation::error() const { return motion_->scheme->error(); }
+double Simulation::unbalanced() const { return motion_->scheme->unbalanced(); }
+double Simulation::weight() const { return motion_->settings.cloth.masses.sum() * motion_->system->gravity.norm(); }
+std::optional<Accuracy> Simulation::accuracy() const { return motion_->scheme->accuracy(); }
+std::vector<Collider> Simulation::colliders(double time) const { return motion_->system->colliders_at(time); }
 
 }  // namespace drape

@@ -1,5 +1,9 @@
 #pragma once
 
+// Example:
+//   drape::Sphere thrown;
+//   thrown.track = drape::straight_track({.center = {-2, 0, 0}, .radius = 0.3}, {4, 0, 0});
+
 #include <memory>
 
 #include "sim/collider.hpp"

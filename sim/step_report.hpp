@@ -1,5 +1,11 @@
 #pragma once
 
+// Example:
+//   const drape::Mesh square = drape::make_grid(2, 2);
+//   drape::Simulation simulation({.cloth = drape::make_cloth(square, square, 1, 10, {})});
+//   const drape::StepReport report = simulation.step();
+//   if (!report.converged) std::printf("stopped after %d iterations", report.iterations);
+
 #include <cstdint>
 #include <optional>
 

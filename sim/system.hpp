@@ -7,15 +7,9 @@
 #include "sim/cloth.hpp"
 #include "sim/collider.hpp"
 #include "sim/pin_motion.hpp"
+#include "sim/state.hpp"
 
 namespace drape {
-
-/// Where the cloth is and how it moves after `step` steps. Time is step·h, never accumulated.
-struct State {
-  Vertices x;  ///< n×3 [m]
-  Vertices v;  ///< n×3 [m/s]
-  std::int64_t step = 0;
-};
 
 /// A force that is evaluated a fixed number of times in a step, see StepForces.
 struct Force {

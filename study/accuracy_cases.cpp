@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "sim/make_system.hpp"
 #include "sim/schemes/registry.hpp"
 
 namespace drape {

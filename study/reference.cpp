@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "run/run_steps.hpp"
+#include "sim/make_system.hpp"
 
 namespace drape {
 namespace {

@@ -12,6 +12,7 @@
 
 #include "run/run_steps.hpp"
 #include "sim/linear/constant_factor.hpp"
+#include "sim/make_system.hpp"
 #include "sim/stability.hpp"
 #include "study/kernel_clock.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/make_system.hpp"
 #include "sim/step_objective.hpp"
 #include "study/reference.hpp"
 

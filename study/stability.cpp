@@ -9,8 +9,10 @@
 
 #include "core/parallel.hpp"
 #include "run/run_steps.hpp"
+#include "sim/blow_up.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/effects/ground.hpp"
+#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
 

@@ -31,7 +31,7 @@ class RunProblems {
   explicit RunProblems(const SweepPlan& plan) : plan_(plan) {}
 
   void add(const PlannedRun& run, const Error& error) {
-    code_ = std::max(code_, error.code());
+    kind_ = std::max(kind_, error.kind());
     std::istringstream lines(error.what());
     for (std::string line; std::getline(lines, line);) {
       for (const std::string& override : overrides_of(plan_.request.varied, run.values)) {
@@ -56,7 +56,7 @@ class RunProblems {
       if (lines.size() == most_told) break;
     }
     if (order_.size() > most_told) lines.push_back(fmt::format("and {} more", order_.size() - most_told));
-    throw Error(code_, fmt::format("{}", fmt::join(lines, "\n")));
+    throw Error(kind_, fmt::format("{}", fmt::join(lines, "\n")));
   }
 
  private:
@@ -68,7 +68,7 @@ class RunProblems {
   const SweepPlan& plan_;
   std::map<std::string, Found> by_message_;
   std::vector<std::string> order_;
-  ExitCode code_ = ExitCode::ok;
+  ErrorKind kind_ = ErrorKind::usage;
 };
 
 /// The files' names without their endings; the whole path of those that share one.

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
+#include "run/exit_code.hpp"
 
 namespace drape {
 

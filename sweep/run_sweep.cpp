@@ -72,8 +72,8 @@ RunRecord record_of(const Scene& scene, const RunResult& result) {
 
 RunRecord record_of(const Error& error) {
   RunRecord record;
-  record.code = error.code();
-  record.outcome = error.code() == ExitCode::usage ? "refused" : "failed";
+  record.code = exit_code(error.kind());
+  record.outcome = error.kind() == ErrorKind::usage ? "refused" : "failed";
   record.reason = error.what();
   return record;
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+// Example:
+//   drape::Effects effects{drape::Air{.velocity = {4, 0, 0}, .gusts = {.speed = 2}}};
+
 #include <Eigen/Core>
 
 #include "sim/effects/effect.hpp"

@@ -1,5 +1,8 @@
 #pragma once
 
+// Example:
+//   drape::Effects effects{drape::Bending{.rigidity = 1e-4}};
+
 #include <optional>
 
 #include "sim/effects/effect.hpp"

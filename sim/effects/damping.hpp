@@ -1,5 +1,8 @@
 #pragma once
 
+// Example:
+//   drape::Effects effects{drape::Damping{.factor = 0.5}};
+
 #include "sim/effects/effect.hpp"
 
 namespace drape {

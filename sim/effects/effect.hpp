@@ -1,5 +1,10 @@
 #pragma once
 
+// Example:
+//   drape::Effects effects{drape::Gravity{}, drape::Damping{.factor = 0.2}};
+//   effects.add(drape::Sphere{.center = Eigen::Vector3d(0, 0, -1), .radius = 0.4});
+//   if (const auto* damping = effects[2].as<drape::Damping>()) std::printf("%g", damping->factor);
+
 #include <concepts>
 #include <functional>
 #include <initializer_list>

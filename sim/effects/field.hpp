@@ -1,5 +1,8 @@
 #pragma once
 
+// Example:
+//   drape::Effects effects{drape::Field{.acceleration = {"-x", "-y", "0"}}};
+
 #include <array>
 #include <optional>
 #include <string>

@@ -1,5 +1,8 @@
 #pragma once
 
+// Example:
+//   drape::Effects effects{drape::Gravity{.acceleration = {0, 0, -1.62}}};
+
 #include <Eigen/Core>
 
 #include "sim/effects/effect.hpp"

@@ -1,5 +1,8 @@
 #pragma once
 
+// Example:
+//   drape::Effects effects{drape::Ground{.height = -1, .friction = 0.3}};
+
 #include <Eigen/Core>
 #include <optional>
 

@@ -1,5 +1,9 @@
 #pragma once
 
+// Example:
+//   const drape::Keyframe up{.time = 1, .value = {0, 0, 1}};
+//   drape::Effects effects{drape::MovingPins{.pins = {0, 1}, .keyframes = {up}, .release = 2}};
+
 #include <optional>
 #include <vector>
 

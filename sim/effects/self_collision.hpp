@@ -1,5 +1,8 @@
 #pragma once
 
+// Example:
+//   drape::Effects effects{drape::SelfCollision{.thickness = 0.02}};
+
 #include "sim/effects/effect.hpp"
 
 namespace drape {

@@ -1,5 +1,8 @@
 #pragma once
 
+// Example:
+//   drape::Effects effects{drape::Sphere{.center = Eigen::Vector3d(0, 0, -1), .radius = 0.4, .friction = 0.2}};
+
 #include <Eigen/Core>
 #include <memory>
 #include <optional>

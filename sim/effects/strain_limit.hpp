@@ -1,5 +1,8 @@
 #pragma once
 
+// Example:
+//   drape::Effects effects{drape::StrainLimit{.max_stretch = 1.05}};
+
 #include <optional>
 #include <string>
 

@@ -1,5 +1,8 @@
 #pragma once
 
+// Example:
+//   drape::Effects effects{drape::Wind{.acceleration = {0, 3, 0}}};
+
 #include <Eigen/Core>
 
 #include "sim/effects/effect.hpp"

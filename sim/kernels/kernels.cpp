@@ -1,11 +1,12 @@
 #include "sim/kernels/kernels.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <string>
 #include <utility>
 
 #include "core/error.hpp"
+#include "sim/instruction_set.hpp"
 
 namespace drape {
 
@@ -26,22 +27,17 @@ std::span<const Kernels* const> all_kernels() {
 
 namespace {
 
-const Kernels& choose() {
-  const char* cap = std::getenv("DRAPE_ISA");
-  if (cap != nullptr && *cap == '\0') cap = nullptr;  // as if it was not set
-  const Kernels* best = nullptr;
-  std::string names;
-  for (const Kernels* version : all_kernels()) {
-    if (best == nullptr || version->supported() != 0) best = version;
-    if (cap != nullptr && version->name == cap) return *best;
-    names += (names.empty() ? "" : ", ") + std::string(version->name);
+/// The fastest version that this processor runs, at most the last of `most`.
+const Kernels* fastest(std::span<const Kernels* const> most) {
+  const Kernels* best = most.front();
+  for (const Kernels* version : most) {
+    if (version->supported() != 0) best = version;
   }
-  if (cap != nullptr) throw UsageError("DRAPE_ISA is '" + std::string(cap) + "', expected one of " + names);
-  return *best;
+  return best;
 }
 
 const Kernels*& current() {
-  static const Kernels* chosen = &choose();
+  static const Kernels* chosen = fastest(all_kernels());
   return chosen;
 }
 
@@ -50,5 +46,24 @@ const Kernels*& current() {
 const Kernels& kernels() { return *current(); }
 
 const Kernels& replace_kernels(const Kernels& others) { return *std::exchange(current(), &others); }
+
+std::vector<std::string> instruction_sets() {
+  std::vector<std::string> names;
+  for (const Kernels* version : all_kernels()) names.emplace_back(version->name);
+  return names;
+}
+
+std::string instruction_set() { return std::string(kernels().name); }
+
+void limit_instruction_set(std::string_view name) {
+  const auto all = all_kernels();
+  const auto found = std::ranges::find(all, name, &Kernels::name);
+  if (found == all.end()) {
+    std::string names;
+    for (const Kernels* version : all) names += (names.empty() ? "" : ", ") + std::string(version->name);
+    throw UsageError("the instruction set is '" + std::string(name) + "', expected one of " + names);
+  }
+  current() = fastest(all.first(static_cast<std::size_t>(found - all.begin()) + 1));
+}
 
 }  // namespace drape

@@ -147,8 +147,7 @@ struct Kernels {
   void (*solve_double)(const PackedTriangle<double>&, double* x);
 };
 
-/// The fastest kernels this processor runs, at most those that the environment variable DRAPE_ISA names.
-/// @throws UsageError if DRAPE_ISA names none of them
+/// The fastest kernels this processor runs, at most those of limit_instruction_set().
 const Kernels& kernels();
 
 /// Makes kernels() return others from now on, which must live as long: to measure what they take. Not while another

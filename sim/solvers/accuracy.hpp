@@ -1,9 +1,10 @@
 #pragma once
 
 #include "sim/settings.hpp"
-#include "sim/system.hpp"
 
 namespace drape {
+
+struct System;
 
 /// When a step is accurate enough: what [integrator] says, and what holds where it does not.
 ///

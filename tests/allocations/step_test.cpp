@@ -14,6 +14,7 @@
 #include "sim/effects/self_collision.hpp"
 #include "sim/effects/strain_limit.hpp"
 #include "sim/effects/wind.hpp"
+#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/setups.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -14,6 +13,7 @@
 
 #include "check/check_scene.hpp"
 #include "check/golden_folder.hpp"
+#include "scene/scene.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -200,9 +200,9 @@ class MutationTest : public test::InScratchFolder {
     fs::create_directories(folder_ / "data");
     fs::copy(source / "shaders", folder_ / "data/shaders", fs::copy_options::recursive);
     fs::create_directory_symlink(source / "textures", folder_ / "data/textures");
-    setenv("DRAPE_DATA", (folder_ / "data").c_str(), 1);
+    use_data_folder(folder_ / "data");
   }
-  ~MutationTest() override { unsetenv("DRAPE_DATA"); }
+  ~MutationTest() override { use_data_folder({}); }
 
   [[nodiscard]] SceneResult check() const {
     Scene scene = load_scene(subject_.folder / subject_.file, subject_.overrides);

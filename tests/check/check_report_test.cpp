@@ -8,6 +8,7 @@
 #include "check/html_report.hpp"
 #include "check/json_report.hpp"
 #include "check/junit_report.hpp"
+#include "cli/exit_code.hpp"
 #include "core/text.hpp"
 #include "tests/check/checked_scene.hpp"
 
@@ -64,7 +65,7 @@ TEST_F(CheckReports, ReportsWhatCannotBeJudged) {
     report.scenes.push_back(unjudged_scene(odd, "swing", odd.check, error));
   }
   ASSERT_EQ(report.scenes.size(), 1u);
-  EXPECT_EQ(report.exit_code(), ExitCode::usage);
+  EXPECT_EQ(exit_code(report), ExitCode::usage);
 
   const auto json = nlohmann::json::parse(json_report(report));
   EXPECT_EQ(json.at("passed"), false);
@@ -88,16 +89,16 @@ TEST_F(CheckReports, ReportsWhatCannotBeJudged) {
 
 TEST(CheckReport, IsAsBadAsItsWorstScene) {
   CheckReport report;
-  EXPECT_EQ(report.exit_code(), ExitCode::ok);
-  const auto add = [&](SceneVerdict verdict, ExitCode error = ExitCode::ok) {
+  EXPECT_EQ(exit_code(report), ExitCode::ok);
+  const auto add = [&](SceneVerdict verdict, ErrorKind error = ErrorKind::usage) {
     report.scenes.emplace_back().verdict = verdict;
     report.scenes.back().error = error;
-    return report.exit_code();
+    return exit_code(report);
   };
   EXPECT_EQ(add(SceneVerdict::updated), ExitCode::ok);
   EXPECT_EQ(add(SceneVerdict::missing), ExitCode::differs);
-  EXPECT_EQ(add(SceneVerdict::error, ExitCode::diverged), ExitCode::diverged);
-  EXPECT_EQ(add(SceneVerdict::error, ExitCode::usage), ExitCode::diverged);
+  EXPECT_EQ(add(SceneVerdict::error, ErrorKind::diverged), ExitCode::diverged);
+  EXPECT_EQ(add(SceneVerdict::error, ErrorKind::usage), ExitCode::diverged);
   EXPECT_EQ(add(SceneVerdict::passed), ExitCode::diverged);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/effects/moving_pins.hpp"
+#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "tests/support/setups.hpp"

@@ -8,7 +8,9 @@
 
 #include "sim/bending/bending_energy.hpp"
 #include "sim/bending/hinges.hpp"
+#include "sim/blow_up.hpp"
 #include "sim/effects/bending.hpp"
+#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "tests/support/meshes.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/effects/wind.hpp"
+#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "sim/solvers/accuracy.hpp"
 #include "tests/support/setups.hpp"

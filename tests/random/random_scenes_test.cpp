@@ -12,6 +12,7 @@
 
 #include "core/atomic_file.hpp"
 #include "run/run_scene.hpp"
+#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "tests/random/random_scene.hpp"

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <regex>
 
+#include "sim/blow_up.hpp"
+#include "sim/make_system.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/stability.hpp"
 #include "study/stability.hpp"
@@ -175,7 +177,7 @@ TEST(BlowUp, IsReportedWithAllThatExplainsIt) {
   try {
     for (int step = 0; step < 2000; ++step) simulation.step();
   } catch (const DivergedError& error) {
-    EXPECT_EQ(static_cast<int>(error.code()), 3);
+    EXPECT_EQ(error.kind(), ErrorKind::diverged);
     message = error.what();
   }
   std::smatch parts;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/scene.hpp"
+#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stability.hpp"
 #include "tests/stability/traps.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/make_system.hpp"
 #include "sim/stability.hpp"
 #include "tests/stability/hard_cases.hpp"
 #include "tests/stability/traps.hpp"

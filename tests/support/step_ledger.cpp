@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/make_system.hpp"
 #include "sim/solvers/accuracy.hpp"
 
 namespace drape::test {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "sim/simulation.hpp"
+#include "sim/system.hpp"
 
 namespace drape::test {
 

@@ -17,7 +17,7 @@ class Plan : public testing::Test {
       make_plan(request_of(scene_, varied));
       return "(no error)";
     } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::usage);
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
       return folder_.without_folder(error.what());
     }
   }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scene/usd/motion.hpp"
+#include "sim/make_system.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/scene_folder.hpp"
 

@@ -139,16 +139,19 @@ TEST(SceneSteps, AreTheNearestWholeNumberToTheDuration) {
   EXPECT_EQ(steps(1e9, 1), 1000000000);
 }
 
-TEST(DataFolder, IsTheSourceTreeUnlessTheEnvironmentNamesAnother) {
+TEST(DataFolder, IsTheSourceTreeUnlessAnotherIsNamed) {
   const SceneFolder folder;
-  ASSERT_EQ(unsetenv("DRAPE_DATA"), 0);
   EXPECT_EQ(data_folder(), DRAPE_SOURCE_DIR);
   ASSERT_EQ(setenv("DRAPE_DATA", folder.path().c_str(), 1), 0);
-  EXPECT_EQ(data_folder(), folder.path());
-  ASSERT_EQ(setenv("DRAPE_DATA", (folder.path() / "none").c_str(), 1), 0);
-  EXPECT_EQ(test::usage_error([] { data_folder(); }),
-            "DRAPE_DATA: no such folder: " + (folder.path() / "none").string());
+  EXPECT_EQ(data_folder(), DRAPE_SOURCE_DIR) << "the environment is the command line's";
   ASSERT_EQ(unsetenv("DRAPE_DATA"), 0);
+  use_data_folder(folder.path());
+  EXPECT_EQ(data_folder(), folder.path());
+  EXPECT_EQ(test::usage_error([&] { use_data_folder(folder.path() / "none"); }),
+            "no such folder: " + (folder.path() / "none").string());
+  EXPECT_EQ(data_folder(), folder.path()) << "it was refused";
+  use_data_folder({});
+  EXPECT_EQ(data_folder(), DRAPE_SOURCE_DIR);
 }
 
 }  // namespace

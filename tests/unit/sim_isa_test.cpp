@@ -1,66 +1,57 @@
-// The choice of an instruction set is made once in a process, so each of these runs in one of its own.
-
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <cstdlib>
 
 #include "core/error.hpp"
+#include "sim/instruction_set.hpp"
 #include "sim/kernels/kernels.hpp"
+#include "tests/support/usage_error.hpp"
 
 namespace drape::test {
 namespace {
 
-/// Prints the name of the chosen version, or why there is none, and exits.
-[[noreturn]] void choose(const char* isa) {
-  if (isa == nullptr) {
-    unsetenv("DRAPE_ISA");
-  } else {
-    setenv("DRAPE_ISA", isa, 1);
-  }
-  try {
-    std::fprintf(stderr, "chosen: %s\n", kernels().name.data());
-  } catch (const UsageError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    std::exit(static_cast<int>(error.code()));
-  }
-  std::exit(0);
-}
-
-const Kernels& fastest() {
-  const Kernels* best = nullptr;
+std::string fastest() {
+  std::string best;
   for (const Kernels* version : all_kernels()) {
-    if (version->supported() != 0) best = version;
+    if (version->supported() != 0) best = version->name;
   }
-  return *best;
+  return best;
 }
 
-class InstructionSetDeathTest : public testing::Test {
+class InstructionSet : public testing::Test {
  protected:
-  // Starts the program again for each of them: in this process the choice may be made already.
-  InstructionSetDeathTest() { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
+  ~InstructionSet() override { limit_instruction_set(instruction_sets().back()); }
 };
 
-TEST_F(InstructionSetDeathTest, CanBeLimitedToTheBaseline) {
-  EXPECT_EXIT(choose("sse2"), testing::ExitedWithCode(0), "chosen: sse2");
+TEST_F(InstructionSet, IsTheFastestUnlessLimited) {
+  EXPECT_EQ(instruction_set(), fastest());
+  EXPECT_EQ(kernels().name, fastest());
 }
 
-TEST_F(InstructionSetDeathTest, IsTheFastestUnlessLimited) {
-  EXPECT_EXIT(choose(nullptr), testing::ExitedWithCode(0), "chosen: " + std::string(fastest().name));
+TEST_F(InstructionSet, CanBeLimitedToTheBaseline) {
+  limit_instruction_set("sse2");
+  EXPECT_EQ(instruction_set(), "sse2");
+  EXPECT_EQ(kernels().name, "sse2");
 }
 
-TEST_F(InstructionSetDeathTest, IsNotLimitedByAnEmptyName) {
-  EXPECT_EXIT(choose(""), testing::ExitedWithCode(0), "chosen: " + std::string(fastest().name));
+TEST_F(InstructionSet, IsNeverOneThatTheProcessorLacks) {
+  limit_instruction_set("sse2");
+  limit_instruction_set(instruction_sets().back());
+  EXPECT_EQ(instruction_set(), fastest());
 }
 
-TEST_F(InstructionSetDeathTest, IsNeverOneThatTheProcessorLacks) {
-  const std::string largest(all_kernels().back()->name);
-  EXPECT_EXIT(choose(largest.c_str()), testing::ExitedWithCode(0), "chosen: " + std::string(fastest().name));
+TEST_F(InstructionSet, IsNotTheEnvironments) {
+  setenv("DRAPE_ISA", "none", 1);
+  EXPECT_EQ(instruction_set(), fastest());
+  unsetenv("DRAPE_ISA");
 }
 
-TEST_F(InstructionSetDeathTest, IsRefusedUnderAWrongName) {
-  EXPECT_EXIT(choose("avx3"), testing::ExitedWithCode(2), "DRAPE_ISA.*avx3.*sse2");
-  EXPECT_EXIT(choose("sse2x"), testing::ExitedWithCode(2), "sse2x");
+TEST_F(InstructionSet, IsRefusedUnderAWrongName) {
+  for (const char* wrong : {"avx3", "sse2x", ""}) {
+    const std::string message = usage_error([&] { limit_instruction_set(wrong); });
+    EXPECT_NE(message.find("'" + std::string(wrong) + "', expected one of sse2"), std::string::npos) << message;
+  }
+  EXPECT_EQ(instruction_set(), fastest()) << "it was refused";
 }
 
 }  // namespace

@@ -1,0 +1,32 @@
+#include "cli/environment.hpp"
+
+#include <cstdlib>
+#include <string>
+
+#include "core/error.hpp"
+#include "scene/scene.hpp"
+#include "sim/instruction_set.hpp"
+
+namespace drape {
+namespace {
+
+/// Hands a variable that is set, and not to nothing, to `use`.
+template <class Use>
+void with_variable(const char* name, const Use& use) {
+  const char* value = std::getenv(name);
+  if (value == nullptr || *value == '\0') return;
+  try {
+    use(value);
+  } catch (const UsageError& error) {
+    throw UsageError(std::string(name) + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+void use_environment_isa() { with_variable("DRAPE_ISA", limit_instruction_set); }
+void use_environment_data() {
+  with_variable("DRAPE_DATA", [](const char* folder) { use_data_folder(folder); });
+}
+
+}  // namespace drape

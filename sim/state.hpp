@@ -1,0 +1,33 @@
+#pragma once
+
+// Example:
+//   const drape::State a{.x = drape::Vertices::Zero(4, 3), .v = drape::Vertices::Zero(4, 3)};
+//   drape::State b = a;
+//   b.x(3, 2) = 1e-300;
+//   const bool differ = drape::hash_of(a) != drape::hash_of(b);  // true
+
+#include <cstdint>
+
+#include "sim/mesh.hpp"
+
+namespace drape {
+
+/// Where the cloth is and how it moves after `step` steps. Time is step·h, never accumulated.
+struct State {
+  Vertices x = {};  ///< n×3 [m]
+  Vertices v = {};  ///< n×3 [m/s]
+  std::int64_t step = 0;
+};
+
+/// A hash of a state to the bit: of its step, its positions and its velocities. Two runs that agree in it agree in all
+/// that follows; it tells states apart, but withstands nobody who wants two of the same hash.
+std::uint64_t hash_of(const State& state);
+
+/// What a simulation remembers of the energy of its motion, to recognise one that blows up.
+struct EnergyMemory {
+  double explained = 0;  ///< [J]
+  Vertices looked_at;    ///< where the cloth was when it last looked, n×3 [m]
+  double work = 0;       ///< since then [J]
+};
+
+}  // namespace drape

@@ -1,0 +1,55 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "sim/effects/gravity.hpp"
+#include "sim/simulation.hpp"
+
+namespace drape::test {
+namespace {
+
+SimulationSettings hanging(StepMethod how) {
+  const Mesh square = make_grid(4, 4);
+  return {.cloth = make_cloth(square, square, 1, 50, {0, 4}),
+          .step = 0.002,
+          .integrator = {.method = how.method, .scheme = how.scheme},
+          .effects = {Gravity{}}};
+}
+
+TEST(StateHash, DiffersWithEveryBit) {
+  const State state{.x = Vertices::Ones(5, 3), .v = Vertices::Zero(5, 3), .step = 7};
+  EXPECT_EQ(hash_of(state), hash_of(State(state)));
+  State other = state;
+  other.x(4, 1) = std::nextafter(1.0, 2.0);
+  EXPECT_NE(hash_of(other), hash_of(state));
+  other = state;
+  other.v(0, 2) = -0.0;
+  EXPECT_NE(hash_of(other), hash_of(state)) << "to the bit";
+  other = state;
+  other.step = 8;
+  EXPECT_NE(hash_of(other), hash_of(state));
+  other = {.x = state.v, .v = state.x, .step = 7};
+  EXPECT_NE(hash_of(other), hash_of(state));
+}
+
+TEST(MovedSimulation, GoesOnToTheSameBits) {
+  for (const StepMethod how : step_methods) {
+    SCOPED_TRACE(step_method_name(how));
+    Simulation stays(hanging(how)), first(hanging(how));
+    EXPECT_EQ(first.hash(), stays.hash());
+    for (int i = 0; i < 10; ++i) stays.step();
+    for (int i = 0; i < 5; ++i) first.step();
+    EXPECT_NE(first.hash(), stays.hash());
+    Simulation moved(std::move(first));
+    for (int i = 0; i < 3; ++i) moved.step();
+    Simulation other(hanging({Method::liu13}));
+    other = std::move(moved);
+    for (int i = 0; i < 2; ++i) other.step();
+    EXPECT_EQ(other.hash(), stays.hash());
+    EXPECT_EQ(other.energies().total(), stays.energies().total());
+  }
+}
+
+}  // namespace
+}  // namespace drape::test
