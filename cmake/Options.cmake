@@ -2,7 +2,9 @@
 # every vector width: no contraction into fused multiply-adds, no reordering. Without errno, a loop with a square root
 # vectorises and runs twice as fast.
 add_library(drape_options INTERFACE)
-target_compile_options(drape_options INTERFACE -fno-math-errno -ffp-contract=off -DEIGEN_MAX_ALIGN_BYTES=64 -Wall -Wextra -Wpedantic
+target_compile_options(drape_options INTERFACE -fno-math-errno -ffp-contract=off -DEIGEN_MAX_ALIGN_BYTES=64
+  -fno-semantic-interposition  # a library's own functions are inlined as a program's are
+  -Wall -Wextra -Wpedantic
   # Files that are compiled as one may have constants of the same name in their unnamed namespaces.
   $<IF:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,-Wshadow=local,-Wshadow>)
 target_include_directories(drape_options INTERFACE ${PROJECT_SOURCE_DIR})

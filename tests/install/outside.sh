@@ -1,0 +1,41 @@
+#!/bin/sh
+# outside.sh BUILD SOURCE: installs a build into a folder of its own and builds other people's projects against it.
+# Ends with 1, and says why, where one of them does not build or computes something else than the program that was installed.
+set -eu
+build=$1 source=$2
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cmake --install "$build" --prefix "$scratch/prefix" >"$scratch/log"
+
+project() { # NAME
+  {
+    cmake -S "$source/tests/install/$1" -B "$scratch/$1" -G Ninja -DCMAKE_PREFIX_PATH="$scratch/prefix" &&
+      cmake --build "$scratch/$1"
+  } >"$scratch/$1.log" 2>&1 || {
+    echo "outside.sh: the project $1 does not build:"
+    cat "$scratch/$1.log"
+    exit 1
+  }
+}
+expect() { # FOUND EXPECTED
+  case $1 in $2) ;; *) echo "outside.sh: expected $2, found $1" && exit 1 ;; esac
+}
+
+project cloth
+expect "$("$scratch/cloth/cloth")" '1 s, lowest at -*'
+
+project scene
+scene=$source/scenes/homework/4.toml
+"$scratch/scene/scene" "$scene" >"$scratch/library.csv"
+"$scratch/prefix/bin/drape" simulate --quiet "$scene" --positions "$scratch/program.csv"
+cmp "$scratch/library.csv" "$scratch/program.csv"
+
+project examples
+public=$(sed -n '/^set(public_headers/,/)$/p' "$source/cmake/Package.cmake" | grep -o '[^ ]*\.hpp' | wc -l)
+grep -q " $public examples" "$scratch/examples.log" || { echo "outside.sh: not every public header begins with an example" && exit 1; }
+expect "$("$scratch/examples/picture")" 'middle 1 0, corner 0 255'
+
+# Nothing of an installed tree may name the one it was built in.
+if grep -rl "$source" "$scratch/prefix/lib" "$scratch/prefix/include" --include='*.cmake' --include='*.hpp'; then
+  echo "outside.sh: these files name the source tree" && exit 1
+fi
