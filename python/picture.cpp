@@ -1,0 +1,52 @@
+#include "python/simulation.hpp"
+#include "render/renderer.hpp"
+
+namespace py = pybind11;
+
+namespace drape::python {
+namespace {
+
+Eigen::Vector3d vector_of(const std::array<double, 3>& numbers) { return {numbers[0], numbers[1], numbers[2]}; }
+
+/// The scene's camera with what is wished for. One without a position sees the moment, not the whole motion.
+View view_of(Camera camera, const PictureWishes& wishes, const Frame& frame, double aspect) {
+  if (wishes.position) camera.position = vector_of(*wishes.position);
+  if (wishes.target) camera.target = vector_of(*wishes.target);
+  if (wishes.field_of_view) camera.field_of_view = *wishes.field_of_view;
+  if (wishes.azimuth || wishes.elevation) camera.position.reset();
+  camera.azimuth = wishes.azimuth.value_or(camera.azimuth.value_or(Camera::usual_azimuth));
+  camera.elevation = wishes.elevation.value_or(camera.elevation.value_or(Camera::usual_elevation));
+  if (!needs_motion(camera)) return fixed_view(camera);
+  Framing framing(camera, aspect);
+  framing.add(frame.positions);
+  for (const Collider& collider : frame.colliders) framing.add(collider);
+  return framing.view();
+}
+
+Image draw(const Scene& scene, const PictureWishes& wishes, const Frame& frame) {
+  Eigen::Vector2i size = scene.video.size;
+  if (wishes.size) size = {(*wishes.size)[0], (*wishes.size)[1]};
+  constexpr int most = 16384;
+  if (size.minCoeff() < 1 || size.maxCoeff() > most) throw UsageError("size: expected from 1 to 16384 pixels");
+  const View view = view_of(scene.camera, wishes, frame, static_cast<double>(size[0]) / size[1]);
+  const Cloth& cloth = scene.simulation.cloth;
+  Renderer renderer(data_folder(), size, view, scene.look, cloth.vertex_count(), cloth.triangles, scene.uvs);
+  return renderer.draw(frame);
+}
+
+}  // namespace
+
+py::array render(SceneSimulation& simulation, const PictureWishes& wishes) {
+  const Frame frame = simulation.with([](const Simulation& s) {
+    return Frame{.time = s.time(), .positions = s.state().x, .colliders = s.colliders(s.time())};
+  });
+  const Image image = [&] {
+    const py::gil_scoped_release free;
+    return draw(simulation.scene(), wishes, frame);
+  }();
+  py::array_t<std::uint8_t> pixels({image.height, image.width, 3});
+  std::copy(image.pixels.begin(), image.pixels.end(), pixels.mutable_data());
+  return pixels;
+}
+
+}  // namespace drape::python

@@ -1,0 +1,239 @@
+#include "python/simulation.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <chrono>
+
+#include "python/values.hpp"
+
+namespace py = pybind11;
+
+namespace drape::python {
+namespace {
+
+using Numbers = py::array_t<double, py::array::forcecast>;
+
+/// A copy of vertices that Python owns.
+py::array copied(const Vertices& vertices) { return Mirror(vertices).array(); }
+
+template <class T, std::size_t Columns>
+py::array_t<T> copied(const std::vector<std::array<T, Columns>>& rows) {
+  py::array_t<T> array({rows.size(), Columns});
+  std::copy_n(reinterpret_cast<const T*>(rows.data()), rows.size() * Columns, array.mutable_data());
+  return array;
+}
+
+Vertices vertices_of(const Numbers& numbers, const char* name) {
+  if (numbers.ndim() != 2 || numbers.shape(1) != 3) {
+    throw UsageError(fmt::format("{}: expected an array n×3, found {} dimensions", name, numbers.ndim()));
+  }
+  Vertices vertices(numbers.shape(0), 3);
+  const auto at = numbers.unchecked<2>();
+  for (py::ssize_t i = 0; i < numbers.shape(0); ++i) {
+    for (py::ssize_t axis = 0; axis < 3; ++axis) vertices(i, axis) = at(i, axis);
+  }
+  if (!vertices.allFinite()) throw UsageError(fmt::format("{}: expected finite numbers", name));
+  return vertices;
+}
+
+Simulation::Checkpoint make_state(const Numbers& positions, const Numbers& velocities, std::int64_t step) {
+  Simulation::Checkpoint made;
+  made.state = {vertices_of(positions, "positions"), vertices_of(velocities, "velocities"), step};
+  if (made.state.x.rows() != made.state.v.rows()) {
+    throw UsageError(fmt::format("velocities: expected {}, as there are positions, found {}", made.state.x.rows(),
+                                 made.state.v.rows()));
+  }
+  if (step < 0) throw UsageError(fmt::format("step: expected at least 0, found {}", step));
+  return made;
+}
+
+std::unique_ptr<SceneSimulation> make_simulation(const py::object& scene, const py::dict& set,
+                                                 const std::filesystem::path& folder) {
+  const std::vector<std::string> overrides = to_overrides(set);
+  const auto make = [&](const auto& read) {
+    const py::gil_scoped_release free;
+    return std::make_unique<SceneSimulation>(read());
+  };
+  if (py::isinstance<py::dict>(scene)) {
+    TomlValue document = to_toml(scene);
+    const std::filesystem::path name = folder.empty() ? "dictionary" : folder / "dictionary";
+    return make([&] { return make_scene(std::move(document), name, overrides); });
+  }
+  if (!py::isinstance<py::str>(scene) && !py::hasattr(scene, "__fspath__")) {
+    throw py::type_error(
+        fmt::format("expected a scene's file or a dictionary, found {}", std::string(py::repr(scene))));
+  }
+  const auto file = scene.cast<std::filesystem::path>();
+  return make([&] { return load_scene(file, overrides); });
+}
+
+}  // namespace
+
+py::array Mirror::array() const {
+  auto* shared = new std::shared_ptr<Vertices>(numbers_);
+  const py::capsule owner(shared, [](void* held) { delete static_cast<std::shared_ptr<Vertices>*>(held); });
+  const auto rows = static_cast<py::ssize_t>(numbers_->rows());
+  constexpr py::ssize_t size = sizeof(double);
+  py::array array(py::dtype::of<double>(), {rows, py::ssize_t{3}}, {size, rows * size}, numbers_->data(), owner);
+  array.attr("flags").attr("writeable") = false;
+  return array;
+}
+
+SceneSimulation::SceneSimulation(Scene scene)
+    : scene_(std::move(scene)),
+      simulation_(scene_.simulation),
+      positions_(simulation_.state().x),
+      velocities_(simulation_.state().v) {}
+
+std::unique_lock<std::mutex> SceneSimulation::wait() {
+  const py::gil_scoped_release free;
+  return std::unique_lock(mutex_);
+}
+
+void SceneSimulation::show() {
+  positions_.show(simulation_.state().x);
+  velocities_.show(simulation_.state().v);
+}
+
+StepReport SceneSimulation::step(std::int64_t count) {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto patience = std::chrono::milliseconds(50);  // of whoever presses Ctrl-C
+  if (count < 0) throw UsageError(fmt::format("count: expected at least 0, found {}", count));
+  const auto lock = wait();
+  StepReport report;
+  std::int64_t done = 0;
+  try {
+    while (done < count) {
+      const py::gil_scoped_release free;
+      for (const auto begin = Clock::now(); done < count && Clock::now() - begin < patience; ++done) {
+        report = simulation_.step();
+      }
+      const py::gil_scoped_acquire held;
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    }
+  } catch (...) {
+    show();
+    throw;
+  }
+  show();
+  return report;
+}
+
+void SceneSimulation::restore(const Simulation::Checkpoint& checkpoint) {
+  const auto lock = wait();
+  const Eigen::Index vertices = simulation_.state().x.rows();
+  if (checkpoint.state.x.rows() != vertices) {
+    throw UsageError(fmt::format("the state is of {} vertices, the cloth has {}", checkpoint.state.x.rows(), vertices));
+  }
+  if (checkpoint.books) {
+    simulation_.restore(checkpoint);
+  } else {
+    simulation_.restore(checkpoint.state);
+  }
+  show();
+}
+
+void add_simulation(py::module_& module) {
+  py::class_<StepReport>(module, "StepReport", "How a step was computed.")
+      .def_readonly("iterations", &StepReport::iterations, "Linear solves; 0 for a method that has none.")
+      .def_readonly("converged", &StepReport::converged, "Whether the stopping rule was met within max_iterations.")
+      .def_readonly("kept", &StepReport::kept, "The part of the way to the last iterate that the step went, 0 to 1.")
+      .def_readonly("substeps", &StepReport::substeps, "That the step was cut into.")
+      .def_readonly("estimate", &StepReport::estimate,
+                    "Of the error that the step has added [m]; None unless the scene asks for an accuracy.")
+      .def("__repr__", [](const StepReport& r) {
+        return fmt::format("StepReport(iterations={}, converged={})", r.iterations, r.converged ? "True" : "False");
+      });
+  py::class_<Energies>(module, "Energies", "The energies of a cloth at one moment [J].")
+      .def_readonly("kinetic", &Energies::kinetic, "Σ m v²/2 [J]")
+      .def_readonly("gravity", &Energies::gravity, "−Σ m g·x [J]")
+      .def_readonly("elastic", &Energies::elastic, "Of all springs and of bending [J].")
+      .def_property_readonly("total", &Energies::total, "The sum of the three [J].")
+      .def("__repr__", [](const Energies& e) {
+        return fmt::format("Energies(kinetic={}, gravity={}, elastic={})", e.kinetic, e.gravity, e.elastic);
+      });
+  using Checkpoint = Simulation::Checkpoint;
+  py::class_<Checkpoint>(module, "State", "All that the rest of a motion depends on, to the bit. A copy.")
+      .def(py::init(&make_state), py::arg("positions"), py::arg("velocities"), py::arg("step") = 0,
+           "Of positions n×3 [m] and velocities n×3 [m/s] after a number of steps.")
+      .def_property_readonly(
+          "positions", [](const Checkpoint& c) { return copied(c.state.x); }, "n×3 [m]")
+      .def_property_readonly(
+          "velocities", [](const Checkpoint& c) { return copied(c.state.v); }, "n×3 [m/s]")
+      .def_property_readonly(
+          "step", [](const Checkpoint& c) { return c.state.step; }, "How many steps it is after.")
+      .def_property_readonly(
+          "hash", [](const Checkpoint& c) { return hash_of(c.state); }, "As Simulation.hash.");
+
+  using Self = SceneSimulation;
+  const auto settings = [](const Self& self) -> const SimulationSettings& { return self.scene().simulation; };
+  py::class_<Self>(module, "Simulation", "A scene in motion.")
+      .def(py::init(&make_simulation), py::arg("scene"), py::arg("set") = py::dict(), py::arg("folder") = "",
+           "Reads a scene: a TOML file, or a dictionary of the same tables, whose files are looked for in `folder`.\n\n"
+           "`set` replaces values, {\"cloth.stiffness\": 300}, as --set does on the command line.\n"
+           "Raises UsageError, whose message lists every problem.")
+      .def("step", &Self::step, py::arg("count") = 1,
+           "Takes steps and returns the last one's report. Other Python threads run meanwhile, and Ctrl-C ends it "
+           "after a "
+           "whole step.\n\nRaises DivergedError if the motion blows up.")
+      .def_property_readonly("positions", &Self::positions,
+                             "n×3 [m], read-only: an array that shows where the cloth is after each step().")
+      .def_property_readonly("velocities", &Self::velocities, "n×3 [m/s], read-only, likewise.")
+      .def_property_readonly(
+          "time", [](Self& self) { return self.with([](auto& s) { return s.time(); }); }, "[s]")
+      .def_property_readonly(
+          "steps_taken", [](Self& self) { return self.with([](auto& s) { return s.state().step; }); },
+          "How many steps the cloth has gone.")
+      .def_property_readonly(
+          "energies", [](Self& self) { return self.with([](auto& s) { return s.energies(); }); },
+          "Kinetic, of gravity and elastic [J].")
+      .def_property_readonly(
+          "residual", [](Self& self) { return self.with([](auto& s) { return s.residual(); }); },
+          "‖∇g‖ where the last step ended [N]; 0 for a method that minimises nothing.")
+      .def_property_readonly(
+          "error", [](Self& self) { return self.with([](auto& s) { return s.error(); }); },
+          "How far the worst vertex is from the exact solution of the last step, estimated [m].")
+      .def_property_readonly(
+          "hash", [](Self& self) { return self.with([](auto& s) { return s.hash(); }); },
+          "Of step, positions and velocities to the bit: 64 bits, the same on every run and machine of a build.")
+      .def(
+          "state", [](Self& self) { return self.with([](auto& s) { return s.checkpoint(); }); },
+          "A copy of all that the rest of the motion depends on.")
+      .def("restore", &Self::restore, py::arg("state"), "Goes on from a state of the same cloth, at any step.")
+      .def_property_readonly(
+          "step_size", [=](Self& self) { return settings(self).step; }, "h [s]")
+      .def_property_readonly(
+          "step_count", [](Self& self) { return self.scene().step_count(); },
+          "How many steps cover the scene's duration.")
+      .def_property_readonly(
+          "duration", [](Self& self) { return self.scene().duration; }, "Of the scene [s].")
+      .def_property_readonly(
+          "method", [=](Self& self) { return step_method_name(settings(self).integrator.step_method()); },
+          "\"liu13\", \"implicit-sdirk2\", …")
+      .def_property_readonly(
+          "name", [](Self& self) { return self.scene().name; }, "The file's, without its ending.")
+      .def_property_readonly(
+          "triangles", [=](Self& self) { return copied(settings(self).cloth.triangles); },
+          "m×3 numbers of vertices, counterclockwise seen from the front. A copy.")
+      .def_property_readonly(
+          "rest", [=](Self& self) { return copied(settings(self).cloth.rest); },
+          "The shape without strain, n×3 [m]. A copy.")
+      .def_property_readonly(
+          "masses",
+          [=](Self& self) {
+            return py::array_t<double>(settings(self).cloth.masses.size(), settings(self).cloth.masses.data());
+          },
+          "Of the vertices, n [kg]. A copy.")
+      .def_property_readonly(
+          "pins", [](Self& self) { return self.with([](auto& s) { return s.cloth().pins; }); },
+          "The vertices that do not move by themselves, as of the last step.")
+      .def("__repr__", [=](Self& self) {
+        return fmt::format("<drape.Simulation of {} at {:g} s, {} vertices, {}>", self.scene().name,
+                           self.with([](auto& s) { return s.time(); }), settings(self).cloth.vertex_count(),
+                           step_method_name(settings(self).integrator.step_method()));
+      });
+}
+
+}  // namespace drape::python

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "scene/scene.hpp"
+#include "sim/frame.hpp"
+#include "sim/simulation.hpp"
+
+namespace drape::python {
+
+/// An array n×3 that Python sees and cannot write, with numbers of its own: it lives as long as anybody looks at it,
+/// and shows what was last put into it. Schemes exchange their vectors, so a look at a simulation's own would dangle.
+class Mirror {
+ public:
+  explicit Mirror(const Vertices& now) : numbers_(std::make_shared<Vertices>(now)) {}
+  /// Puts other numbers into it, as many.
+  void show(const Vertices& now) { *numbers_ = now; }
+  [[nodiscard]] pybind11::array array() const;
+
+ private:
+  std::shared_ptr<Vertices> numbers_;
+};
+
+/// What Python sees as drape.Simulation: a scene in motion. Any thread may call it; while one computes, without
+/// Python's lock, others wait.
+class SceneSimulation {
+ public:
+  explicit SceneSimulation(Scene scene);
+
+  /// Takes steps, and looks from time to time whether Python has a signal to handle: that ends it after a whole step.
+  StepReport step(std::int64_t count);
+  void restore(const Simulation::Checkpoint& checkpoint);
+
+  /// Calls use(simulation) while no other thread does.
+  template <class Use>
+  auto with(const Use& use) {
+    const auto lock = wait();
+    return use(simulation_);
+  }
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] pybind11::array positions() const { return positions_.array(); }
+  [[nodiscard]] pybind11::array velocities() const { return velocities_.array(); }
+
+ private:
+  /// Waits without Python's lock: who computes may need it to go on.
+  std::unique_lock<std::mutex> wait();
+  void show();
+
+  std::mutex mutex_;
+  Scene scene_;
+  Simulation simulation_;
+  Mirror positions_, velocities_;
+};
+
+/// Where the picture is taken from, in place of what the scene's [camera] and [video] say.
+struct PictureWishes {
+  std::optional<std::array<int, 2>> size;                   ///< [pixels]
+  std::optional<std::array<double, 3>> position, target;    ///< [m]
+  std::optional<double> azimuth, elevation, field_of_view;  ///< [degrees]
+};
+
+/// Draws the cloth as it is now: height×width×3 bytes.
+pybind11::array render(SceneSimulation& simulation, const PictureWishes& wishes);
+
+/// Adds the class Simulation, and what it returns, to the module.
+void add_simulation(pybind11::module_& module);
+
+}  // namespace drape::python

@@ -1,0 +1,214 @@
+import gc
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import drape
+from conftest import SOURCE
+
+METHODS = ["semi-implicit", "implicit", "liu13", "quasi-newton", "verlet"]
+IMPLICIT = ["implicit", "liu13", "quasi-newton"]
+
+
+@pytest.mark.parametrize("method,scheme", [(m, None) for m in METHODS] + [(m, "sdirk2") for m in IMPLICIT])
+def test_the_bits_are_those_of_the_command_line(tmp_path, program, method, scheme):
+    scene = SOURCE / "scenes/homework/4.toml"
+    explicit = method not in IMPLICIT
+    set = {"integrator.method": method, "time.duration": 0.5, "time.step": 0.0005 if explicit else 0.02}
+    if scheme:
+        set["integrator.scheme"] = scheme
+    simulation = drape.Simulation(scene, set=set)
+    simulation.step(simulation.step_count)
+
+    options = [word for key, value in set.items() for word in ("--set", f"{key}={value}")]
+    done = program("simulate", "--quiet", scene, *options, "--positions", tmp_path / "last.csv")
+    assert done.returncode == 0, done.stderr
+    last = np.loadtxt(tmp_path / "last.csv", delimiter=",", skiprows=1)[:, 1:]
+    assert last.tobytes() == np.ascontiguousarray(simulation.positions).tobytes()
+
+
+def test_free_fall_is_that_of_the_scheme(swinging):
+    swinging["cloth"]["pins"] = []
+    swinging["integrator"]["method"] = "semi-implicit"
+    swinging["time"]["step"] = 0.001
+    simulation = drape.Simulation(swinging)
+    start = simulation.positions.copy()
+    report = simulation.step(100)
+    # v_n = −n g h, so x_n = x_0 − g h² n(n+1)/2
+    assert np.allclose(simulation.positions[:, 2], start[:, 2] - 9.8 * 0.001**2 * 100 * 101 / 2, atol=1e-12)
+    assert np.allclose(simulation.velocities[:, 2], -0.98)
+    assert report.iterations == 0 and report.converged
+    assert simulation.time == pytest.approx(0.1) and simulation.steps_taken == 100
+    energies = simulation.energies
+    assert energies.kinetic == pytest.approx(simulation.masses.sum() * 0.98**2 / 2)
+    assert energies.total == energies.kinetic + energies.gravity + energies.elastic
+
+
+def test_arrays_outlive_the_simulation_and_follow_it(swinging):
+    simulation = drape.Simulation(swinging)
+    positions = simulation.positions
+    before = positions.copy()
+    simulation.step()
+    assert not np.array_equal(positions, before), "it shows where the cloth is now"
+    assert np.array_equal(positions, simulation.positions)
+    after = positions.copy()
+    corner = positions[3:5, 2]
+    del simulation, positions
+    gc.collect()
+    more = [np.full((49, 3), 7.0) for _ in range(200)]  # takes the memory if it was given back
+    assert np.array_equal(corner, after[3:5, 2]) and more
+
+
+def test_arrays_are_read_only(swinging):
+    simulation = drape.Simulation(swinging)
+    for array in (simulation.positions, simulation.velocities):
+        with pytest.raises(ValueError):
+            array[0, 0] = 1
+    with pytest.raises(ValueError):
+        simulation.positions.flags.writeable = True
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_restore_goes_on_to_the_bit(swinging, method):
+    swinging["integrator"]["method"] = method
+    swinging["time"]["step"] = 0.002
+    simulation = drape.Simulation(swinging)
+    simulation.step(5)
+    state = simulation.state()
+    simulation.step(5)
+    last = simulation.hash
+    simulation.restore(state)
+    assert simulation.steps_taken == 5 and simulation.hash == state.hash != last
+    simulation.step(5)
+    assert simulation.hash == last
+
+    other = drape.Simulation(swinging)
+    other.restore(drape.State(state.positions, state.velocities, state.step))
+    other.step(5)
+    assert other.hash == last
+
+
+def test_a_dictionary_is_the_file_that_says_the_same(swinging, tmp_path):
+    file = tmp_path / "scene.toml"
+    file.write_text(
+        """[cloth]
+mesh = { grid = [6, 6] }
+stiffness = 50
+pins = ["corner:x-y-", "corner:x+y-"]
+[time]
+step = 0.02
+duration = 0.4
+[integrator]
+method = "liu13"
+[effects.gravity]
+"""
+    )
+    swinging["cloth"]["stiffness"] = np.float64(50)
+    swinging["cloth"]["mesh"]["grid"] = np.array([6, 6])
+    simulations = [drape.Simulation(file), drape.Simulation(swinging)]
+    for simulation in simulations:
+        assert simulation.step_count == 20 and simulation.method == "liu13"
+        simulation.step(20)
+    assert simulations[0].hash == simulations[1].hash
+
+
+def test_set_is_that_of_the_command_line(swinging):
+    one = drape.Simulation(swinging, set={"cloth.stiffness": 300, "effects.gravity.acceleration": [0, 0, -1.62]})
+    swinging["cloth"]["stiffness"] = 300
+    swinging["effects"]["gravity"]["acceleration"] = (0, 0, -1.62)
+    other = drape.Simulation(swinging)
+    one.step(3), other.step(3)
+    assert one.hash == other.hash
+
+
+def test_errors_have_the_text_of_the_command_line(tmp_path, program):
+    file = tmp_path / "wrong.toml"
+    file.write_text("[cloth]\nmesh = { grid = [6, 6] }\nstifness = 5\n[time]\nstep = -1\n")
+    with pytest.raises(drape.UsageError) as raised:
+        drape.Simulation(file, set={"cloth.mass": 0})
+    said = program("simulate", file, "--set", "cloth.mass=0").stderr
+    assert [f"drape: {line}" for line in str(raised.value).splitlines()] == said.splitlines()
+    assert isinstance(raised.value, drape.Error)
+
+
+def test_errors_of_a_dictionary_name_the_key(swinging):
+    swinging["cloth"]["stifness"] = swinging["cloth"].pop("stiffness")
+    with pytest.raises(drape.UsageError, match="^dictionary: unknown key 'stifness'.*did you mean 'stiffness'"):
+        drape.Simulation(swinging)
+    with pytest.raises(TypeError, match="cloth.mass: expected a number.*found None"):
+        drape.Simulation({"cloth": {"mass": None}})
+    with pytest.raises(TypeError, match="expected a scene's file or a dictionary, found 3"):
+        drape.Simulation(3)
+
+
+def test_a_motion_that_blows_up_is_an_error(swinging):
+    swinging["integrator"] = {"method": "semi-implicit", "allow_unstable": True}
+    swinging["time"]["step"] = 0.5
+    simulation = drape.Simulation(swinging)
+    with pytest.raises(drape.DivergedError, match="step"):
+        simulation.step(1000)
+    assert 0 < simulation.steps_taken < 1000
+
+
+def test_states_of_another_cloth_are_refused(swinging):
+    simulation = drape.Simulation(swinging)
+    with pytest.raises(drape.UsageError, match="is of 4 vertices, the cloth has 49"):
+        simulation.restore(drape.State(np.zeros((4, 3)), np.zeros((4, 3))))
+    with pytest.raises(drape.UsageError, match="positions: expected an array n×3"):
+        drape.State(np.zeros(4), np.zeros((4, 3)))
+    with pytest.raises(drape.UsageError, match="velocities: expected finite numbers"):
+        drape.State(np.zeros((4, 3)), np.full((4, 3), np.nan))
+
+
+def endless():
+    """A simulation of which many steps take minutes."""
+    return drape.Simulation(SOURCE / "scenes/homework/4.toml")
+
+
+def test_ctrl_c_ends_stepping_after_a_whole_step():
+    simulation = endless()
+    threading.Timer(0.2, lambda: signal.raise_signal(signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        simulation.step(10**9)
+    taken = simulation.steps_taken
+    assert taken > 0
+    again = endless()
+    again.step(taken)
+    assert again.hash == simulation.hash and np.array_equal(again.positions, simulation.positions)
+
+
+def test_other_threads_run_and_wait_while_it_steps():
+    simulation = endless()
+    stepping = threading.Thread(target=simulation.step, args=(200,))
+    stepping.start()
+    ticks = 0
+    while stepping.is_alive():
+        ticks += 1
+        time.sleep(0)
+    assert ticks > 10, "Python's lock was held all the time"
+
+    both = [threading.Thread(target=simulation.step, args=(50,)) for _ in range(2)]
+    for thread in both:
+        thread.start()
+    simulation.energies, simulation.hash, simulation.state()
+    for thread in both:
+        thread.join()
+    assert simulation.steps_taken == 300
+    alone = endless()
+    alone.step(300)
+    assert alone.hash == simulation.hash
+
+
+def test_the_bits_do_not_depend_on_the_instruction_set(swinging):
+    hashes = set()
+    for name in drape.instruction_sets():
+        drape.limit_instruction_set(name)
+        simulation = drape.Simulation(swinging)
+        simulation.step(20)
+        hashes.add(simulation.hash)
+    assert len(hashes) == 1
+    with pytest.raises(drape.UsageError, match="'mmx', expected one of sse2"):
+        drape.limit_instruction_set("mmx")
