@@ -35,6 +35,16 @@ public=$(sed -n '/^set(public_headers/,/)$/p' "$source/cmake/Package.cmake" | gr
 grep -q " $public examples" "$scratch/examples.log" || { echo "outside.sh: not every public header begins with an example" && exit 1; }
 expect "$("$scratch/examples/picture")" 'middle 1 0, corner 0 255'
 
+# The Python module, where it was built: what it needs is found beside it, a texture's decoder as well.
+for packages in "$scratch"/prefix/lib/python3*/dist-packages; do
+  [ -d "$packages" ] || continue
+  expect "$(PYTHONPATH=$packages "${PYTHON:-/usr/bin/python3}" -c '
+import sys, drape
+simulation = drape.Simulation(sys.argv[1], set={"look.texture": "plaid.png"})
+simulation.step(5)
+print(drape.data_folder(), drape.render(simulation, size=(64, 48)).shape)' "$scene")" "$scratch/prefix/share/drape (48, 64, 3)"
+done
+
 # Nothing of an installed tree may name the one it was built in.
 if grep -rl "$source" "$scratch/prefix/lib" "$scratch/prefix/include" --include='*.cmake' --include='*.hpp'; then
   echo "outside.sh: these files name the source tree" && exit 1
