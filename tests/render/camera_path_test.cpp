@@ -172,7 +172,9 @@ TEST(CameraPath, ThatGoesRoundTurnsByExactlyItsAngle) {
         EXPECT_TRUE(views[k].target.isApprox(views[0].target, 1e-12));
       }
       // A film that repeats goes on turning: the first frame is as far from the last as that from the one before.
-      if (degrees == 360) EXPECT_NEAR(turned(views.back(), views.front()), each, 1e-9);
+      if (degrees == 360) {
+        EXPECT_NEAR(turned(views.back(), views.front()), each, 1e-9);
+      }
     }
   }
 }

@@ -38,7 +38,7 @@ TEST(CoveredBox, HoldsAllThatIsDrawn) {
   const Eigen::Vector2d middles[] = {{0, 0}, {1.1, 0.4}, {-0.8, 1.3}, {0.9, -2.2}, {7, 0}};
   const int samples[] = {1, 2, 4};
   std::uint64_t seed = 0;
-  for (const Eigen::Vector2i size : {Eigen::Vector2i(16, 16), {97, 131}, {301, 40}}) {
+  for (const Eigen::Vector2i& size : {Eigen::Vector2i(16, 16), {97, 131}, {301, 40}}) {
     for (const Eigen::Vector2d& middle : middles) {
       const View view = looking_at(middle.x(), middle.y());
       Look look;

@@ -107,7 +107,7 @@ TEST_P(HardCases, ObeyTheLawsOfAStep) {
 
 class HardCasesByDefault : public testing::TestWithParam<HardCase> {};
 INSTANTIATE_TEST_SUITE_P(Case, HardCasesByDefault, testing::ValuesIn(hard_cases()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& hard) { return hard.param.name; });
 
 TEST_P(HardCasesByDefault, GainNoEnergyOutOfNothing) {
   HardRun hard = load(GetParam(), Method::quasi_newton, {"integrator.allow_unstable=true"});

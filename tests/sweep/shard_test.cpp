@@ -48,8 +48,12 @@ TEST(Shards, HaveEveryRunOnceAndAreBalanced) {
     for (const std::size_t shards : {1U, 2U, 5U, 64U}) {
       // Graham 1969: sharing out the longest first takes at most 4/3 of the least that is possible.
       const double least = std::max(most, sum / static_cast<double>(shards));
-      if (shards == 1 || runs > shards) EXPECT_LE(largest_load(costs, shards), 4.0 / 3 * least + most / 3 + 1e-9);
-      if (runs <= shards) EXPECT_DOUBLE_EQ(largest_load(costs, shards), most);
+      if (shards == 1 || runs > shards) {
+        EXPECT_LE(largest_load(costs, shards), 4.0 / 3 * least + most / 3 + 1e-9);
+      }
+      if (runs <= shards) {
+        EXPECT_DOUBLE_EQ(largest_load(costs, shards), most);
+      }
     }
   }
 }
