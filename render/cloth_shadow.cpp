@@ -17,7 +17,7 @@ constexpr int largest_map = 1024;
 /// Of a shadow, in texels: what the cloth must be above a point to take all of its light.
 constexpr double edge_width = 2;
 
-/// Texels around a point that its shadow is filtered from.
+/// Texels around a point that its shadow may be of: it is lifted by a diagonal, and read a diagonal away.
 constexpr int filtered = 3;
 
 }  // namespace
@@ -25,8 +25,8 @@ constexpr int filtered = 3;
 ClothShadow::ClothShadow(const GlFunctions& gl) : gl_(gl), texture_(gl) {
   gl_.ActiveTexture(GL_TEXTURE0 + texture_unit);
   gl_.BindTexture(GL_TEXTURE_2D, texture_.id());
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
@@ -111,8 +111,9 @@ void ClothShadow::set_uniforms(const Program& program) const {
     program.set(name, std::span(&single, 1));
   };
   const bool empty = map_.columns() == 0;
-  set("shadow_u", empty ? Eigen::Vector4d::Zero().eval() : (map_.u() / map_.columns()).eval());
-  set("shadow_v", empty ? Eigen::Vector4d::Zero().eval() : (map_.v() / map_.rows()).eval());
+  const Eigen::Vector4d middle(0, 0, 0, -0.5);  // of a texel is a whole number for the shader
+  set("shadow_u", empty ? Eigen::Vector4d::Zero().eval() : (map_.u() + middle).eval());
+  set("shadow_v", empty ? Eigen::Vector4d::Zero().eval() : (map_.v() + middle).eval());
   set("shadow_depth", empty ? Eigen::Vector4d::Zero().eval() : map_.depth());
   // What is behind all of the cloth is as dark as half a block behind it, in front of what an empty texel holds.
   program.set("shadow_lowest", static_cast<float>(-0.5 * DepthMap::block * map_.texel()));

@@ -25,7 +25,7 @@ void GroundShadow::cast(const DepthMap& map, const GroundShape& ground, const Ei
   blur(soft_, soft_radius);
   pixels_.resize(sharp_.size());
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    pixels_[i] = static_cast<std::uint16_t>(std::lround(65535 * std::clamp(sharp_[i] + soft_[i], 0.0F, 1.0F)));
+    pixels_[i] = static_cast<std::uint16_t>(65535 * std::clamp(sharp_[i] + soft_[i], 0.0F, 1.0F) + 0.5F);
   }
 }
 
@@ -94,27 +94,38 @@ void GroundShadow::project(const DepthMap& map, const GroundShape& ground, doubl
   v_ /= rows_;
 }
 
-// Three box filters along both axes, which come close to a Gaussian. Each goes along a row, into a column of the
-// transpose: after six the picture is as it was.
+// Three box filters along both axes, which come close to a Gaussian. All go along columns, as a row of sums is what
+// processors add up fast; in between the picture is transposed.
 void GroundShadow::blur(std::vector<float>& image, int radius) {
-  scratch_.resize(image.size());
-  const float scale = 1.0F / static_cast<float>(2 * radius + 1);
-  int length = columns_, count = rows_;
-  for (int pass = 0; pass < 6; ++pass) {
-    for (int row = 0; row < count; ++row) {
-      const float* from = image.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(length);
-      float* to = scratch_.data() + row;
-      float sum = 0;
-      for (int k = 0; k < radius; ++k) sum += from[k];
-      for (int column = 0; column < length; ++column, to += count) {
-        if (column + radius < length) sum += from[column + radius];
-        if (column - radius - 1 >= 0) sum -= from[column - radius - 1];
-        *to = sum * scale;
+  auto width = static_cast<std::size_t>(columns_), height = static_cast<std::size_t>(rows_);
+  for (int axis = 0; axis < 2; ++axis) {
+    for (int pass = 0; pass < 3; ++pass) blur_columns(image, width, height, static_cast<std::size_t>(radius));
+    for (std::size_t row = 0; row < height; ++row) {
+      for (std::size_t column = 0; column < width; ++column) {
+        scratch_[column * height + row] = image[row * width + column];
       }
     }
     std::swap(image, scratch_);
-    std::swap(length, count);
+    std::swap(width, height);
   }
+}
+
+void GroundShadow::blur_columns(std::vector<float>& image, std::size_t width, std::size_t height, std::size_t radius) {
+  scratch_.resize(image.size());
+  sums_.assign(width, 0.0F);
+  const auto add = [&](std::size_t row) {
+    for (std::size_t k = 0; k < width; ++k) sums_[k] += image[row * width + k];
+  };
+  const float scale = 1.0F / static_cast<float>(2 * radius + 1);
+  for (std::size_t row = 0; row < radius; ++row) add(row);
+  for (std::size_t row = 0; row < height; ++row) {
+    if (row + radius < height) add(row + radius);
+    if (row > radius) {
+      for (std::size_t k = 0; k < width; ++k) sums_[k] -= image[(row - radius - 1) * width + k];
+    }
+    for (std::size_t k = 0; k < width; ++k) scratch_[row * width + k] = sums_[k] * scale;
+  }
+  std::swap(image, scratch_);
 }
 
 }  // namespace drape

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -38,9 +39,10 @@ class GroundShadow {
   void clear();
   void project(const DepthMap& map, const GroundShape& ground, double softening);
   void blur(std::vector<float>& image, int radius);
+  void blur_columns(std::vector<float>& image, std::size_t width, std::size_t height, std::size_t radius);
 
   int columns_ = 0, rows_ = 0;
-  std::vector<float> sharp_, soft_, scratch_;
+  std::vector<float> sharp_, soft_, scratch_, sums_;
   std::vector<std::uint16_t> pixels_;
   Eigen::Vector4d u_ = Eigen::Vector4d::Zero(), v_ = u_;
   Eigen::Vector3d light_ = Eigen::Vector3d::UnitZ();

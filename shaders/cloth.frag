@@ -1,4 +1,5 @@
 #version 330 core
+#extension GL_ARB_texture_gather : require
 #include "lighting.glsl"
 #include "shadow.glsl"
 
@@ -14,7 +15,7 @@ uniform vec3 cloth_color;
 uniform float translucency;  // part of the key light that shines through
 #endif
 #ifdef OCCLUSION
-in vec2 openness;  // of the front and the back: what the cloth leaves of the light from all around
+in vec2 openness;  // of the front and the back: what cloth and spheres leave of the light from all around
 #endif
 #ifdef MESH_LINES
 uniform vec3 line_color;
@@ -64,13 +65,13 @@ void main() {
   float towards = dot(n, key_direction);
   float lit = 1.0;
 #ifdef SHADOWS
-  // A point of the map is as wide as a texel and its filter: lifted by that off the side that is lit, no surface, however
-  // slanted, hides itself.
-  vec3 lifted = world_position + n * (towards < 0.0 ? -1.0 : 1.0) * (1.3 * shadow_texel.z);
+  // Texels are read up to a diagonal away: lifted by that off the side that is lit, no surface, however slanted, hides
+  // itself.
+  vec3 lifted = world_position + n * (towards < 0.0 ? -1.0 : 1.0) * (1.42 * shadow_texel.z);
   lit = past_spheres(world_position, vec4(0.0)) * past_cloth(lifted);
 #endif
 #ifdef OCCLUSION
-  float open = (gl_FrontFacing ? openness.x : openness.y) * free_sky(world_position, n);
+  float open = gl_FrontFacing ? openness.x : openness.y;
   // What hides the surroundings is cloth of about this colour, and gives back what it gets.
   vec3 around = open / (1.0 - 0.7 * albedo * (1.0 - open));
 #else

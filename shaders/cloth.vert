@@ -1,4 +1,7 @@
 #version 330 core
+#ifdef OCCLUSION
+#include "spheres.glsl"
+#endif
 
 uniform mat4 view_projection;
 
@@ -11,7 +14,7 @@ layout(location = 4) in vec3 line_scale;
 layout(location = 5) in vec3 own_color;  // linear light
 #endif
 #ifdef OCCLUSION
-layout(location = 6) in vec2 open_sides;
+layout(location = 6) in vec2 open_sides;  // what the cloth leaves, of the front and the back
 #endif
 
 out vec3 world_position;
@@ -40,7 +43,7 @@ void main() {
   vertex_color = own_color;
 #endif
 #ifdef OCCLUSION
-  openness = open_sides;
+  openness = open_sides * vec2(free_sky(position, normal), free_sky(position, -normal));
 #endif
 #ifdef MESH_LINES
   corner_weights = barycentric;

@@ -1,4 +1,5 @@
 #version 330 core
+#extension GL_ARB_texture_gather : require
 #include "lighting.glsl"
 #include "shadow.glsl"
 
@@ -30,7 +31,11 @@ void main() {
 
   vec3 direct = key_light;
 #ifdef SHADOWS
-  direct *= past_spheres(sphere.xyz + sphere.w * n, sphere) * past_cloth(sphere.xyz + sphere.w * n);
+  vec3 p = sphere.xyz + sphere.w * n;
+  direct *= past_cloth(p);
+#if SPHERES > 1
+  direct *= past_spheres(p, sphere);
+#endif
 #endif
   vec3 light = ambient_light(n) + direct * wrapped_cosine(n, key_direction, 0.1) +
                fill_light * wrapped_cosine(n, fill_direction, 0.2);

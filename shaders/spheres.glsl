@@ -1,0 +1,20 @@
+// The spheres, and what they leave of the light from all around.
+
+#if SPHERES > 0
+uniform vec4 spheres[SPHERES];  // center, radius [m]
+#endif
+
+// The part of the surroundings of a point p with normal n that the spheres leave free: 1 for all of it. For a sphere
+// above the horizon it is exact (Quilez, "sphere ambient occlusion").
+float free_sky(vec3 p, vec3 n) {
+  float open = 1.0;
+#if SPHERES > 0
+  for (int i = 0; i < SPHERES; ++i) {
+    vec3 to_center = spheres[i].xyz - p;
+    float distance = length(to_center);
+    float relative = max(distance / spheres[i].w, 1.0);
+    open *= 1.0 - clamp(dot(n, to_center / distance), 0.0, 1.0) / (relative * relative);
+  }
+#endif
+  return open;
+}
