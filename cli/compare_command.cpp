@@ -8,9 +8,9 @@
 #include "cli/frame_list.hpp"
 #include "cli/grid_option.hpp"
 #include "cli/interruption.hpp"
+#include "cli/motion_runs.hpp"
 #include "cli/number_option.hpp"
 #include "cli/output_clashes.hpp"
-#include "cli/scene_files.hpp"
 #include "cli/summary.hpp"
 #include "cli/watched.hpp"
 #include "compare/compare_scenes.hpp"
@@ -30,8 +30,23 @@ struct CompareArguments {
 };
 
 /// The scenes, each in all its variations.
-std::vector<Scene> load_variations(const CompareArguments& arguments) {
+/// @returns them, and of each the motion where that is in a file
+std::pair<std::vector<Scene>, std::vector<std::shared_ptr<MotionReader>>> load_variations(
+    const CompareArguments& arguments) {
   std::vector<Scene> scenes;
+  std::vector<std::shared_ptr<MotionReader>> recorded;
+  std::string problems;
+  const auto load = [&](const std::string& file, const std::vector<std::string>& overrides) {
+    try {
+      SceneToRun found = open_scene(file, overrides);
+      if (found.recorded) require_steps(file, found.recorded->last_step(), arguments.options.steps);
+      scenes.push_back(std::move(found.scene));
+      recorded.push_back(std::move(found.recorded));
+    } catch (const UsageError& error) {
+      const std::string problem = error.what();  // of a file, which may be that of all its variations
+      if (problems.find(problem) == std::string::npos) problems += (problems.empty() ? "" : "\n") + problem;
+    }
+  };
   std::vector<Variation> varied;
   for (const std::string& text : arguments.varied) varied.push_back(parse_variation(text));
   const std::vector<std::vector<std::string>> all = combinations(varied);
@@ -40,14 +55,15 @@ std::vector<Scene> load_variations(const CompareArguments& arguments) {
       std::vector<std::string> overrides = arguments.overrides;
       const std::vector<std::string> some = overrides_of(varied, values);
       overrides.insert(overrides.end(), some.begin(), some.end());
-      for (Scene& scene : load_scenes({file}, overrides)) scenes.push_back(std::move(scene));
+      load(file, overrides);
     }
   }
+  if (!problems.empty()) throw UsageError(problems);
   constexpr std::size_t most = 36;
   if (scenes.size() > most) {
     throw UsageError(fmt::format("{} motions side by side are more than {}", scenes.size(), most));
   }
-  return scenes;
+  return {std::move(scenes), std::move(recorded)};
 }
 
 std::string command_line(const CompareArguments& arguments) {
@@ -89,12 +105,16 @@ ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& com
   if (options.outputs.empty()) options.outputs = {arguments.sheet.empty() ? "out/compare.gif" : "out/compare.png"};
   options.sheet = parse_sheet(arguments.sheet, options.outputs);
   options.command = command_line(arguments);
-  const std::vector<Scene> scenes = load_variations(arguments);
+  const auto [scenes, recorded] = load_variations(arguments);
+  options.recorded = recorded;
   std::vector<RunOptions> files(scenes.size());
   files.front().outputs = options.outputs;
   require_files_of_their_own(scenes, files);
   inspect_backend(options.backend);
   require_comparison(scenes, options);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (recorded[i]) warn_of_gaps(scenes[i].file.string(), *recorded[i], compared_extent(scenes, options, i));
+  }
 
   CompareResult result;
   run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) {
@@ -114,7 +134,9 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
   CompareOptions& options = arguments->options;
   CLI::App* sub = app.add_subcommand("compare", "Draw motions side by side");
   const auto one_each = [](CLI::Option* option) { option->allow_extra_args(false); };
-  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
+  sub->add_option("SCENE", arguments->scenes,
+                  "Scene files (TOML), or motions (.drape) that drape simulate has computed")
+      ->required();
   one_each(sub->add_option("-o,--output", options.outputs,
                            fmt::format("Where to, and by the extension in which form; repeatable; default "
                                        "out/compare.gif.\n.html a self-contained page: the motions in step, their "

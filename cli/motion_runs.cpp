@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "motion/scene_folder.hpp"
 #include "output/registry.hpp"
+#include "run/motion_frames.hpp"
 
 namespace drape {
 namespace {
@@ -32,6 +33,21 @@ struct GrowingMotion {
       : from(read_resumption(file)), folder(*from.partial), scene(folder.scene()) {}
 };
 
+/// The scene that says how a motion is drawn: its own, unless it is told otherwise.
+Scene scene_to_draw(const std::string& file, const MotionScene& folder, const std::vector<std::string>& overrides,
+                    const std::string& look) {
+  Scene scene = folder.scene();
+  if (!look.empty() || !overrides.empty()) {
+    Scene other = look.empty() ? folder.load(overrides) : load_scene(look, overrides);
+    require_same_physics(file, scene, other, look.empty() ? "--set" : look);
+    scene = std::move(other);
+  }
+  scene.file = file;
+  scene.name = scene.file.stem().string();
+  scene.inputs.emplace_back(file);
+  return scene;
+}
+
 }  // namespace
 
 bool is_motion_file(const std::string& file) {
@@ -41,28 +57,34 @@ bool is_motion_file(const std::string& file) {
 
 SceneToRun open_motion(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
   const auto motion = std::make_shared<OpenMotion>(file);
-  SceneToRun found{motion->folder.scene(), std::shared_ptr<MotionReader>(motion, &motion->reader)};
-  if (!look.empty() || !overrides.empty()) {
-    Scene other = look.empty() ? motion->folder.load(overrides) : load_scene(look, overrides);
-    require_same_physics(file, found.scene, other, look.empty() ? "--set" : look);
-    found.scene = std::move(other);
-  }
-  found.scene.file = file;
-  found.scene.name = found.scene.file.stem().string();
-  found.scene.inputs.emplace_back(file);
-  return found;
+  return {scene_to_draw(file, motion->folder, overrides, look), std::shared_ptr<MotionReader>(motion, &motion->reader)};
 }
 
-std::optional<RunToGoOn> find_run_to_go_on(std::string file) {
+SceneToRun open_scene(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
+  if (file.ends_with(".drape.partial")) {
+    throw UsageError(fmt::format("{0} is not complete: drape simulate --resume {0} goes on with it", file));
+  }
+  if (is_motion_file(file)) return open_motion(file, overrides, look);
+  return {load_scene(file, overrides), nullptr};
+}
+
+void warn_of_gaps(const std::string& file, const MotionReader& motion, const FilmExtent& extent) {
+  const int between = frames_in_gaps(motion, extent);
+  if (between == 0) return;
+  spdlog::warn("{}: {} frames lie between states that are more than a step apart, and are interpolated between them",
+               file, between);
+}
+
+std::string motion_to_resume(std::string file) {
   constexpr std::string_view ending = ".partial";
   if (file.ends_with(ending)) file.resize(file.size() - ending.size());
-  if (!is_motion_file(file)) {
-    throw UsageError(fmt::format("--resume {}: expected the name of a motion file, as in motion.drape", file));
-  }
-  if (!std::filesystem::exists(growing_name(file)) && std::filesystem::exists(file)) {
-    const MotionReader complete(file);
-    return std::nullopt;
-  }
+  if (is_motion_file(file)) return file;
+  throw UsageError(fmt::format("--resume {}: expected the name of a motion file, as in motion.drape", file));
+}
+
+std::optional<RunToGoOn> find_run_to_go_on(const std::string& file, const std::vector<std::string>& overrides,
+                                           const std::string& look) {
+  if (!std::filesystem::exists(growing_name(file)) && std::filesystem::exists(file)) return std::nullopt;
   const auto motion = std::make_shared<GrowingMotion>(file);
   motion->scene.file = file;
   const MotionHeader& header = motion->from.partial->header();
@@ -74,7 +96,8 @@ std::optional<RunToGoOn> find_run_to_go_on(std::string file) {
   options.motion = {.path = file, .recorded = header.recorded};
   options.steps = header.steps;
   options.from = std::shared_ptr<const Resumption>(motion, &motion->from);
-  return RunToGoOn{std::shared_ptr<const Scene>(motion, &motion->scene), options};
+  return RunToGoOn{std::shared_ptr<const Scene>(motion, &motion->scene), options,
+                   scene_to_draw(file, motion->folder, overrides, look)};
 }
 
 RecordedSteps parse_every(const std::string& text) {
@@ -88,12 +111,13 @@ RecordedSteps parse_every(const std::string& text) {
   return {.every = every};
 }
 
-void limit_to_motion(const MotionReader& motion, RunOptions& options) {
-  const std::string file = motion.file().string();
-  if (options.steps.value_or(0) > motion.last_step()) {
-    throw UsageError(fmt::format("--steps {}: {} has {}", *options.steps, file, motion.last_step()));
-  }
-  options.steps = options.steps.value_or(motion.last_step());
+void require_steps(const std::string& file, std::int64_t last_step, const std::optional<std::int64_t>& steps) {
+  if (steps.value_or(0) > last_step) throw UsageError(fmt::format("--steps {}: {} has {}", *steps, file, last_step));
+}
+
+void limit_to_motion(const std::string& file, std::int64_t last_step, RunOptions& options) {
+  require_steps(file, last_step, options.steps);
+  options.steps = options.steps.value_or(last_step);
   const RecordPaths& records = options.records;
   for (const auto& [option, path] :
        {std::pair{"--stats", records.stats}, std::pair{"--energies", records.energies},

@@ -47,7 +47,14 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
                      .trace = expanded(arguments.records.trace)};
   options.steps = arguments.steps;
   if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
-  if (!arguments.max_size.empty()) options.largest_file = parse_byte_count("--max-size", arguments.max_size);
+  if (!arguments.max_size.empty()) {
+    options.largest_file = FileLimit{.bytes = parse_byte_count("--max-size", arguments.max_size),
+                                     .keeps = arguments.keep == "size"   ? FilmKeeps::size
+                                              : arguments.keep == "rate" ? FilmKeeps::rate
+                                                                         : FilmKeeps::nothing};
+  } else if (!arguments.keep.empty()) {
+    throw UsageError("--keep " + arguments.keep + " is for a film that must fit: give --max-size, too");
+  }
   options.poster = arguments.poster;
   options.sheet = parse_sheet(arguments.sheet, options.outputs);
   options.backend = arguments.backend;
@@ -72,6 +79,9 @@ void add_shared_options(CLI::App& command, RunArguments& arguments, const char* 
                   "Seconds of work that are lost at most where a run that writes a .drape is killed")
       ->check(number_in({.minimum = 0}))
       ->default_str("60");
+  command.add_option("--resume", arguments.resume,
+                     "MOTION.drape: goes on with a run that was interrupted or killed, to the same bits; what -o asks "
+                     "for is made of the whole motion then");
   command.add_option("--stats", arguments.records.stats, "Write the run's figures to a JSON file");
   command.add_option("--energies", arguments.records.energies, "Write the energies of every step to a CSV file");
   command.add_option("--positions", arguments.records.positions, "Write the last positions to a CSV file");
@@ -85,7 +95,7 @@ void add_outputs(CLI::App& command, RunArguments& arguments, const std::string& 
       .add_option("-o,--output", arguments.outputs,
                   fmt::format("Where to, and by the extension in which form; {}.\nWhat ends early, by Ctrl-C or a "
                               "diverging motion, becomes NAME.partial.EXT; of a .drape, "
-                              "NAME.drape.partial, which drape simulate --resume goes on with.\n{}",
+                              "NAME.drape.partial, which --resume goes on with.\n{}",
                               usage, output_help(drawn)))
       ->allow_extra_args(false);
 }

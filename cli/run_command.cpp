@@ -13,11 +13,11 @@
 #include "cli/summary.hpp"
 #include "cli/watched.hpp"
 #include "core/console.hpp"
+#include "core/shell.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
 #include "render/texture_image.hpp"
 #include "run/annotations.hpp"
-#include "run/motion_frames.hpp"
 #include "run/motion_space.hpp"
 #include "run/outputs.hpp"
 #include "run/run_scene.hpp"
@@ -76,15 +76,25 @@ void require_a_film(const RunArguments& arguments) {
                                arguments.poster ? "--poster" : "--max-size"));
 }
 
+/// The command that goes on with a run which writes a motion file, and makes its other files of the whole motion.
+std::string resume_command(const RunArguments& arguments, const std::string& motion) {
+  std::string text = fmt::format("drape {} --resume {}", arguments.drawing ? "render" : "simulate", shell_word(motion));
+  for (const std::string& path : arguments.outputs) {
+    if (!is_motion_file(path)) text += " -o " + shell_word(path);
+  }
+  return text;
+}
+
 /// Says how a run ended, and returns its exit code.
-ExitCode conclude(const Scene& scene, const RunResult& result) {
+ExitCode conclude(const Scene& scene, const RunResult& result, const RunArguments& arguments) {
   for (const std::string& problem : result.problems) spdlog::error(problem);
   const ExitCode outputs = result.problems.empty() ? ExitCode::ok : ExitCode::output;
   switch (result.outcome) {
     case Outcome::completed:
       return outputs;
     case Outcome::interrupted:
-      spdlog::error("interrupted {}", describe_end(result));
+      spdlog::error("interrupted {}",
+                    describe_end(result, resume_command(arguments, result.motion ? result.motion->file : "")));
       return ExitCode::interrupted;
     case Outcome::diverged:
       spdlog::error("{}: {}", scene.file.string(), result.divergence);
@@ -94,15 +104,7 @@ ExitCode conclude(const Scene& scene, const RunResult& result) {
   return outputs;
 }
 
-/// Says where a film shows what the motion's file does not hold.
-void warn_of_gaps(const Scene& scene, const RunOptions& options) {
-  const int between = frames_in_gaps(*options.recorded, film_extent(scene, options));
-  if (between == 0) return;
-  spdlog::warn("{}: {} frames lie between states that are more than a step apart, and are interpolated between them",
-               scene.file.string(), between);
-}
-
-ExitCode run(const Scene& scene, RunOptions options, bool step_by_step, const CommonOptions& common) {
+ExitCode run(const Scene& scene, RunOptions options, const RunArguments& arguments, const CommonOptions& common) {
   spdlog::info(describe(scene, options));
   if (scene.simulation.integrator.allow_unstable) {
     if (const auto problem = stability_problem(scene.simulation, make_system(scene.simulation))) {
@@ -113,11 +115,11 @@ ExitCode run(const Scene& scene, RunOptions options, bool step_by_step, const Co
     const MotionSpace space = motion_space(scene, options);
     if (space.most > space.free) spdlog::warn(space.text(options.motion->path));
   }
-  if (options.recorded) warn_of_gaps(scene, options);
+  if (options.recorded) warn_of_gaps(scene.file.string(), *options.recorded, film_extent(scene, options));
   StepByStep pause(interruption());
-  if (step_by_step) options.observer = &pause;
+  if (arguments.step_by_step) options.observer = &pause;
   RunResult result;
-  run_watched(common.quiet || step_by_step, [&](const std::stop_token& stop, Progress& progress) {
+  run_watched(common.quiet || arguments.step_by_step, [&](const std::stop_token& stop, Progress& progress) {
     result = run_scene(scene, options, stop, progress);
   });
   if (!result.renderer.empty()) spdlog::debug("drawn by {}", result.renderer);
@@ -125,47 +127,76 @@ ExitCode run(const Scene& scene, RunOptions options, bool step_by_step, const Co
   if (!common.quiet && (result.statistics.steps() > 0 || options.recorded))
     print_text(stderr, summarize(result) + "\n");
   for (const std::string& doubt : doubts(result)) spdlog::warn("{}: {}", scene.file.string(), doubt);
-  return conclude(scene, result);
+  return conclude(scene, result, arguments);
 }
 
-/// Goes on with a run that ended early.
-ExitCode go_on(const RunArguments& arguments, const CommonOptions& common) {
-  if (!arguments.scenes.empty() || !arguments.overrides.empty() || !arguments.outputs.empty() || arguments.steps ||
-      !arguments.frames.empty() || !arguments.every.empty()) {
-    throw UsageError(
-        fmt::format("--resume {0} goes on as the run began, and takes no SCENE, -o, --set, --steps, --frames or "
-                    "--every; once it is "
-                    "complete, drape render {0} makes films and other forms of it",
-                    arguments.resume));
-  }
-  const auto found = find_run_to_go_on(arguments.resume);
-  if (!found) {
-    spdlog::info("{} is complete", arguments.resume);
+/// @throws UsageError if what is said of outputs is said where there are none
+void require_something_to_make(const RunArguments& arguments) {
+  if (!arguments.outputs.empty()) return;
+  if (arguments.overrides.empty() && !arguments.steps && arguments.frames.empty() && arguments.every.empty()) return;
+  throw UsageError(
+      fmt::format("--resume {} goes on as the run began; --set, --steps, --frames and --every say what is made of the "
+                  "whole motion, and no -o is there",
+                  arguments.resume));
+}
+
+/// Makes what is asked for of a motion that is complete.
+ExitCode make_of_motion(const std::string& file, const RunArguments& arguments, const CommonOptions& common) {
+  const SceneToRun found = open_motion(file, arguments.overrides, arguments.look);
+  RunOptions options = run_options(arguments, found.scene, common.verbose);
+  limit_to_motion(file, found.recorded->last_step(), options);
+  if (arguments.outputs.empty()) {
+    spdlog::info("{} is complete", file);
     return ExitCode::ok;
   }
+  options.recorded = found.recorded;
+  look_ahead({found.scene}, {options});
+  return run(found.scene, options, arguments, common);
+}
+
+/// Goes on with a run that ended early, and makes what is asked for of the whole motion.
+ExitCode go_on(const RunArguments& arguments, const CommonOptions& common) {
+  if (!arguments.scenes.empty()) {
+    throw UsageError(
+        fmt::format("--resume {} goes on with the run of its scene, and takes no SCENE", arguments.resume));
+  }
+  require_something_to_make(arguments);
+  const std::string file = motion_to_resume(arguments.resume);
+  auto found = find_run_to_go_on(file, arguments.overrides, arguments.look);
+  if (!found) return make_of_motion(file, arguments, common);
+
+  RunArguments rest = arguments, afterwards = arguments;
+  rest.outputs.clear();
+  rest.overrides.clear();
+  rest.steps.reset();
+  rest.frames = rest.every = {};
+  afterwards.records = {};
+  RunOptions later = run_options(afterwards, found->drawn, common.verbose);
+  limit_to_motion(file, *found->options.steps, later);
+  look_ahead({found->drawn}, {later});
+
   RunOptions options = found->options;
-  const RunOptions own = run_options(arguments, *found->scene, common.verbose);
+  const RunOptions own = run_options(rest, *found->scene, common.verbose);
   options.records = own.records;
   options.time_effects = own.time_effects;
   options.motion->checkpoint_seconds = arguments.checkpoint_seconds;
   require_outputs(*found->scene, options);
-  return run(*found->scene, options, arguments.step_by_step, common);
+  const ExitCode code = run(*found->scene, options, arguments, common);
+  if (code != ExitCode::ok || arguments.outputs.empty()) return code;
+  afterwards.step_by_step = false;
+  found.reset();  // its files
+  return make_of_motion(file, afterwards, common);
 }
 
 std::vector<SceneToRun> load_all(const RunArguments& arguments) {
   std::vector<SceneToRun> all;
   std::string problems;
   for (const std::string& file : arguments.scenes) {
-    const bool motion = is_motion_file(file);
-    if (file.ends_with(".drape.partial")) {
-      throw UsageError(fmt::format("{0} is not complete: drape simulate --resume {0} goes on with it", file));
-    }
-    if (motion && !arguments.drawing) {
+    if (is_motion_file(file) && !arguments.drawing) {
       throw UsageError(fmt::format("{} is a motion already: drape render draws it, drape simulate computes one", file));
     }
     try {
-      all.push_back(motion ? open_motion(file, arguments.overrides, arguments.look)
-                           : SceneToRun{load_scene(file, arguments.overrides), nullptr});
+      all.push_back(open_scene(file, arguments.overrides, arguments.look));
     } catch (const UsageError& error) {
       problems += (problems.empty() ? "" : "\n") + std::string(error.what());
     }
@@ -178,15 +209,17 @@ std::vector<SceneToRun> load_all(const RunArguments& arguments) {
 /// @returns the worst of their codes, which is the largest
 ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
   interruption();  // from here on, a signal ends what there is in good order
-  if (!arguments.resume.empty()) return go_on(arguments, common);
-  if (arguments.scenes.empty()) throw UsageError("SCENE is required; see drape --help");
+  if (arguments.scenes.empty() && arguments.resume.empty()) throw UsageError("SCENE is required; see drape --help");
   if (!arguments.drawing) require_no_drawing(arguments.outputs);
   require_a_film(arguments);
+  if (!arguments.resume.empty()) return go_on(arguments, common);
   std::vector<Scene> scenes;
   std::vector<RunOptions> options;
   for (SceneToRun& found : load_all(arguments)) {
     options.push_back(run_options(arguments, found.scene, common.verbose));
-    if (found.recorded) limit_to_motion(*found.recorded, options.back());
+    if (found.recorded) {
+      limit_to_motion(found.scene.file.string(), found.recorded->last_step(), options.back());
+    }
     options.back().recorded = found.recorded;
     scenes.push_back(std::move(found.scene));
   }
@@ -197,7 +230,7 @@ ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
       spdlog::error("interrupted before {}", scenes[i].file.string());
       return ExitCode::interrupted;
     }
-    worst = std::max(worst, reported([&] { return run(scenes[i], options[i], arguments.step_by_step, common); }));
+    worst = std::max(worst, reported([&] { return run(scenes[i], options[i], arguments, common); }));
   }
   return worst;
 }
@@ -211,8 +244,12 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
   add_outputs(*render, *arguments, "repeatable; default out/{scene}.gif", true);
   render->add_option("--sheet", arguments->sheet, sheet_help);
   add_backend_option(*render, arguments->backend);
-  render->add_option("--max-size", arguments->max_size,
-                     "5MB: make a film's pictures smaller until it has no more bytes; also kB, GB, kiB, MiB, GiB");
+  render->add_option(
+      "--max-size", arguments->max_size,
+      "5MB: make a film's pictures smaller, then fewer, until it has no more bytes; also kB, GB, kiB, MiB, GiB");
+  render
+      ->add_option("--keep", arguments->keep, "size or rate: what --max-size leaves as it is, so that the other gives")
+      ->check(CLI::IsMember({"size", "rate"}));
   render->add_flag("--poster", arguments->poster, "Put FILM.poster.png beside each film: the frame that shows most");
   add_shared_options(*render, *arguments, "Scene files (TOML), or motions (.drape) that drape simulate has computed");
   render->add_option("--scene", arguments->look, "Draws motions with the camera, look and film of this scene");
@@ -225,8 +262,6 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
   CLI::App* simulate = app.add_subcommand("simulate", "Simulate scenes without drawing them");
   add_outputs(*simulate, *arguments, "repeatable", false);
   add_shared_options(*simulate, *arguments, "Scene files (TOML)");
-  simulate->add_option("--resume", arguments->resume,
-                       "MOTION.drape: goes on with a run that was interrupted or killed, to the same bits");
   simulate->callback([arguments, &common, &command] {
     arguments->drawing = false;
     command = [arguments, &common] { return run_all(*arguments, common); };

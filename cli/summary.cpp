@@ -59,7 +59,7 @@ std::string effect_shares(const Statistics& statistics) {
   return text.empty() ? "no effects" : text;
 }
 
-std::string describe_end(const RunResult& result) {
+std::string describe_end(const RunResult& result, const std::string& resume) {
   const std::int64_t steps = result.statistics.steps();
   std::string text = fmt::format("after {} of {} steps", steps, result.steps_wanted);
   if (result.recorded) text = fmt::format("after {} of {} frames", result.frames, result.frames_wanted);
@@ -74,8 +74,8 @@ std::string describe_end(const RunResult& result) {
                         result.frames_wanted);
   }
   if (motion) {
-    text += fmt::format("; {} has what there is of the motion, and drape simulate --resume {} goes on",
-                        result.motion->growing, result.motion->file);
+    text += fmt::format("; {} has what there is of the motion", result.motion->growing);
+    if (!resume.empty()) text += fmt::format(", and {} goes on", resume);
   }
   if (!result.records.empty()) {
     text += fmt::format("; {} up to there", fmt::join(result.records, ", "));

@@ -15,7 +15,8 @@ std::string effect_shares(const Statistics& statistics);
 
 /// How far a run came that ended early, and which files have what there is of it: "after 36 of 417 steps; out/5.gif has
 /// …".
-std::string describe_end(const RunResult& result);
+/// @param resume the command that goes on with its motion file, if there is one
+std::string describe_end(const RunResult& result, const std::string& resume = {});
 
 /// Why the result of a run should not be trusted, a sentence for each reason.
 std::vector<std::string> doubts(const RunResult& result);

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <memory>
 
+#include "compare/in_step.hpp"
 #include "compare/page.hpp"
 #include "compare/panels.hpp"
 #include "core/error.hpp"
@@ -16,7 +15,6 @@
 #include "output/png_encoder.hpp"
 #include "output/registry.hpp"
 #include "render/view.hpp"
-#include "run/frame_player.hpp"
 #include "run/outputs.hpp"
 
 namespace drape {
@@ -35,18 +33,9 @@ std::vector<std::string> outputs_that(bool pages, const CompareOptions& options)
   return chosen;
 }
 
-/// The moments of a scene's motion that the first scene's film shows.
-FilmExtent extent_of(const Scene& scene, const Scene& first, const CompareOptions& options) {
-  return FilmExtent(first.video, scene.simulation.step, options.steps.value_or(scene.step_count()), std::nullopt);
-}
-
-/// Of the whole comparison: until the last motion is over.
+/// Those that are drawn.
 FrameRange frames_of(const std::vector<Scene>& scenes, const CompareOptions& options) {
-  FrameRange all;
-  for (const Scene& scene : scenes) {
-    all.last = std::max(all.last, extent_of(scene, scenes.front(), options).frames.last);
-  }
-  const FrameRange wanted = options.frames.value_or(all);
+  const FrameRange all = all_frames(scenes, options), wanted = options.frames.value_or(all);
   if (wanted.last > all.last) {
     throw UsageError(fmt::format("--frames {}..{}: the film ends with frame {}", wanted.first, wanted.last, all.last));
   }
@@ -70,6 +59,7 @@ class Comparison {
         frames_(frames_of(scenes, options)),
         colors_(scenes, labels(scenes, differences(scenes)), options.difference),
         layout_(layout_of(pen_, scenes, options, colors_.wanted())),
+        motions_(scenes, options, look_ahead()),
         outputs_(outputs_that(false, options), comparison_info(scenes, options)) {
     for (const Scene& scene : scenes) {
       comparable_ = comparable_ && scene.simulation.cloth.vertex_count() == first_.simulation.cloth.vertex_count();
@@ -81,8 +71,12 @@ class Comparison {
   }
 
   CompareResult run() {
-    const std::optional<View> view = find_view();
-    if (view) draw(*view);
+    if (const std::optional<CameraPath> path = find_path()) draw(*path);
+    for (std::size_t i = 0; i < scenes_.size(); ++i) {
+      if (!motions_.motion(i).known()) continue;
+      result_.motions[i].statistics = motions_.motion(i).statistics();
+      result_.motions[i].divergence = motions_.motion(i).divergence();
+    }
     result_.interrupted = stop_.stop_requested();
     const Ending ending = result_.interrupted ? Ending::early : Ending::complete;
     if (!result_.times.empty()) {
@@ -94,57 +88,43 @@ class Comparison {
   }
 
  private:
-  using Moment = std::vector<const Frame*>;
+  using Moment = MotionsInStep::Moment;
 
-  /// Plays all motions from their start, and tells of every moment of them up to the last that is drawn.
+  /// Whether the motions must be known before the first picture of them is drawn.
+  [[nodiscard]] bool look_ahead() const { return needs_motion(first_.camera) || colors_.needs_motion(); }
+
+  /// Plays the motions from their start.
   template <class Work>
-  void play(FrameContents contents, int last, Work work) {
-    std::deque<FramePlayer> players;  // which cannot be moved
-    for (const Scene& scene : scenes_) players.emplace_back(scene, extent_of(scene, first_, options_), contents);
-    Moment moment(players.size());
-    for (int k = 0; k <= last && !stop_.stop_requested(); ++k) {
-      for (std::size_t i = 0; i < players.size(); ++i) moment[i] = &players[i].next();
+  void play(const char* stage, int last, Work work) {
+    progress_.begin(stage, "frames", last + 1);
+    motions_.play(last, stop_, [&](int k, const Moment& moment) {
       work(k, moment);
       progress_.done = k + 1;
-    }
-    for (std::size_t i = 0; i < players.size() && !stop_.stop_requested(); ++i) {
-      players[i].next();  // a motion is over when there is no frame any more
-      if (players[i].over()) result_.motions[i].statistics = players[i].statistics();
-      result_.motions[i].divergence = players[i].divergence();
-    }
+    });
   }
 
   /// @returns nothing if it was interrupted
-  std::optional<View> find_view() {
-    const bool framed = needs_motion(first_.camera);
-    if (!framed && !colors_.needs_motion()) return fixed_view(first_.camera);
-    CompareOptions whole = options_;
-    whole.frames.reset();
-    const int last = frames_of(scenes_, whole).last;
-    progress_.begin("framing", "frames", last + 1);
-    Framing framing(first_.camera, static_cast<double>(first_.video.size.x()) / first_.video.size.y());
-    play(colors_.contents(), last, [&](int, const Moment& moment) {
-      for (const Frame* frame : moment) {
-        framing.add(frame->positions);
-        for (const Collider& collider : frame->colliders) framing.add(collider);
-      }
-      colors_.survey(moment);
-    });
+  std::optional<CameraPath> find_path() {
+    const int count = all_frames(scenes_, options_).count();
+    if (look_ahead()) {
+      play("simulating", count - 1, [&](int, const Moment& moment) { colors_.survey(moment); });
+    }
     if (stop_.stop_requested()) return std::nullopt;
-    return framed ? framing.view() : fixed_view(first_.camera);
+    return motions_.camera_path(count, stop_);
   }
 
-  void draw(const View& view) {
+  void draw(const CameraPath& path) {
     for (const Scene& scene : scenes_) {
       Look look = scene.look;
       if (colors_.wanted() && !(options_.difference && &scene == &first_)) look.texture.clear();
-      renderers_.emplace_back(data_folder(), first_.video.size, view, look, scene.simulation.cloth.vertex_count(),
+      renderers_.emplace_back(data_folder(), first_.video.size, path.at(0), look, scene.simulation.cloth.vertex_count(),
                               scene.simulation.cloth.triangles, scene.uvs, options_.backend);
     }
     if (colors_.wanted()) bar_ = colors_.bar(pen_, layout_.size().x(), layout_.text_size());
-    progress_.begin("drawing", "frames", frames_.last + 1);
-    play(FrameContents::motion, frames_.last, [&](int k, const Moment& moment) {
-      if (k >= frames_.first) add_frame(k, moment);
+    play("drawing", frames_.last, [&](int k, const Moment& moment) {
+      if (k < frames_.first) return;
+      for (Renderer& renderer : renderers_) renderer.look_from(path.at(k));
+      add_frame(k, moment);
     });
   }
 
@@ -207,6 +187,7 @@ class Comparison {
   FrameRange frames_;
   PanelColors colors_;
   PanelLayout layout_;
+  MotionsInStep motions_;
   Outputs outputs_;
   bool comparable_ = true;  // vertex by vertex
   std::vector<Renderer> renderers_;

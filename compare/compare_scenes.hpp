@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -17,6 +18,8 @@ namespace drape {
 
 /// How scenes are compared.
 struct CompareOptions {
+  /// By scene: its motion, where that is in a file and need not be computed. Empty: none is.
+  std::vector<std::shared_ptr<MotionReader>> recorded;
   std::vector<std::string> outputs;  ///< films, pictures and sheets as of a run; .html: a page
   int columns = 0, rows = 0;         ///< of the grid of panels; 0: what suits their number
   bool difference = false;           ///< colour each by its distance to the first
@@ -46,6 +49,10 @@ struct CompareResult {
   std::vector<std::string> problems;             ///< a message for each that could not be written
 };
 
+/// The moments of the i-th motion that a comparison shows: those of the first scene's film.
+/// @throws UsageError as FilmExtent
+FilmExtent compared_extent(const std::vector<Scene>& scenes, const CompareOptions& options, std::size_t i);
+
 /// What is known of the film of a comparison before its first frame: the clock and the size are the first scene's.
 /// @throws UsageError as FilmExtent, and if the grid is too small
 FilmInfo comparison_info(const std::vector<Scene>& scenes, const CompareOptions& options);
@@ -54,9 +61,8 @@ FilmInfo comparison_info(const std::vector<Scene>& scenes, const CompareOptions&
 /// @throws Error what compare_scenes() would end with
 void require_comparison(const std::vector<Scene>& scenes, const CompareOptions& options);
 
-/// Draws the motions of scenes side by side: at the same times, from one camera that has all of them in view, the first
-/// scene's. A motion that is over, or has diverged, stays as it was last. Every motion is computed twice where the
-/// camera or the colours must know it, and never held in memory.
+/// Draws the motions of scenes side by side, as MotionsInStep plays them, from one camera that has all of them in view,
+/// the first scene's.
 /// @param scenes at least two
 CompareResult compare_scenes(const std::vector<Scene>& scenes, const CompareOptions& options,
                              const std::stop_token& stop, Progress& progress);

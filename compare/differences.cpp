@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <set>
 #include <string_view>
 
 namespace drape {
@@ -32,6 +33,20 @@ std::string text_of(const Scene& scene, const std::string& key) {
 
 bool all_same(const std::vector<std::string>& values) {
   return std::ranges::all_of(values, [&](const std::string& value) { return value == values.front(); });
+}
+
+/// Names that tell scenes apart: theirs, or those of their files, or where these lie. Theirs, if none of them do.
+std::vector<std::string> names_of(const std::vector<Scene>& scenes) {
+  std::vector<std::vector<std::string>> choices(3);
+  for (const Scene& scene : scenes) {
+    choices[0].push_back(scene.name);
+    choices[1].push_back(scene.file.filename().string());
+    choices[2].push_back(scene.file.string());
+  }
+  for (const std::vector<std::string>& names : choices) {
+    if (std::set(names.begin(), names.end()).size() == names.size()) return names;
+  }
+  return choices[0];
 }
 
 /// "method = liu13"; a method needs no name.
@@ -73,12 +88,13 @@ std::vector<KeyDifference> differences(const std::vector<Scene>& scenes) {
 }
 
 std::vector<std::string> labels(const std::vector<Scene>& scenes, const std::vector<KeyDifference>& differences) {
-  std::vector<std::string> names;
-  for (const Scene& scene : scenes) names.push_back(scene.name);
   std::vector<KeyDifference> told;  // what things look like is seen
   std::ranges::copy_if(differences, std::back_inserter(told),
                        [](const KeyDifference& difference) { return !difference.key.starts_with("look."); });
+  std::vector<std::string> names;
+  std::ranges::transform(scenes, std::back_inserter(names), &Scene::name);
   const bool named = told.empty() || !all_same(names);
+  if (told.empty()) names = names_of(scenes);
   std::vector<std::string> labels;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     std::string label = named ? names[i] : "", rest;

@@ -64,12 +64,14 @@ Markup figures_table(const CompareResult& result) {
     };
     table.rows.push_back({motion.label, known ? fmt::format("{}", s.steps()) : "–",
                           known && s.mean_iterations() > 0 ? fmt::format("{:.2f}", s.mean_iterations()) : "–",
-                          known ? fmt::format("{:.1f}", s.median_microseconds()) : "–",
+                          s.median_microseconds() > 0 ? fmt::format("{:.1f}", s.median_microseconds()) : "–",
                           fmt::format("{:.4g}", motion.total_energy.back()), length(largest(motion.most)),
                           length(motion.mean.back())});
   }
-  return html::table(table) +
-         html::note("The times are medians of a run with all motions at once: compare them with drape study.");
+  return html::table(table) + html::note(
+                                  "The times are medians of a run with all motions at once: compare them with drape "
+                                  "study. A motion that was "
+                                  "read from a file has none.");
 }
 
 /// Lines over time, one for each motion.

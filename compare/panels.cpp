@@ -45,10 +45,6 @@ PanelColors::PanelColors(const std::vector<Scene>& scenes, const std::vector<std
   }
 }
 
-FrameContents PanelColors::contents() const {
-  return measures_.empty() ? FrameContents::places : measures_.front().contents();
-}
-
 Eigen::VectorXd PanelColors::values(const std::vector<const Frame*>& frames, std::size_t panel) const {
   return difference_ ? distances(*frames[panel], *frames.front()) : measures_[panel](*frames[panel]);
 }

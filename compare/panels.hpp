@@ -21,7 +21,6 @@ class PanelColors {
 
   [[nodiscard]] bool wanted() const { return scale_.has_value(); }
   [[nodiscard]] bool needs_motion() const { return scale_ && scale_->needs_motion(); }
-  [[nodiscard]] FrameContents contents() const;
   /// The next moment of all motions.
   void survey(const std::vector<const Frame*>& frames);
   /// Of a panel's vertices; none: the cloth looks as its scene says.

@@ -1,18 +1,14 @@
 #include "run/frame_player.hpp"
 
-#include <array>
 #include <stop_token>
 #include <utility>
 
-#include "core/error.hpp"
-#include "run/run_steps.hpp"
-
 namespace drape {
 
-FramePlayer::FramePlayer(const Scene& scene, const FilmExtent& extent, FrameContents contents)
-    : thread_([this, &scene, extent, contents](const std::stop_token& stop) {
+FramePlayer::FramePlayer(FrameSource& source)
+    : thread_([this, &source](const std::stop_token& stop) {
         try {
-          play(scene, extent, contents, stop);
+          source.pass([this](Frame frame) { frames_.push(std::move(frame)); }, stop);
         } catch (...) {
           error_ = std::current_exception();
         }
@@ -22,20 +18,6 @@ FramePlayer::FramePlayer(const Scene& scene, const FilmExtent& extent, FrameCont
 FramePlayer::~FramePlayer() {
   thread_.request_stop();
   frames_.close();
-}
-
-void FramePlayer::play(const Scene& scene, const FilmExtent& extent, FrameContents contents,
-                       const std::stop_token& stop) {
-  FrameSampler sampler(
-      extent, [this](Frame frame) { frames_.push(std::move(frame)); }, contents);
-  const std::array<StepObserver*, 2> observers{&statistics_, &sampler};
-  Simulation simulation(scene.simulation);
-  try {
-    run_steps(simulation, extent.steps, observers, stop);
-    statistics_.finish(simulation);
-  } catch (const DivergedError& diverged) {
-    divergence_ = diverged.what();
-  }
 }
 
 const Frame& FramePlayer::next() {

@@ -37,9 +37,9 @@ void FrameTape::add(Frame frame) {
   frames_.push_back(std::move(frame));
 }
 
-void FrameTape::for_each(const std::function<void(const Frame&)>& visit) {
+void FrameTape::for_each(const std::function<void(const Frame&)>& visit, const std::stop_token& stop) {
   if (spool_) spool_->rewind();
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
+  for (std::size_t i = 0; i < frames_.size() && !stop.stop_requested(); ++i) {
     if (i < in_memory_) {
       visit(frames_[i]);
       continue;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "core/spool.hpp"
@@ -24,8 +25,8 @@ class FrameTape {
 
   [[nodiscard]] int count() const { return static_cast<int>(frames_.size()); }
 
-  /// Calls visit(frame) for each frame, in their order, as it was added.
-  void for_each(const std::function<void(const Frame&)>& visit);
+  /// Calls visit(frame) for each frame, in their order, as it was added. Returns early when a stop is requested.
+  void for_each(const std::function<void(const Frame&)>& visit, const std::stop_token& stop = {});
 
  private:
   std::size_t memory_;

@@ -196,17 +196,23 @@ class Pipeline {
 
   /// In place of simulate(), where the motion is in a file: it is read as often as it has to be known.
   void play() {
+    struct Stopped {};
     const auto read = [this](const FilmExtent& extent, const auto& visit) {
       sample_motion(*options_.recorded, scene_, extent, contents(), visit, stop_.get_token());
+      if (stop_.stop_requested()) throw Stopped();  // a camera cannot do with a part of the motion
     };
     const FilmExtent whole = whole_extent(scene_, options_);
     progress_.begin(drawn_ ? "drawing" : "reading", "frames", extent_.frames.count());
-    if (annotations_ && annotations_->needs_motion()) {
-      read(whole, [this](const Frame& frame) { annotations_->survey(frame); });
+    try {
+      if (annotations_ && annotations_->needs_motion()) {
+        read(whole, [this](const Frame& frame) { annotations_->survey(frame); });
+      }
+      if (drawn_) place_camera(whole.frames.count(), [&](const auto& visit) { read(whole, visit); });
+      read(extent_, [this](Frame frame) { send(std::move(frame)); });
+      whole_ = true;
+    } catch (const Stopped&) {
+      // What was sent is drawn and written.
     }
-    if (drawn_) place_camera(whole.frames.count(), [&](const auto& visit) { read(whole, visit); });
-    read(extent_, [this](Frame frame) { send(std::move(frame)); });
-    whole_ = !stop_.stop_requested();
     close_queues();
   }
 

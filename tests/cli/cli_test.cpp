@@ -148,6 +148,10 @@ TEST(CommandLine, MakesAFilmNoLargerThanItMayBe) {
     EXPECT_NE(refused.text.find("--max-size takes a number of bytes such as 5MB"), std::string::npos) << refused.text;
   }
   EXPECT_EQ(drape(folder, "render scene.toml -o x.png --max-size 5MB").code, 2);
+  const Finished fewer = drape(folder, render + "12kB --keep size");
+  EXPECT_EQ(fewer.text.find(" pixels instead of"), std::string::npos) << fewer.text;
+  EXPECT_EQ(drape(folder, "render scene.toml -o x.gif --keep size").text,
+            "drape: --keep size is for a film that must fit: give --max-size, too\n");
 }
 
 TEST(CommandLine, PutsAPosterBesideEachFilm) {

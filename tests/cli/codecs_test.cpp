@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::drape;
 using test::Finished;
-using test::run;
+using test::run_shell;
 using test::SceneFolder;
 
 const std::string scene = test::least_scene + "duration = 0.05\n[video]\nsize = [32, 32]\n";
@@ -46,7 +46,7 @@ struct MovedTree : SceneFolder {
   MovedTree() {
     write("scene.toml", scene);
     const std::string install = std::string(DRAPE_CMAKE) + " --install " + DRAPE_BUILD_FOLDER + " --prefix ";
-    const Finished finished = run(*this, install + path("installed"));
+    const Finished finished = run_shell(*this, install + path("installed"));
     EXPECT_EQ(finished.code, 0) << finished.text;
     fs::rename(path("installed"), path("moved"));
     for (const auto& entry : fs::recursive_directory_iterator(path("moved"))) {
@@ -55,7 +55,7 @@ struct MovedTree : SceneFolder {
     EXPECT_FALSE(module.empty());
   }
   [[nodiscard]] Finished drape(const std::string& arguments) const {
-    return run(*this, "moved/bin/drape " + arguments);
+    return run_shell(*this, "moved/bin/drape " + arguments);
   }
   fs::path module;
 };

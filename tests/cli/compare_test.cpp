@@ -35,6 +35,28 @@ TEST(Compare, VariesASceneByItsKeys) {
   EXPECT_EQ(motions, 4U) << finished.text;
 }
 
+TEST(Compare, TakesMotions) {
+  const SceneFolder folder;
+  folder.write("a.toml", scene);
+  ASSERT_EQ(drape(folder, "simulate a.toml -o a.drape").code, 0);
+  ASSERT_EQ(drape(folder, "compare a.toml a.toml -o two.gif").code, 0);
+  const Finished both = drape(folder, "compare a.drape a.toml -o both.gif");
+  EXPECT_EQ(both.code, 0) << both.text;
+  EXPECT_TRUE(both.text.starts_with("drape: a.drape\ndrape: a.toml\n")) << both.text;
+  const Finished twice = drape(folder, "compare a.drape --vary look.color=red,blue --frames 0..2 -o twice.gif");
+  EXPECT_EQ(twice.code, 0) << twice.text;
+  const auto refused = [&](const std::string& arguments) {
+    const Finished finished = drape(folder, "compare " + arguments);
+    EXPECT_EQ(finished.code, 2) << arguments;
+    return finished.text;
+  };
+  EXPECT_NE(refused("a.drape --vary cloth.stiffness=10,20").find("drape: cloth.stiffness: 10, and 20 in --set\n"),
+            std::string::npos);
+  EXPECT_EQ(refused("a.drape a.toml --steps 11"), "drape: --steps 11: a.drape has 10\n");
+  EXPECT_EQ(refused("a.toml b.drape.partial"),
+            "drape: b.drape.partial is not complete: drape simulate --resume b.drape.partial goes on with it\n");
+}
+
 TEST(Compare, RefusesInOneMessageWithExitCode2) {
   const SceneFolder folder;
   folder.write("a.toml", scene);

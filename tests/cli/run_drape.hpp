@@ -15,18 +15,6 @@ struct Finished {
   std::string text;  // standard output and error together
 };
 
-/// Runs a command of the shell, in the folder.
-inline Finished run(const SceneFolder& folder, const std::string& command) {
-  Finished finished;
-  FILE* pipe = popen(("cd '" + folder.path().string() + "' && " + command + " 2>&1").c_str(), "r");
-  std::array<char, 4096> buffer{};
-  while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe))
-    finished.text.append(buffer.data(), count);
-  const int status = pclose(pipe);
-  finished.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return finished;
-}
-
 /// Runs a shell's command in the folder.
 inline Finished run_shell(const SceneFolder& folder, const std::string& command) {
   const std::string line = "cd '" + folder.path().string() + "' && " + command + " 2>&1";

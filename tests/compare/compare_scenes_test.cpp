@@ -14,21 +14,8 @@
 namespace drape::compare_scenes_tests {
 namespace {
 
-constexpr const char* swinging = R"(
-[cloth]
-mesh = { grid = [6, 6] }
-stiffness = 50
-pins = ["corner:x-y-"]
-[time]
-step = 0.02
-duration = 0.2
-[video]
-size = [120, 100]
-[camera]
-position = [3, -4, 3]
-target = [0, 0, -0.5]
-[effects.gravity]
-)";
+const std::string film = test::swinging_cloth + "[video]\nsize = [120, 100]\n";
+const std::string swinging = film + "[camera]\nposition = [3, -4, 3]\ntarget = [0, 0, -0.5]\n";
 
 CompareResult compare(const std::vector<Scene>& scenes, const CompareOptions& options) {
   require_comparison(scenes, options);
@@ -68,12 +55,60 @@ TEST(CompareScenes, ShowsEachMotionAsItsOwnFilmWould) {
   EXPECT_EQ(both.rows, comparison_info(scenes, options).height);
 }
 
+/// Chooses its direction, goes along and goes round.
+TEST(CompareScenes, TheCameraMovesAsInTheFirstOnesFilm) {
+  const test::SceneFolder folder;
+  const Scene scene = folder.load(film + "[camera]\nfollow = true\norbit = 90\n");
+  CompareOptions options;
+  options.outputs = {folder.path("both{frame}.png")};
+  compare({scene, scene}, options);
+  RunOptions run;
+  run.outputs = {folder.path("one{frame}.png")};
+  Progress progress;
+  run_scene(scene, run, {}, progress);
+  for (const char* frame : {"0", "3", "5"}) {
+    const std::string name = std::string(frame) + ".png";
+    EXPECT_TRUE(contains(cv::imread(folder.path("both" + name)), cv::imread(folder.path("one" + name)))) << frame;
+  }
+}
+
+/// Records a scene's motion.
+std::shared_ptr<MotionReader> recorded(const Scene& scene, const std::string& file) {
+  RunOptions run;
+  run.motion.emplace();
+  run.motion->path = file;
+  Progress progress;
+  run_scene(scene, run, {}, progress);
+  return std::make_shared<MotionReader>(file);
+}
+
+TEST(CompareScenes, DrawsMotionsFromFilesAsTheirScenes) {
+  const test::SceneFolder folder;
+  const std::vector<Scene> scenes{folder.load(film + "[look]\ncolor_by = \"speed\"\n"),
+                                  folder.load(film, {"cloth.stiffness=5", "time.duration=0.1"})};
+  CompareOptions options;
+  options.outputs = {folder.path("simulated.gif")};
+  const CompareResult simulated = compare(scenes, options);
+  const auto first = recorded(scenes[0], folder.path("0.drape")), second = recorded(scenes[1], folder.path("1.drape"));
+  const std::vector<std::vector<std::shared_ptr<MotionReader>>> some_recorded{
+      {first, second}, {first, nullptr}, {nullptr, second}};
+  for (const auto& motions : some_recorded) {
+    options.recorded = motions;
+    options.outputs = {folder.path("recorded.gif")};
+    const CompareResult read = compare(scenes, options);
+    EXPECT_TRUE(test::content(options.outputs[0]) == test::content(folder.path("simulated.gif")));
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      EXPECT_EQ(read.motions[i].total_energy, simulated.motions[i].total_energy);
+      EXPECT_EQ(read.motions[i].statistics.steps(), simulated.motions[i].statistics.steps());
+      EXPECT_EQ(read.motions[i].statistics.mean_iterations(), simulated.motions[i].statistics.mean_iterations());
+    }
+  }
+}
+
 TEST(CompareScenes, OneCameraHasAllOfThemInView) {
   const test::SceneFolder folder;
-  std::string free = swinging;
-  free.replace(free.find("position"), free.find("[effects") - free.find("position"), "");
-  const std::vector<Scene> scenes{folder.load(free, {"look.background=white"}),
-                                  folder.load(free, {"look.background=white", "cloth.transform.translate=[4, 0, 0]"})};
+  const std::vector<Scene> scenes{folder.load(film, {"look.background=white"}),
+                                  folder.load(film, {"look.background=white", "cloth.transform.translate=[4, 0, 0]"})};
   CompareOptions options;
   options.outputs = {folder.path("both.png")};
   options.columns = 1;

@@ -60,5 +60,17 @@ TEST(Differences, WhatThingsLookLikeNeedsNoLabel) {
   EXPECT_EQ(labels(all, found), (Labels{"scene", "scene"}));
 }
 
+TEST(Differences, FilesTellScenesOfOneNameApart) {
+  const test::SceneFolder folder;
+  std::vector<Scene> all = scenes(folder, {{}, {}});
+  const auto labels_of = [&](const char* first, const char* second) {
+    all[0].file = first;
+    all[1].file = second;
+    return labels(all, differences(all));
+  };
+  EXPECT_EQ(labels_of("scene.toml", "scene.drape"), (Labels{"scene.toml", "scene.drape"}));
+  EXPECT_EQ(labels_of("old/scene.drape", "new/scene.drape"), (Labels{"old/scene.drape", "new/scene.drape"}));
+}
+
 }  // namespace
 }  // namespace drape::compare_differences

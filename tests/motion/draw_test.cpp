@@ -41,6 +41,24 @@ void expect_same(const std::vector<Frame>& frames, const std::vector<Frame>& exp
   }
 }
 
+/// Before its camera can know where to stand.
+TEST(RecordedFrames, AreNotDrawnWhereThatIsInterrupted) {
+  const SceneFolder folder;
+  const Scene scene = folder.load(recorded_scene);
+  record(scene, folder.path("m.drape"));
+  for (const std::string camera : {"", "[camera]\nfollow = true\n"}) {
+    RunOptions options;
+    options.recorded = std::make_shared<MotionReader>(folder.path("m.drape"));
+    options.outputs = {folder.path("m.gif")};
+    std::stop_source stop;
+    stop.request_stop();
+    Progress progress;
+    const RunResult result = run_scene(folder.load(recorded_scene + camera), options, stop.get_token(), progress);
+    EXPECT_EQ(result.outcome, Outcome::interrupted);
+    EXPECT_FALSE(std::filesystem::exists(folder.path("m.gif")));
+  }
+}
+
 TEST(RecordedFrames, AreThoseOfTheSimulation) {
   const SceneFolder folder;
   const Scene scene = folder.load(recorded_scene);

@@ -13,18 +13,7 @@
 namespace drape::annotations {
 namespace {
 
-constexpr const char* swinging = R"(
-[cloth]
-mesh = { grid = [6, 6] }
-stiffness = 50
-pins = ["corner:x-y-"]
-[time]
-step = 0.02
-duration = 0.2
-[video]
-size = [200, 160]
-[effects.gravity]
-)";
+const std::string swinging = test::swinging_cloth + "[video]\nsize = [200, 160]\n";
 
 /// The last picture of a scene's film.
 cv::Mat last_picture(const std::string& more) {
@@ -52,12 +41,12 @@ TEST(Annotations, BandsMakeTheFilmHigherAndLeaveThePicture) {
   ASSERT_GT(with.rows, 160);
   EXPECT_TRUE(same(plain, with.rowRange(0, 160)));
   const test::SceneFolder folder;
-  EXPECT_EQ(Annotations::film_size(folder.load(std::string(swinging) + "[overlay]\nenergies = true\n")).y(), with.rows);
+  EXPECT_EQ(Annotations::film_size(folder.load(swinging + "[overlay]\nenergies = true\n")).y(), with.rows);
 }
 
 TEST(Annotations, AreTheSameForPartOfAFilm) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(std::string(swinging) + "[overlay]\nenergies = true\n[look]\ncolor_by = \"speed\"\n");
+  const Scene scene = folder.load(swinging + "[overlay]\nenergies = true\n[look]\ncolor_by = \"speed\"\n");
   Progress progress;
   RunOptions options;
   options.outputs = {(folder.path() / "{frame:04}.png").string()};

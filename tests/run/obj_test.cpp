@@ -4,39 +4,11 @@
 #include <sstream>
 
 #include "output/make_sink.hpp"
-#include "run/run_scene.hpp"
-#include "run/run_steps.hpp"
 #include "scene/mesh_file.hpp"
-#include "tests/support/files.hpp"
-#include "tests/support/scene_folder.hpp"
+#include "tests/support/written_motion.hpp"
 
 namespace drape::obj {
 namespace {
-
-/// Frames fall between steps as well as on them.
-constexpr const char* swinging = R"(
-[cloth]
-mesh = { grid = [4, 3] }
-stiffness = 50
-pins = ["corner:x-y-"]
-[time]
-step = 0.02
-duration = 0.4
-[video]
-fps = 20
-[effects.gravity]
-[effects.sphere]
-center = [0, 0, -0.5]
-radius = 0.3
-)";
-
-RunResult run(const Scene& scene, const std::vector<std::string>& outputs, const std::string& positions = {}) {
-  RunOptions options;
-  options.outputs = outputs;
-  options.records.positions = positions;
-  Progress progress;
-  return run_scene(scene, options, {}, progress);
-}
 
 /// Nine digits of a number tell it from every other one in single precision, which is what OBJ's readers have.
 void expect_same(const Vertices& read, const Vertices& expected) {
@@ -48,13 +20,8 @@ void expect_same(const Vertices& read, const Vertices& expected) {
 
 TEST(ObjSequence, ReadsBackAsTheFramesOfTheFilm) {
   const test::SceneFolder folder;
-  const Scene scene = folder.load(swinging);
-  const RunResult result = run(scene, {folder.path("mesh{frame:04}.obj")});
-  std::vector<Frame> frames;
-  const FilmExtent film(scene.video, scene.simulation.step, scene.step_count(), std::nullopt);
-  FrameSampler sampler(film, [&](Frame frame) { frames.push_back(std::move(frame)); });
-  Simulation simulation(scene.simulation);
-  run_steps(simulation, film.steps, std::array<StepObserver*, 1>{&sampler}, {});
+  const Scene scene = folder.load(test::moving_scene);
+  const auto [result, frames] = test::write_motion(scene, {folder.path("mesh{frame:04}.obj")});
 
   EXPECT_EQ(result.outcome, Outcome::completed);
   EXPECT_TRUE(result.renderer.empty());
@@ -74,7 +41,10 @@ TEST(ObjSequence, ReadsBackAsTheFramesOfTheFilm) {
 
 TEST(Obj, HoldsTheLastFrameWithoutANumber) {
   const test::SceneFolder folder;
-  const RunResult result = run(folder.load(swinging), {folder.path("end.obj")}, folder.path("end.csv"));
+  RunOptions options;
+  options.records.positions = folder.path("end.csv");
+  const RunResult result =
+      test::write_motion(folder.load(test::moving_scene), {folder.path("end.obj")}, options).result;
   ASSERT_EQ(result.outputs.size(), 1U);
   EXPECT_EQ(result.outputs[0].size(), 1U);
   const Vertices mesh = read_mesh(folder.path("end.obj")).positions;
@@ -101,7 +71,7 @@ TEST(Obj, HasTextureCoordinatesOnlyWhereTheMeshHasThem) {
   for (const std::string name : {"bare", "seam"}) {
     const Scene scene = folder.load("[cloth]\nmesh = \"" + name + ".obj\"\nstiffness = 10\n[time]\nstep = 0.01\n" +
                                     "duration = 0.01\n[effects.gravity]\n");
-    run(scene, {folder.path("out.obj")});
+    test::write_motion(scene, {folder.path("out.obj")});
     const Mesh mesh = read_mesh(folder.path("out.obj")), given = read_mesh(folder.path(name + ".obj"));
     EXPECT_EQ(mesh.uvs, given.uvs) << name;
     EXPECT_EQ(mesh.triangles, given.triangles) << name;

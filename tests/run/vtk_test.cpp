@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
+#include <Eigen/LU>
+
 #include "sim/vertex_stretch.hpp"
 #include "tests/support/written_motion.hpp"
 

@@ -40,4 +40,21 @@ inline const std::string least_scene =
     "[time]\n"
     "step = 0.01\n";
 
+/// A scene that lacks nothing, with one line of a table, which is line 5.
+inline std::string with(const std::string& table, const std::string& line) {
+  const std::string text = "[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 10\n";
+  return text + (table == "cloth" ? "" : "[" + table + "]") + "\n" + line + "\n";
+}
+
+/// A cloth that swings on one corner, in ten steps; a test adds tables.
+inline const std::string swinging_cloth =
+    "[cloth]\n"
+    "mesh = { grid = [6, 6] }\n"
+    "stiffness = 50\n"
+    "pins = [\"corner:x-y-\"]\n"
+    "[time]\n"
+    "step = 0.02\n"
+    "duration = 0.2\n"
+    "[effects.gravity]\n";
+
 }  // namespace drape::test

@@ -15,12 +15,7 @@ namespace {
 using test::least_scene;
 using test::SceneFolder;
 using test::usage_error;
-
-/// A scene that lacks nothing, with one line of a table, which is line 5.
-std::string with(const std::string& table, const std::string& line) {
-  const std::string text = "[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 10\n";
-  return table == "cloth" ? text + "\n" + line + "\n" : text + "[" + table + "]\n" + line + "\n";
-}
+using test::with;
 
 TEST(SceneErrors, TheLeastSceneLoads) {
   const SceneFolder folder;

@@ -17,12 +17,7 @@ namespace {
 using test::least_scene;
 using test::SceneFolder;
 using test::usage_error;
-
-/// A scene that lacks nothing, with one line of a table, which is line 5.
-std::string with(const std::string& table, const std::string& line) {
-  const std::string text = "[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 10\n";
-  return text + (table == "cloth" ? "" : "[" + table + "]") + "\n" + line + "\n";
-}
+using test::with;
 
 TEST(SceneMessages, AllOfThemAreReportedInTheOrderOfTheFile) {
   const SceneFolder folder;
