@@ -11,6 +11,7 @@
 #include "cli/motion_runs.hpp"
 #include "cli/number_option.hpp"
 #include "cli/output_clashes.hpp"
+#include "cli/run_arguments.hpp"
 #include "cli/summary.hpp"
 #include "cli/watched.hpp"
 #include "compare/compare_scenes.hpp"
@@ -25,9 +26,16 @@ namespace {
 
 struct CompareArguments {
   std::vector<std::string> scenes, overrides, varied;
-  std::string grid, sheet, frames;
+  std::string grid, sheet, frames, max_size, keep;
   CompareOptions options;
 };
+
+/// How many values the last of them has; 0 if a picture would be too wide for them.
+int last_of(const std::vector<std::string>& varied) {
+  constexpr std::size_t widest = 6;
+  const std::size_t count = parse_variation(varied.back()).values.size();
+  return count > widest ? 0 : static_cast<int>(count);
+}
 
 /// The scenes, each in all its variations.
 /// @returns them, and of each the motion where that is in a file
@@ -77,6 +85,8 @@ std::string command_line(const CompareArguments& arguments) {
   if (arguments.options.steps) text += fmt::format(" --steps {}", *arguments.options.steps);
   if (!arguments.frames.empty()) text += " --frames " + arguments.frames;
   if (!arguments.sheet.empty()) text += " --sheet " + arguments.sheet;
+  if (!arguments.max_size.empty()) text += " --max-size " + shell_word(arguments.max_size);
+  if (!arguments.keep.empty()) text += " --keep " + arguments.keep;
   return text;
 }
 
@@ -100,10 +110,13 @@ ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& com
     const SheetGrid grid = parse_grid("--grid", arguments.grid);
     options.columns = grid.columns;
     options.rows = grid.rows;
+  } else if (arguments.varied.size() > 1) {
+    options.columns = last_of(arguments.varied);  // so that a row is what only the last key tells apart
   }
   if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
   if (options.outputs.empty()) options.outputs = {arguments.sheet.empty() ? "out/compare.gif" : "out/compare.png"};
   options.sheet = parse_sheet(arguments.sheet, options.outputs);
+  options.largest_file = parse_file_limit(arguments.max_size, arguments.keep, options.outputs);
   options.command = command_line(arguments);
   const auto [scenes, recorded] = load_variations(arguments);
   options.recorded = recorded;
@@ -150,6 +163,7 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
   sub->add_option("--grid", arguments->grid, "COLUMNSxROWS of the panels");
   sub->add_flag("--difference", options.difference, "Colour each cloth by its distance to the first, vertex by vertex");
   sub->add_option("--sheet", arguments->sheet, sheet_help);
+  add_file_limit(*sub, arguments->max_size, arguments->keep);
   sub->add_option("--steps", options.steps, "Simulate this many steps instead of the scenes' durations")
       ->check(whole_number_in({0, 1e9}));
   sub->add_option("--frames", arguments->frames, "A..B: only these frames of the film");

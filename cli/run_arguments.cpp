@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/byte_count.hpp"
 #include "cli/frame_list.hpp"
 #include "cli/grid_option.hpp"
@@ -47,19 +49,41 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
                      .trace = expanded(arguments.records.trace)};
   options.steps = arguments.steps;
   if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
-  if (!arguments.max_size.empty()) {
-    options.largest_file = FileLimit{.bytes = parse_byte_count("--max-size", arguments.max_size),
-                                     .keeps = arguments.keep == "size"   ? FilmKeeps::size
-                                              : arguments.keep == "rate" ? FilmKeeps::rate
-                                                                         : FilmKeeps::nothing};
-  } else if (!arguments.keep.empty()) {
-    throw UsageError("--keep " + arguments.keep + " is for a film that must fit: give --max-size, too");
-  }
+  options.largest_file = parse_file_limit(arguments.max_size, arguments.keep, arguments.outputs);
+  if (arguments.poster) require_a_film("--poster", arguments.outputs);
   options.poster = arguments.poster;
   options.sheet = parse_sheet(arguments.sheet, options.outputs);
   options.backend = arguments.backend;
   options.time_effects = verbose || !arguments.records.stats.empty();
   return options;
+}
+
+void add_file_limit(CLI::App& command, std::string& max_size, std::string& keep) {
+  command.add_option("--max-size", max_size,
+                     "5MB: make a film's pictures smaller, then fewer, until it has no more bytes; also kB, GB, kiB, "
+                     "MiB, GiB");
+  command.add_option("--keep", keep, "size or rate: what --max-size leaves as it is, so that the other gives")
+      ->check(CLI::IsMember({"size", "rate"}));
+}
+
+void require_a_film(const std::string& option, const std::vector<std::string>& outputs) {
+  const auto is_film = [](const std::string& path) {
+    const OutputFormat* format = find_format(path);
+    return format != nullptr && format->drawn() && !format->file_per_frame();
+  };
+  if (std::ranges::any_of(outputs, is_film)) return;
+  throw UsageError(option + " is for films, and no -o is one, such as .gif, .webp or .mp4");
+}
+
+std::optional<FileLimit> parse_file_limit(const std::string& max_size, const std::string& keep,
+                                          const std::vector<std::string>& outputs) {
+  if (max_size.empty() && keep.empty()) return std::nullopt;
+  if (max_size.empty()) throw UsageError("--keep " + keep + " is for a film that must fit: give --max-size, too");
+  require_a_film("--max-size", outputs);
+  return FileLimit{.bytes = parse_byte_count("--max-size", max_size),
+                   .keeps = keep == "size"   ? FilmKeeps::size
+                            : keep == "rate" ? FilmKeeps::rate
+                                             : FilmKeeps::nothing};
 }
 
 void add_shared_options(CLI::App& command, RunArguments& arguments, const char* scenes) {

@@ -15,7 +15,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   std::vector<std::string> outputs;
   std::string look;  ///< a scene that says how motions are drawn
-  std::string frames, every, resume, max_size, sheet;
+  std::string frames, every, resume, max_size, keep, sheet;
   bool poster = false;
   std::optional<std::int64_t> steps;
   double checkpoint_seconds = MotionOptions{}.checkpoint_seconds;
@@ -28,6 +28,19 @@ struct RunArguments {
 /// Adds the options that both have.
 /// @param scenes what may stand as a scene
 void add_shared_options(CLI::App& command, RunArguments& arguments, const char* scenes);
+
+/// Adds --max-size and --keep.
+void add_file_limit(CLI::App& command, std::string& max_size, std::string& keep);
+
+/// What the two say; nothing where they are not given.
+/// @param outputs at least one of which has to be a film
+/// @throws UsageError
+std::optional<FileLimit> parse_file_limit(const std::string& max_size, const std::string& keep,
+                                          const std::vector<std::string>& outputs);
+
+/// @throws UsageError if no output is a film
+/// @param option that is for films
+void require_a_film(const std::string& option, const std::vector<std::string>& outputs);
 
 /// Adds -o.
 /// @param drawn whether what must be drawn may be among them

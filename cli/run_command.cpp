@@ -64,18 +64,6 @@ void require_no_drawing(const std::vector<std::string>& outputs) {
   }
 }
 
-/// @throws UsageError if what is asked of a film is asked where there is none
-void require_a_film(const RunArguments& arguments) {
-  if (arguments.max_size.empty() && !arguments.poster) return;
-  const auto is_film = [](const std::string& path) {
-    const OutputFormat* format = find_format(path);
-    return format != nullptr && format->drawn() && !format->file_per_frame();
-  };
-  if (std::ranges::any_of(arguments.outputs, is_film)) return;
-  throw UsageError(fmt::format("{} is for films, and no -o is one, such as .gif, .webp or .mp4",
-                               arguments.poster ? "--poster" : "--max-size"));
-}
-
 /// The command that goes on with a run which writes a motion file, and makes its other files of the whole motion.
 std::string resume_command(const RunArguments& arguments, const std::string& motion) {
   std::string text = fmt::format("drape {} --resume {}", arguments.drawing ? "render" : "simulate", shell_word(motion));
@@ -211,7 +199,6 @@ ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
   interruption();  // from here on, a signal ends what there is in good order
   if (arguments.scenes.empty() && arguments.resume.empty()) throw UsageError("SCENE is required; see drape --help");
   if (!arguments.drawing) require_no_drawing(arguments.outputs);
-  require_a_film(arguments);
   if (!arguments.resume.empty()) return go_on(arguments, common);
   std::vector<Scene> scenes;
   std::vector<RunOptions> options;
@@ -244,12 +231,7 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
   add_outputs(*render, *arguments, "repeatable; default out/{scene}.gif", true);
   render->add_option("--sheet", arguments->sheet, sheet_help);
   add_backend_option(*render, arguments->backend);
-  render->add_option(
-      "--max-size", arguments->max_size,
-      "5MB: make a film's pictures smaller, then fewer, until it has no more bytes; also kB, GB, kiB, MiB, GiB");
-  render
-      ->add_option("--keep", arguments->keep, "size or rate: what --max-size leaves as it is, so that the other gives")
-      ->check(CLI::IsMember({"size", "rate"}));
+  add_file_limit(*render, arguments->max_size, arguments->keep);
   render->add_flag("--poster", arguments->poster, "Put FILM.poster.png beside each film: the frame that shows most");
   add_shared_options(*render, *arguments, "Scene files (TOML), or motions (.drape) that drape simulate has computed");
   render->add_option("--scene", arguments->look, "Draws motions with the camera, look and film of this scene");

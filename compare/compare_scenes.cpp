@@ -211,6 +211,7 @@ FilmInfo comparison_info(const std::vector<Scene>& scenes, const CompareOptions&
   film.expected_frames = frames.count();
   film.width = size.x();
   film.height = size.y();
+  film.largest_file = options.largest_file;
   film.sheet = options.sheet;
   if (film.sheet) film.sheet->labelled = false;  // every picture says its time
   return film;

@@ -26,6 +26,7 @@ struct CompareOptions {
   std::optional<SheetGrid> sheet;    ///< what a .png without {frame} holds instead of the last picture
   std::optional<std::int64_t> steps;
   std::optional<FrameRange> frames;
+  std::optional<FileLimit> largest_file;  ///< that a film may become, see FittedFilm
   GlBackend backend = GlBackend::automatic;
   std::string command;  ///< that asked for it, for the page
 };

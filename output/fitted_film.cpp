@@ -12,7 +12,8 @@
 namespace drape {
 namespace {
 
-constexpr int narrowest = 16;  // of which somebody sees something [pixels]
+constexpr int narrowest = 16;      // of which somebody sees something [pixels]
+constexpr double least_rate = 10;  // at which a motion still flows [1/s]
 
 /// Where a file of `bytes` would lie between two that are known, if its size went as a power of its width.
 double interpolated_width(double small, double small_bytes, double wide, double wide_bytes, double bytes) {
@@ -20,11 +21,19 @@ double interpolated_width(double small, double small_bytes, double wide, double 
   return power > 0 ? small * std::pow(bytes / small_bytes, 1 / power) : (small + wide) / 2;
 }
 
+FilmInfo without_limit(FilmInfo film) {
+  film.largest_file.reset();
+  return film;
+}
+
 }  // namespace
 
 FittedFilm::FittedFilm(FilmMaker<Image> make, const std::filesystem::path& file, const FilmInfo& film)
-    : make_(std::move(make)), film_(film), largest_(film.largest_file.value()), file_(file), spool_(file_) {
-  film_.largest_file.reset();
+    : make_(std::move(make)),
+      film_(without_limit(film)),
+      limit_(film.largest_file.value()),
+      file_(file),
+      spool_(file_) {
   make_(file, film_);  // what is wrong with it is known now
 }
 
@@ -38,57 +47,94 @@ int FittedFilm::height_of(int width) const {
   return std::max(1, static_cast<int>(std::lround(static_cast<double>(height_) * width / width_)));
 }
 
-FittedFilm::Trial FittedFilm::encode(int width) {
+FittedFilm::Trial FittedFilm::encode(int width, int stride) {
   const std::filesystem::path trial =
       file_.temporary().parent_path() / (".trial-" + file_.temporary().filename().string().substr(1));
-  film_.width = width;
-  film_.height = height_of(width);
-  const std::unique_ptr<Encoder> encoder = make_(trial, film_);
+  FilmInfo film = film_;
+  film.width = width;
+  film.height = height_of(width);
+  film.fps /= stride;
+  film.seconds_per_frame *= stride;
+  film.expected_frames = (spool_.count() + stride - 1) / stride;
+  const std::unique_ptr<Encoder> encoder = make_(trial, film);
   spool_.rewind();
-  for (int k = 0; k < spool_.count(); ++k) encoder->add(scaled_image(spool_.next(), film_.width, film_.height));
-  const std::uint64_t bytes = encoder->finish().at(0).size;
-  if (bytes <= largest_) {
+  for (int k = 0; k < spool_.count(); ++k) {
+    const Image& image = spool_.next();
+    if (k % stride == 0) encoder->add(scaled_image(image, film.width, film.height));
+  }
+  const Trial done{width, stride, encoder->finish().at(0).size};
+  if (fits(done)) {
     file_.adopt(trial);
   } else {
     std::filesystem::remove(trial);
   }
-  return {width, bytes};
+  return done;
 }
 
-int FittedFilm::find_largest() {
-  Trial wide = encode(width_);
-  if (wide.bytes <= largest_) return width_;
-  const auto limit = static_cast<double>(largest_);
-  Trial fits{0, 0};
-  while (fits.width == 0) {
-    if (wide.width <= narrowest) {
-      throw OutputError(
-          fmt::format("cannot write {} with at most {} bytes: at {}x{} pixels it still has {}; take fewer "
-                      "frames, with --frames or a lower [video] fps",
-                      file_.file().string(), largest_, wide.width, height_of(wide.width), wide.bytes));
-    }
+FittedFilm::Trial FittedFilm::find_largest() {
+  const Trial whole = encode(width_, 1);
+  if (fits(whole)) return whole;
+  if (limit_.keeps == FilmKeeps::size) return find_stride(whole, spool_.count() - 1);
+  if (limit_.keeps == FilmKeeps::rate) return find_width(1, narrowest);
+  const int half = std::max(narrowest, (width_ + 1) / 2);
+  const Trial small = find_width(1, half);
+  if (fits(small)) return small;
+  const Trial slow = find_stride(small, std::min(static_cast<int>(film_.fps / least_rate), spool_.count() - 1));
+  return find_width(slow.stride, fits(slow) ? half : narrowest);
+}
+
+FittedFilm::Trial FittedFilm::find_stride(Trial trial, int most) {
+  while (!fits(trial) && trial.stride < most) trial = encode(trial.width, trial.stride + 1);
+  return trial;
+}
+
+FittedFilm::Trial FittedFilm::find_width(int stride, int least) {
+  Trial wide = encode(width_, stride), best{0, stride, 0};
+  if (fits(wide)) return wide;
+  const auto limit = static_cast<double>(limit_.bytes);
+  while (best.width == 0) {
+    if (wide.width <= least) return wide;
     const double guess = 0.97 * wide.width * std::sqrt(limit / static_cast<double>(wide.bytes));
-    const Trial trial = encode(std::clamp(static_cast<int>(guess), narrowest, wide.width - 1));
-    (trial.bytes <= largest_ ? fits : wide) = trial;
+    const Trial trial = encode(std::clamp(static_cast<int>(guess), least, wide.width - 1), stride);
+    (fits(trial) ? best : wide) = trial;
   }
   // Each trial takes at least an eighth off what is left, so that there are few of them whatever the sizes.
-  while (wide.width - fits.width > std::max(1, fits.width / 100)) {
-    const int least = std::max(1, (wide.width - fits.width) / 8);
-    const double guess = interpolated_width(fits.width, static_cast<double>(fits.bytes), wide.width,
+  while (wide.width - best.width > std::max(1, best.width / 100)) {
+    const int part = std::max(1, (wide.width - best.width) / 8);
+    const double guess = interpolated_width(best.width, static_cast<double>(best.bytes), wide.width,
                                             static_cast<double>(wide.bytes), 0.99 * limit);
-    const Trial trial = encode(std::clamp(static_cast<int>(guess), fits.width + least, wide.width - least));
-    (trial.bytes <= largest_ ? fits : wide) = trial;
+    const Trial trial = encode(std::clamp(static_cast<int>(guess), best.width + part, wide.width - part), stride);
+    (fits(trial) ? best : wide) = trial;
   }
-  return fits.width;
+  return best;
+}
+
+std::string FittedFilm::changes(const Trial& kept) const {
+  std::string text;
+  if (kept.width != width_) {
+    text = fmt::format("{}x{} pixels instead of {}x{}", kept.width, height_of(kept.width), width_, height_);
+  }
+  if (kept.stride != 1) {
+    text += fmt::format("{}{:.3g} frames per second instead of {:g}", text.empty() ? "" : " and ",
+                        film_.fps / kept.stride, film_.fps);
+  }
+  return text;
+}
+
+void FittedFilm::fail(const Trial& smallest) const {
+  const std::string given_up = changes(smallest);
+  throw OutputError(
+      fmt::format("cannot write {} with at most {} bytes: with {} it still has {}; {}", file_.file().string(),
+                  limit_.bytes, given_up.empty() ? "all that it has to keep" : given_up, smallest.bytes,
+                  limit_.keeps == FilmKeeps::nothing ? "take fewer frames, with --frames" : "leave --keep out"));
 }
 
 std::vector<OutputFile> FittedFilm::finish(Ending ending) {
   if (spool_.count() == 0) return {};
-  const int width = find_largest();
+  const Trial found = find_largest();
+  if (!fits(found)) fail(found);
   const std::uintmax_t size = file_.commit(ending);
-  const std::string note =
-      width == width_ ? "" : fmt::format("{}x{} pixels instead of {}x{}", width, height_of(width), width_, height_);
-  return {{file_.name(ending), size, note}};
+  return {{file_.name(ending), size, changes(found)}};
 }
 
 }  // namespace drape

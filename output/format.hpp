@@ -22,6 +22,15 @@ struct SheetGrid {
   bool labelled = true;  ///< the time stands below each picture
 };
 
+/// What a film that must become smaller keeps as it is, if anything: the size of its pictures, or their rate.
+enum class FilmKeeps { nothing, size, rate };
+
+/// How many bytes a file may have.
+struct FileLimit {
+  std::uint64_t bytes = 0;
+  FilmKeeps keeps = FilmKeeps::nothing;
+};
+
 /// What is known of a film before its first frame.
 struct FilmInfo {
   std::string scene;                ///< the scene's name
@@ -31,8 +40,7 @@ struct FilmInfo {
   int expected_frames = 0;          ///< how many will be added; fewer is no error
   int width = 64, height = 64;      ///< of the pictures, to try beforehand what can be tried [pixels]
 
-  std::optional<std::uint64_t> largest_file =
-      {};  ///< of a film that is drawn [bytes]; its pictures become smaller for it
+  std::optional<FileLimit> largest_file = {};  ///< of a film that is drawn; it becomes smaller for it, see FittedFilm
 
   /// The cloth before the first step, its texture coordinates as in Mesh, and what things look like. They outlive the
   /// sinks.

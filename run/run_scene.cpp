@@ -210,19 +210,12 @@ class Pipeline {
       if (drawn_) place_camera(whole.frames.count(), [&](const auto& visit) { read(whole, visit); });
       read(extent_, [this](Frame frame) { send(std::move(frame)); });
       whole_ = true;
-    } catch (const Stopped&) {
-      // What was sent is drawn and written.
+    } catch (const Stopped&) {  // what was sent is drawn and written
     }
     close_queues();
   }
 
-  void send(Frame frame) {
-    if (drawn_) {
-      frames_.push(std::move(frame));
-    } else {
-      film_.push({std::move(frame), std::nullopt});
-    }
-  }
+  void send(Frame frame) { drawn_ ? frames_.push(std::move(frame)) : film_.push({std::move(frame), std::nullopt}); }
 
   /// Ends the flow of frames where it begins. What is on its way is still drawn and written.
   void close_queues() {
@@ -255,10 +248,7 @@ class Pipeline {
       if (!outputs_.drawn()) undrawn_.request_stop();
       progress_.done = ++result_.frames;
     }
-    {
-      const std::scoped_lock lock(mutex_);
-      if (error_) return;
-    }
+    if (const std::scoped_lock lock(mutex_); error_) return;
     const auto begin = Clock::now();
     result_.outputs = outputs_.finish(result_.frames == result_.frames_wanted ? Ending::complete : Ending::early);
     result_.write_seconds += seconds_since(begin);

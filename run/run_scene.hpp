@@ -25,12 +25,12 @@ struct RunOptions {
   std::shared_ptr<const Resumption> from;  ///< where the run goes on from, whose motion file that is; null: the start
   std::shared_ptr<MotionReader> recorded;  ///< the motion, which is not simulated then: what there is, is drawn
   RecordPaths records;
-  std::optional<std::int64_t> steps;          ///< instead of the scene's duration
-  std::optional<FrameRange> frames;           ///< draw only these, and simulate no further than they need
-  std::optional<std::int64_t> every;          ///< steps from a frame to the next; absent: as the scene's video says
-  std::optional<std::uint64_t> largest_file;  ///< that a film may become [bytes], see FittedFilm
-  bool poster = false;                        ///< put a picture beside each film, see Poster
-  std::optional<SheetGrid> sheet;             ///< what a picture without {frame} in its path shows instead of the last
+  std::optional<std::int64_t> steps;      ///< instead of the scene's duration
+  std::optional<FrameRange> frames;       ///< draw only these, and simulate no further than they need
+  std::optional<std::int64_t> every;      ///< steps from a frame to the next; absent: as the scene's video says
+  std::optional<FileLimit> largest_file;  ///< that a film may become, see FittedFilm
+  bool poster = false;                    ///< put a picture beside each film, see Poster
+  std::optional<SheetGrid> sheet;         ///< what a picture without {frame} in its path shows instead of the last
   GlBackend backend = GlBackend::automatic;
   bool time_effects = false;         ///< measure which part of the steps' time each effect takes
   StepObserver* observer = nullptr;  ///< told of every step too, on the thread that simulates, after it is recorded

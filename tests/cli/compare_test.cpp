@@ -35,6 +35,27 @@ TEST(Compare, VariesASceneByItsKeys) {
   EXPECT_EQ(motions, 4U) << finished.text;
 }
 
+TEST(Compare, PutsWhatOnlyTheLastKeyTellsApartIntoARow) {
+  const SceneFolder folder;
+  folder.write("a.toml", scene);
+  const std::string vary =
+      "compare a.toml --vary integrator.method=liu13,implicit,verlet --vary cloth.stiffness=10,20 ";
+  const auto size = [&](const std::string& arguments) {
+    EXPECT_EQ(drape(folder, arguments).code, 0);
+    return cv::imread(folder.path("x.png")).size();
+  };
+  EXPECT_EQ(size(vary + "-o x.png"), size(vary + "-o x.png --grid 2x3"));
+}
+
+TEST(Compare, MakesAFilmThatFits) {
+  const SceneFolder folder;
+  folder.write("a.toml", scene);
+  const Finished finished = drape(folder, "compare a.toml a.toml -o x.gif --max-size 3kB");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  EXPECT_LE(std::filesystem::file_size(folder.path("x.gif")), 3000U);
+  EXPECT_NE(finished.text.find(" pixels instead of "), std::string::npos) << finished.text;
+}
+
 TEST(Compare, TakesMotions) {
   const SceneFolder folder;
   folder.write("a.toml", scene);

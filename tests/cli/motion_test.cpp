@@ -231,7 +231,7 @@ TEST(MotionOnTheCommandLine, SaysWhatIsWrong) {
             "drape: --resume m.gif: expected the name of a motion file, as in motion.drape\n");
   EXPECT_EQ(text("simulate --resume n.drape"), "drape: n.drape: there is nothing to go on with: no n.drape.partial\n");
   EXPECT_EQ(text("simulate --resume m.drape", 0), "");
-  EXPECT_EQ(drape(folder, "simulate --resume m.drape.partial").text, "drape: m.drape.partial is complete\n");
+  EXPECT_EQ(drape(folder, "simulate --resume m.drape.partial").text, "drape: m.drape is complete\n");
   EXPECT_EQ(text("render m.drape --scene look.toml -o red.gif", 0), "");
   EXPECT_EQ(text("render look.toml -o direct.gif", 0), "");
   EXPECT_EQ(content(folder.path("red.gif")), content(folder.path("direct.gif")));

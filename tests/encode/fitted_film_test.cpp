@@ -18,26 +18,33 @@ using namespace drape::test;
 
 namespace {
 
-constexpr int frames = 6, full_width = 240, full_height = 200;
+constexpr int frames = 12, full_width = 240, full_height = 200;
+constexpr double full_rate = 40;
 
 class FittedFilm : public InScratchFolder {
  protected:
-  /// @param largest absent: as large as it becomes
-  OutputFile write(const std::string& name, std::optional<std::uint64_t> largest, int width = full_width) const {
-    FilmInfo film{.scene = "test"};
-    film.largest_file = largest;
+  /// @param limit  absent: as large as it becomes
+  /// @param stride of the frames that there are, at a rate with which they play for as long
+  OutputFile write(const std::string& name, std::optional<FileLimit> limit, int width = full_width,
+                   int stride = 1) const {
+    FilmInfo film{.scene = "test", .fps = full_rate / stride};
+    film.largest_file = limit;
     const auto encoder = make_encoder(path(name), film);
     const int height = static_cast<int>(std::lround(static_cast<double>(full_height) * width / full_width));
-    for (int k = 0; k < frames; ++k) {
+    for (int k = 0; k < frames; k += stride) {
       encoder->add(scaled_image(synthetic_frame(k, full_width, full_height), width, height));
     }
     return encoder->finish().at(0);
+  }
+  /// Of the whole film, and of one with smaller pictures or fewer of them.
+  [[nodiscard]] std::uint64_t size_of(const std::string& extension, int width = full_width, int stride = 1) const {
+    return write("sized" + extension, {}, width, stride).size;
   }
 };
 
 TEST_F(FittedFilm, IsTheFilmItselfWhereThatFits) {
   const std::uint64_t size = write("free.gif", {}).size;
-  const OutputFile fitted = write("fitted.gif", size);
+  const OutputFile fitted = write("fitted.gif", FileLimit{size});
   EXPECT_EQ(content(path("fitted.gif")), content(path("free.gif")));
   EXPECT_EQ(fitted.note, "");
   EXPECT_EQ(file_count(), 2U);
@@ -45,8 +52,8 @@ TEST_F(FittedFilm, IsTheFilmItselfWhereThatFits) {
 
 TEST_F(FittedFilm, IsTheLargestThatFits) {
   for (const std::string extension : {".gif", ".webp", ".apng", ".mp4"}) {
-    const std::uint64_t largest = write("free" + extension, {}).size / 3;
-    const OutputFile fitted = write("fitted" + extension, largest);
+    const std::uint64_t largest = size_of(extension) / 3;
+    const OutputFile fitted = write("fitted" + extension, FileLimit{largest, FilmKeeps::rate});
     EXPECT_LE(fitted.size, largest) << extension;
     EXPECT_EQ(fitted.size, std::filesystem::file_size(path("fitted" + extension)));
     const int width = std::stoi(fitted.note);
@@ -54,14 +61,13 @@ TEST_F(FittedFilm, IsTheLargestThatFits) {
     // What is a hundredth wider, or a pixel, does not fit: that was tried.
     const int wider = width + std::max(1, width / 100);
     bool some_does_not = false;
-    for (int w = width + 1; w <= wider; ++w) some_does_not |= write("wider" + extension, {}, w).size > largest;
+    for (int w = width + 1; w <= wider; ++w) some_does_not |= size_of(extension, w) > largest;
     EXPECT_TRUE(some_does_not) << extension << " " << width;
   }
 }
 
-TEST_F(FittedFilm, HasEveryFrame) {
-  const std::uint64_t largest = write("free.gif", {}).size / 4;
-  const OutputFile fitted = write("x.gif", largest);
+TEST_F(FittedFilm, HasEveryFrameWhereItKeepsItsRate) {
+  const OutputFile fitted = write("x.gif", FileLimit{size_of(".gif") / 6, FilmKeeps::rate});
   const std::vector<Image> film = decoded_film(path("x.gif"));
   ASSERT_EQ(film.size(), static_cast<std::size_t>(frames));
   EXPECT_EQ(fitted.note, fmt::format("{}x{} pixels instead of 240x200", film[0].width, film[0].height));
@@ -71,22 +77,51 @@ TEST_F(FittedFilm, HasEveryFrame) {
   }
 }
 
+TEST_F(FittedFilm, HasTheHighestRateThatFitsWhereItKeepsItsSize) {
+  for (const double part : {0.7, 0.3}) {
+    const auto largest = static_cast<std::uint64_t>(part * static_cast<double>(size_of(".gif")));
+    const OutputFile fitted = write("x.gif", FileLimit{largest, FilmKeeps::size});
+    int stride = 2;
+    while (write("these.gif", {}, full_width, stride).size > largest) ++stride;
+    EXPECT_TRUE(content(path("x.gif")) == content(path("these.gif"))) << stride;
+    EXPECT_EQ(fitted.note, fmt::format("{:.3g} frames per second instead of 40", full_rate / stride));
+  }
+}
+
+/// Half the width first, then a quarter of the rate at half the width or more, then less.
+TEST_F(FittedFilm, GivesUpSizeThenRateThenSize) {
+  const std::uint64_t half = size_of(".gif", full_width / 2), slow = size_of(".gif", full_width / 2, 4);
+  ASSERT_GT(half, slow);
+  EXPECT_EQ(write("x.gif", FileLimit{half}).note.find("frames"), std::string::npos);
+  for (const std::uint64_t largest : {half - 1, slow}) {
+    const OutputFile fitted = write("x.gif", FileLimit{largest});
+    EXPECT_GE(decoded_film(path("x.gif"))[0].width, full_width / 2);
+    EXPECT_NE(fitted.note.find("frames per second instead of 40"), std::string::npos) << fitted.note;
+  }
+  const OutputFile small = write("x.gif", FileLimit{slow - 1});
+  const std::vector<Image> film = decoded_film(path("x.gif"));
+  EXPECT_LT(film[0].width, full_width / 2);
+  EXPECT_EQ(film.size(), 3U);
+  EXPECT_NE(small.note.find(" and 10 frames per second instead of 40"), std::string::npos) << small.note;
+}
+
 TEST_F(FittedFilm, TheSameFilmHasTheSameBytes) {
-  const std::uint64_t largest = write("free.gif", {}).size / 2;
-  write("a.gif", largest);
-  write("b.gif", largest);
+  const FileLimit limit{size_of(".gif") / 9};
+  write("a.gif", limit);
+  write("b.gif", limit);
   EXPECT_EQ(content(path("a.gif")), content(path("b.gif")));
 }
 
 TEST_F(FittedFilm, SaysSoWhereNothingFits) {
   put(path("x.gif"), "old");
   try {
-    write("x.gif", 500);
+    write("x.gif", FileLimit{500});
     ADD_FAILURE() << "no error";
   } catch (const OutputError& error) {
     const std::string message = error.what();
-    EXPECT_EQ(message.find("cannot write " + path("x.gif") + " with at most 500 bytes: at 16x13 pixels it still has "),
-              0U)
+    EXPECT_TRUE(message.starts_with("cannot write " + path("x.gif") +
+                                    " with at most 500 bytes: with 16x13 pixels instead of 240x200 and 10 frames per "
+                                    "second instead of 40 it still has "))
         << message;
   }
   EXPECT_EQ(content(path("x.gif")), "old");
@@ -96,8 +131,7 @@ TEST_F(FittedFilm, SaysSoWhereNothingFits) {
 TEST_F(FittedFilm, LeavesOneFileWithThePermissionsOfTheOld) {
   put(path("x.gif"), "old");
   std::filesystem::permissions(path("x.gif"), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
-  const std::uint64_t size = write("free.gif", {}).size;
-  write("x.gif", size / 2);
+  write("x.gif", FileLimit{size_of(".gif") / 2});
   EXPECT_EQ(file_count(), 2U);
   EXPECT_EQ(std::filesystem::status(path("x.gif")).permissions(),
             std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
