@@ -28,6 +28,8 @@ inline Finished run_shell(const SceneFolder& folder, const std::string& command)
   return finished;
 }
 
+inline Finished run(const SceneFolder& folder, const std::string& command) { return run_shell(folder, command); }
+
 /// Runs the drape that was built, in the folder.
 /// @param environment assignments that stand before it on the shell's command line
 inline Finished drape(const SceneFolder& folder, const std::string& arguments, const std::string& environment = "") {
