@@ -55,7 +55,7 @@ Whole read_whole(const fs::path& folder) {
     } catch (const std::invalid_argument&) {
       // Said below.
     }
-    fail_to_read(file, "is not as it was recorded");
+    fail_to_read(file, "has been modified since it was recorded");
   }
   return whole;
 }
@@ -67,10 +67,10 @@ Whole read_whole(const fs::path& folder) {
 /// The golden that a candidate makes of the one there is.
 Whole accepted(const Candidate& candidate, const std::vector<int>& frames) {
   if (load_scene(candidate.scene_file).digest != candidate.scene_digest) {
-    refuse(candidate, "the scene is another one than the one that was checked; check it again");
+    refuse(candidate, "the scene has changed since the check; check it again");
   }
   if (program_hash() != candidate.program)
-    refuse(candidate, "another drape than this one has checked it; check it again");
+    refuse(candidate, "it was checked by a different build of drape; check it again");
   Whole whole = read_whole(candidate.folder);
   if (frames.empty()) return whole;
 
@@ -79,8 +79,8 @@ Whole accepted(const Candidate& candidate, const std::vector<int>& frames) {
   if (whole.golden.size != there.golden.size ||
       motion(candidate.folder) != motion(golden_folder(candidate.scene_file))) {
     refuse(candidate,
-           "the motion or the size of the pictures is another one, and single pictures would not belong to "
-           "it; accept all of it, without --frames");
+           "the motion or the size of the pictures has changed, so single pictures would not match; accept everything, "
+           "without --frames");
   }
   for (const int frame : frames) {
     const auto& all = there.golden.frames;

@@ -58,7 +58,7 @@ class SceneCheck {
     if (!has_golden(result_.golden)) {
       miss();
     } else if (options_.update == UpdateMode::all) {
-      update("recorded anew");
+      update("recorded again");
     } else {
       compare();
     }
@@ -72,7 +72,7 @@ class SceneCheck {
       result_.findings.push_back("there is no golden to compare with");
     } else if (options_.update == UpdateMode::missing) {
       bless_scene(scene_, settings_, options_.backend, stop_, progress_);
-      result_.findings.push_back("there was no golden to compare with; it has been recorded now: look at it");
+      result_.findings.push_back("there was no golden to compare with; it has now been recorded: look at it");
     } else {
       update("recorded");
     }
@@ -117,8 +117,8 @@ class SceneCheck {
   void check_precision() const {
     if (settings_.motion_tolerance > 0 && settings_.motion_tolerance < 2 * golden_.quanta.compared) {
       throw UsageError(
-          fmt::format("{} keeps positions to {:.2g} m, which cannot tell a motion_tolerance of {:g} m; bless "
-                      "the scene with that tolerance, or let it be 0 for the same bits",
+          fmt::format("{} stores positions to {:.2g} m, which is too coarse for a motion_tolerance of {:g} m; bless "
+                      "the scene with that tolerance, or set it to 0 for the same bits",
                       result_.golden.string(), golden_.quanta.compared, settings_.motion_tolerance));
     }
   }

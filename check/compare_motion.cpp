@@ -52,13 +52,13 @@ class Collector {
     if (hash == golden.hash) return;
     note_other_bits(step);
     if (bodies.size() != golden.bodies.size()) {
-      return fail(fmt::format("at step {} there are other pins or other things to touch", step));
+      return fail(fmt::format("at step {} the pins or obstacles differ", step));
     }
     std::size_t worst = 0;
     const auto distance = [&](std::size_t i) { return std::abs(bodies[i] - golden.bodies[i]); };
     for (std::size_t i = 1; i < bodies.size(); ++i) worst = distance(i) > distance(worst) ? i : worst;
     if (bodies.empty() || distance(worst) <= tolerance_ + golden_.quanta.compared) return;
-    fail(fmt::format("at step {} {} is {} from its golden place", step, body_name(simulation, worst),
+    fail(fmt::format("at step {} {} is {} from its golden position", step, body_name(simulation, worst),
                      readable_length(distance(worst))));
   }
 
@@ -225,7 +225,7 @@ std::string describe_motion(const std::vector<WindowResult>& windows) {
   }
   std::string text = fmt::format("the motion changed at step {} by {} at vertex {}", first->first->step,
                                  readable_length(first->first->distance), first->first->vertex);
-  if (*first->other_bits < first->first->step) text += fmt::format(" (its bits from step {} on)", *first->other_bits);
+  if (*first->other_bits < first->first->step) text += fmt::format(" (bits differ from step {})", *first->other_bits);
   if (largest->step != first->first->step) {
     text += fmt::format(", and by up to {} at vertex {} at step {}", readable_length(largest->distance),
                         largest->vertex, largest->step);

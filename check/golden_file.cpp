@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string remedy = "; restore it, or record it anew with drape bless";
+const std::string remedy = "; restore it, or record it again with drape bless";
 
 }  // namespace
 
@@ -26,7 +26,7 @@ std::string read_golden_file(const fs::path& file, std::uintmax_t most) {
   if (status.type() == fs::file_type::not_found) fail_to_read(file, "is missing");
   if (fs::is_directory(status)) fail_to_read(file, "is a folder, not a file");
   if (error) fail_to_read(file, fmt::format("cannot be read: {}", error.message()));
-  if (!fs::is_regular_file(status)) fail_to_read(file, "is no regular file");
+  if (!fs::is_regular_file(status)) fail_to_read(file, "is not a regular file");
   try {
     return read_file(file, most);
   } catch (const UsageError& problem) {

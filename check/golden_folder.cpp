@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void refuse(const fs::path& place, std::string_view what) {
-  throw UsageError(fmt::format("{}: {}; drape does not replace it: move it away", place.string(), what));
+  throw UsageError(fmt::format("{}: {}; drape will not replace it: move it away", place.string(), what));
 }
 
 /// Whether a name in the folder of the frames is one that golden_picture() gives: "0040.png".
@@ -57,8 +57,8 @@ void require_type(const fs::path& place, fs::file_type type) {
   if (found == type || found == fs::file_type::not_found) return;
   refuse(place, found == fs::file_type::symlink     ? "is a link"
                 : found == fs::file_type::directory ? "is a folder"
-                : type == fs::file_type::directory  ? "is no folder"
-                                                    : "is no regular file");
+                : type == fs::file_type::directory  ? "is not a folder"
+                                                    : "is not a regular file");
 }
 
 void require_own_files(const fs::path& folder) {
@@ -168,13 +168,13 @@ bool has_golden(const fs::path& folder) {
   const fs::file_type named = fs::symlink_status(folder, error).type();
   if (named == fs::file_type::not_found) return false;
   const fs::file_type type = fs::status(folder, error).type();
-  if (type == fs::file_type::not_found) refuse(folder, "is a link to nothing, where the golden should be");
+  if (type == fs::file_type::not_found) refuse(folder, "is a broken link, where the golden should be");
   if (error) throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
   if (type != fs::file_type::directory) refuse(folder, "is a file, where the golden should be a folder");
   const bool empty = fs::is_empty(folder, error);
   if (error) throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
   if (empty) return false;
-  if (!is_golden(folder)) refuse(folder, "is no golden, but has files of another kind in it");
+  if (!is_golden(folder)) refuse(folder, "is not a golden: it contains other files");
   require_own_files(folder);
   return true;
 }

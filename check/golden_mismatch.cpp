@@ -15,7 +15,7 @@ std::string motion_mismatch(const Scene& scene, const Golden& golden) {
     return fmt::format("the cloth has {} vertices, the golden one {}", count, golden.vertex_count);
   }
   if (scene.simulation.step != golden.step) {
-    return fmt::format("a step is {} s long, in the golden {} s", scene.simulation.step, golden.step);
+    return fmt::format("the step is {} s, in the golden {} s", scene.simulation.step, golden.step);
   }
   if (scene.step_count() != golden.step_count) {
     return fmt::format("the motion has {} steps, the golden one {}", scene.step_count(), golden.step_count);
@@ -26,7 +26,7 @@ std::string motion_mismatch(const Scene& scene, const Golden& golden) {
 std::string picture_mismatch(const Scene& scene, const CheckSettings& settings, const Golden& golden,
                              bool some_frames) {
   if (scene.simulation.cloth.vertex_count() != golden.vertex_count) {
-    return "the pictures cannot be compared: the cloth has other vertices";
+    return "the pictures cannot be compared: the cloth has different vertices";
   }
   if (const Eigen::Vector2i size = picture_size(scene, settings); size != golden.size) {
     return fmt::format("the pictures have {}x{} pixels, the golden ones {}x{}", size.x(), size.y(), golden.size.x(),
@@ -39,7 +39,7 @@ std::string picture_mismatch(const Scene& scene, const CheckSettings& settings, 
   std::vector<int> recorded;
   for (const GoldenFrame& frame : golden.frames) recorded.push_back(frame.frame);
   if (!some_frames && !settings.frames.empty() && settings.frames != recorded) {
-    return fmt::format("the frames {} are to be compared, the golden has {}", fmt::join(settings.frames, ", "),
+    return fmt::format("the scene compares the frames {}, but the golden has {}", fmt::join(settings.frames, ", "),
                        fmt::join(recorded, ", "));
   }
   return {};

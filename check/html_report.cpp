@@ -64,16 +64,16 @@ std::string headline(const CheckReport& report) {
   tell(SceneVerdict::error, "could not be judged");
   if (!problems.empty()) return fmt::format("{}", fmt::join(problems, ", "));
   if (const auto updated = count(SceneVerdict::updated); updated > 0) {
-    return fmt::format("{} of {} {} recorded anew", updated, all, scenes);
+    return fmt::format("{} of {} {} recorded again", updated, all, scenes);
   }
   if (all == 0) return "No scene was checked";
-  return all == 1 ? "The scene is as it was" : fmt::format("All {} scenes are as they were", all);
+  return all == 1 ? "The scene is unchanged" : fmt::format("All {} scenes are unchanged", all);
 }
 
 std::string anchor(std::size_t index) { return fmt::format("scene-{}", index); }
 
 Markup overview(const std::vector<const SceneResult*>& scenes) {
-  html::Table table{"What was checked",
+  html::Table table{"Checked scenes",
                     {{"Scene"},
                      {"Verdict"},
                      {"Motion"},
@@ -98,8 +98,8 @@ Markup overview(const std::vector<const SceneResult*>& scenes) {
 Markup introduction(const CheckReport& report) {
   return html::paragraph(html::element("time", {{"datetime", report.date}}, report.date) +
                          fmt::format(", {:.1f} s", report.seconds)) +
-         (report.command.empty() ? Markup() : html::command("This check", report.command)) +
-         (report.accept_command.empty() ? Markup() : html::command("Accept all of it", report.accept_command));
+         (report.command.empty() ? Markup() : html::command("Run this check again", report.command)) +
+         (report.accept_command.empty() ? Markup() : html::command("Accept all changes", report.accept_command));
 }
 
 std::vector<std::pair<std::string, Markup>> foot(const CheckReport& report) {
@@ -107,7 +107,7 @@ std::vector<std::pair<std::string, Markup>> foot(const CheckReport& report) {
   return {{"drape", fmt::format("{}, revision {}", machine.drape, build_info().revision)},
           {"Compiler", machine.compiler},
           {"Processor", machine.processor},
-          {"Its instruction sets", machine.cpu_flags},
+          {"Supported instruction sets", machine.cpu_flags},
           {"Instruction set in use", machine.kernels},
           {"System", machine.system},
           {"Drawn by", machine.renderer}};

@@ -26,7 +26,7 @@ std::string describe(const FrameResult& frame) {
   const std::string why = frame.why.empty() ? "" : " (" + frame.why + ")";
   const std::string moment = fmt::format("Frame {}, {:.2f} s{}: ", frame.frame, frame.time, why);
   const std::string unjudged = frame.judged ? "" : "It is not judged. ";
-  if (d.verdict == PictureVerdict::exact) return moment + "the same bytes.";
+  if (d.verdict == PictureVerdict::exact) return moment + "identical.";
   return moment + (frame.kind.empty() ? "" : frame.kind + ". ") + unjudged +
          fmt::format("{} ({:.3g}%) differ, by at most {} of 255; FLIP error at most {:.3f}, {:.4f} on average.",
                      plural(d.pixels, "pixel"), 100 * d.fraction, d.largest_channel, d.max_flip, d.mean_flip);
@@ -72,7 +72,7 @@ Markup motion_chart(const SceneResult& scene, const Comparison& comparison) {
     }
     series.points.push_back({NAN, NAN, {}, {}});  // every window starts anew from a golden state
   }
-  html::Chart chart{"Largest vertex deviation from the golden motion, half-way and at the end of every window",
+  html::Chart chart{"Largest vertex deviation from the golden motion, halfway through and at the end of every window",
                     "step",
                     "deviation [m]",
                     html::Scale::linear,
@@ -83,20 +83,20 @@ Markup motion_chart(const SceneResult& scene, const Comparison& comparison) {
 }
 
 Markup picture_chart(const SceneResult& scene, const Comparison& comparison) {
-  html::ChartSeries largest{"largest of a pixel", {}}, mean{"mean", {}};
+  html::ChartSeries largest{"largest in a pixel", {}}, mean{"mean", {}};
   for (const FrameResult& frame : comparison.frames) {
     const PictureDifference& d = frame.difference;
     const auto x = static_cast<double>(frame.frame);
     largest.points.push_back({x, d.max_flip, fmt::format("frame {}: {:.3f}", frame.frame, d.max_flip), {}});
     mean.points.push_back({x, d.mean_flip, fmt::format("frame {}: {:.4f}", frame.frame, d.mean_flip), {}});
   }
-  html::Chart chart{"How different the pictures look: their FLIP error, from 0, the same, to 1.",
+  html::Chart chart{"Visible difference of the pictures: their FLIP error, from 0 (identical) to 1.",
                     "frame",
                     "FLIP error",
                     html::Scale::linear,
                     html::Scale::linear,
                     {largest, mean},
-                    {{scene.settings.limits.flip, "limit of a pixel"}}};
+                    {{scene.settings.limits.flip, "limit per pixel"}}};
   return html::chart(chart);
 }
 
@@ -104,7 +104,7 @@ Markup windows_table(const Comparison& comparison) {
   html::Table table{"Windows of motion, each run from a golden state",
                     {{"Steps"},
                      {"Verdict"},
-                     {"Other bits from step", true},
+                     {"Bits differ from step", true},
                      {"Largest deviation", true},
                      {"Vertex", true},
                      {"At step", true},
@@ -124,7 +124,7 @@ Markup frames_table(const Comparison& comparison) {
   html::Table table{"Compared frames",
                     {{"Frame", true},
                      {"Time [s]", true},
-                     {"Why it is compared"},
+                     {"Reason"},
                      {"Verdict"},
                      {"Pixels that differ", true},
                      {"Share", true},
@@ -223,17 +223,17 @@ Markup scene_content(const SceneResult& scene, const std::string& id) {
   }
   Markup content;
   if (!findings.empty()) content += html::findings(findings);
-  if (!scene.rerun_command.empty()) content += html::command("Run this check again", scene.rerun_command);
-  if (!scene.accept_command.empty()) content += html::command("Accept what it is now", scene.accept_command);
+  if (!scene.rerun_command.empty()) content += html::command("Check this scene again", scene.rerun_command);
+  if (!scene.accept_command.empty()) content += html::command("Accept the change", scene.accept_command);
   content += viewer(scene, scene.windows, id);
   if (!scene.animation.empty()) {
     content += html::figure(
-        html::picture("image/gif", scene.animation, "Expected, actual and difference side by side, as an animation"),
+        html::picture("image/gif", scene.animation, "Animation of expected, actual and difference side by side"),
         "Expected, actual and difference around the first frame that changed.");
   }
   content += figures(scene, scene.windows);
   if (scene.end_to_end) {
-    content += html::section(3, id + "-end-to-end", "The whole motion, run again from its start",
+    content += html::section(3, id + "-end-to-end", "The whole motion, run from the start",
                              viewer(scene, *scene.end_to_end, id + "-whole") + figures(scene, *scene.end_to_end));
   }
   return content + html::details("How the golden was recorded", provenance(scene));

@@ -20,8 +20,8 @@ Json parse_json(std::string_view bytes) {
     return Json::parse(bytes, bounded);
   } catch (const Json::parse_error& error) {
     const std::string_view before = bytes.substr(0, error.byte);
-    throw std::invalid_argument(fmt::format("is no JSON: something else is expected in line {}",
-                                            1 + std::count(before.begin(), before.end(), '\n')));
+    throw std::invalid_argument(
+        fmt::format("is not valid JSON: syntax error in line {}", 1 + std::count(before.begin(), before.end(), '\n')));
   } catch (const Json::exception&) {
     throw std::invalid_argument("holds a number that is too large");
   }
@@ -29,7 +29,7 @@ Json parse_json(std::string_view bytes) {
 
 Fields::Fields(const Json& json, std::string name) : json_(json), name_(std::move(name)) {
   if (json.is_object()) return;
-  throw std::invalid_argument(name_.empty() ? "is no JSON object" : fmt::format("'{}' is no JSON object", name_));
+  throw std::invalid_argument(name_.empty() ? "is not a JSON object" : fmt::format("'{}' is not a JSON object", name_));
 }
 
 std::vector<Fields> Fields::objects(const char* key) const {

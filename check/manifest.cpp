@@ -154,13 +154,13 @@ void require_own(const Json& json, std::string_view bytes) {
   const int version = Fields(json, "").whole<int>("format", -any, any);
   if (version < format_version) {
     throw std::invalid_argument(
-        fmt::format("was recorded by an older drape, in format {}; this one reads format {}", version, format_version));
+        fmt::format("was recorded by an older drape in format {}; this one reads format {}", version, format_version));
   }
   if (version > format_version) {
     throw std::invalid_argument(
-        fmt::format("was recorded by a newer drape, in format {}; this one reads format {}", version, format_version));
+        fmt::format("was recorded by a newer drape in format {}; this one reads format {}", version, format_version));
   }
-  if (sealed(json) != bytes) throw std::invalid_argument("is not as it was recorded");
+  if (sealed(json) != bytes) throw std::invalid_argument("has been modified since it was recorded");
 }
 
 }  // namespace
@@ -200,7 +200,7 @@ Manifest read_manifest(std::string_view bytes) {
 
 std::string sealed_manifest(std::string_view text) {
   Json json = parse_json(text);
-  if (!json.is_object()) throw std::invalid_argument("is no JSON object");
+  if (!json.is_object()) throw std::invalid_argument("is not a JSON object");
   return sealed(std::move(json));
 }
 

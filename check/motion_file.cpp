@@ -186,7 +186,7 @@ std::uint64_t most_motion_bytes(const Golden& golden) {
 }
 
 void unpack_motion(std::string_view bytes, Golden& golden) {
-  if (!bytes.starts_with(magic)) throw std::invalid_argument("is no golden motion of this version of drape");
+  if (!bytes.starts_with(magic)) throw std::invalid_argument("is not a golden motion of this version of drape");
   WordReader reader(unpack_words(bytes.substr(magic.size()), most_words(golden)));
   FieldReader fields(reader, golden.row, golden.vertex_count);
   const Quanta& quanta = golden.quanta;
@@ -210,7 +210,7 @@ void unpack_motion(std::string_view bytes, Golden& golden) {
     for (GoldenStep& step : window.steps) step.bodies = read_bodies(reader, golden, steady);
   }
   for (GoldenFrame& frame : golden.frames) frame.x = fields.read(quanta.position);
-  if (!reader.at_end()) throw std::invalid_argument("has something after its end");
+  if (!reader.at_end()) throw std::invalid_argument("has trailing data");
 }
 
 }  // namespace drape

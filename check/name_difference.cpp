@@ -127,7 +127,7 @@ std::string name_colors(const Image& expected, const Image& actual) {
   }
   double left = 0;
   for (const Bin& bin : bins) left += bin.count > 0 ? bin.square - bin.sum.square().sum() / bin.count : 0;
-  return left < explained * all ? "other colours in the same places" : "";
+  return left < explained * all ? "different colours in the same places" : "";
 }
 
 std::string name_edges(const Plane& expected, const Plane& actual) {
@@ -149,7 +149,7 @@ std::string name_place(const Plane& expected, const Plane& actual) {
   if (right < 0) return {};
   const Eigen::Index width = right - left + 1, height = bottom - top + 1;
   if (static_cast<double>(width * height) > one_place * static_cast<double>(expected.size())) return {};
-  return fmt::format("one place only: {}x{} pixels from column {} and row {} on", width, height, left, top);
+  return fmt::format("one place only: {}x{} pixels at column {}, row {}", width, height, left, top);
 }
 
 }  // namespace
@@ -170,11 +170,11 @@ std::string name_other_machine(const Machine& recorded, const Machine& here) {
     if (there.empty() || now.empty() || there == now) return;
     text += fmt::format("{}{} ({}; here {})", text.empty() ? "with " : ", ", what, there, now);
   };
-  add("another renderer", recorded.renderer, here.renderer);
-  add("another instruction set", recorded.kernels, here.kernels);
-  add("another version of drape", recorded.drape, here.drape);
-  add("another compiler", recorded.compiler, here.compiler);
-  add("another processor", recorded.processor, here.processor);
+  add("a different renderer", recorded.renderer, here.renderer);
+  add("a different instruction set", recorded.kernels, here.kernels);
+  add("a different version of drape", recorded.drape, here.drape);
+  add("a different compiler", recorded.compiler, here.compiler);
+  add("a different processor", recorded.processor, here.processor);
   return text;
 }
 

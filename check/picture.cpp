@@ -19,7 +19,7 @@ namespace {
 /// What the header of a PNG file says: width and height [pixels], ISO/IEC 15948, 11.2.2.
 std::pair<std::uint32_t, std::uint32_t> png_size(std::string_view bytes) {
   constexpr std::string_view signature("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
-  if (!bytes.starts_with(signature) || bytes.size() < 24) throw std::invalid_argument("is no PNG");
+  if (!bytes.starts_with(signature) || bytes.size() < 24) throw std::invalid_argument("is not a PNG");
   const auto number = [&](std::size_t at) {
     std::uint32_t value = 0;
     for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[i]);

@@ -99,7 +99,7 @@ std::optional<RecordPlan> plan_recording(const Scene& scene, const CheckSettings
   plan.quanta = quanta_for(scene.simulation, settings.motion_tolerance);
   for (const int frame : settings.frames) {
     if (frame > film.frames.last) {
-      throw UsageError(fmt::format("{}: frame {} is to be compared, the film ends with frame {}", scene.file.string(),
+      throw UsageError(fmt::format("{}: frame {} cannot be compared: the film ends with frame {}", scene.file.string(),
                                    frame, film.frames.last));
     }
     plan.frames.push_back({frame, "named by the scene"});

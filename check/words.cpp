@@ -31,9 +31,9 @@ Words unpack_words(std::string_view bytes, std::uint64_t most) {
   }
   // zlib packs a byte into no less than a thousandth of one: nothing larger is reserved for a damaged file.
   if (line == std::string_view::npos || size % 8 != 0 || size / 1100 > bytes.size()) {
-    throw std::invalid_argument("is cut off");
+    throw std::invalid_argument("is truncated");
   }
-  if (size / 8 > most) throw std::invalid_argument("holds more than belongs to the manifest beside it");
+  if (size / 8 > most) throw std::invalid_argument("holds more than its manifest allows");
   bytes.remove_prefix(line + 1);
   std::string planes(size, '\0');
   uLongf unpacked = size;
@@ -49,7 +49,7 @@ Words unpack_words(std::string_view bytes, std::uint64_t most) {
 double WordReader::number() { return finite(std::bit_cast<double>(bits())); }
 
 double finite(double value) {
-  if (!std::isfinite(value)) throw std::invalid_argument("holds a number that is not finite");
+  if (!std::isfinite(value)) throw std::invalid_argument("contains a number that is not finite");
   return value;
 }
 

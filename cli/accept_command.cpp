@@ -32,11 +32,12 @@ ExitCode accept(const AcceptArguments& arguments, const CommonOptions& common) {
 
 void add_accept_command(CLI::App& app, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<AcceptArguments>();
-  CLI::App* sub = app.add_subcommand("accept", "Make what a failed check has found the golden, without computing it");
-  sub->add_option("REPORT", arguments->report, "Folder of the check's report")->required();
-  sub->add_option("SCENE", arguments->scenes, "Only these: names in the report, or scene files");
+  CLI::App* sub =
+      app.add_subcommand("accept", "Turn what a failed check found into the golden, without computing it again");
+  sub->add_option("REPORT", arguments->report, "Report folder of the check")->required();
+  sub->add_option("SCENE", arguments->scenes, "Only these scenes: names in the report, or scene files");
   sub->add_option("--frames", arguments->frames,
-                  "A,B,C: only the pictures of these frames, of a motion that is the same");
+                  "Only the pictures of these frames, if the motion is unchanged: A,B,C");
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return accept(*arguments, common); }; });
 }

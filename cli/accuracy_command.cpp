@@ -117,25 +117,26 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
 void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<AccuracyArguments>();
   AccuracyOptions& options = arguments->options;
-  CLI::App* sub = study.add_subcommand("accuracy", "Measure what an error costs, by method, tolerance and time step");
+  CLI::App* sub = study.add_subcommand("accuracy", "Measure cost against error, by method, tolerance and time step");
   const Range positive{.minimum = 0, .minimum_excluded = true};
   const auto list = [](CLI::Option* option) { return option->delimiter(',')->allow_extra_args(false); };
   sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
-  sub->add_option("--set", options.overrides, "key.path=value: replaces a value of the scenes; repeatable")
+  sub->add_option("--set", options.overrides, "Override a value of the scenes: key.path=value; repeatable")
       ->allow_extra_args(false);
-  list(sub->add_option("--methods", arguments->methods, "M1,M2: default all"));
-  list(sub->add_option("--tolerances", options.tolerances, "E1,E2: default 1 to 1e-7"))->check(number_in(positive));
-  list(sub->add_option("--steps", options.steps, "H1,H2: time steps, s; default the scene's and its halves"))
+  list(sub->add_option("--methods", arguments->methods, "Methods: M1,M2; default all"));
+  list(sub->add_option("--tolerances", options.tolerances, "Tolerances: E1,E2; default 1 to 1e-7"))
+      ->check(number_in(positive));
+  list(sub->add_option("--steps", options.steps, "Time steps in s: H1,H2; default the scene's, halved repeatedly"))
       ->check(number_in(positive));
   list(sub->add_option("--times", options.times,
-                       "T1,T2: when the motion is compared, s; the time steps at the first; default 1/20, 1/8 and 1/4 "
-                       "of the scene's duration"))
+                       "Times in s at which motions are compared: T1,T2 (time steps at T1 only); default 1/20, 1/8 and "
+                       "1/4 of the scene's duration"))
       ->check(number_in(positive));
-  list(sub->add_option("--animate", arguments->animations,
-                       "What the panels of the animations differ in: tolerances, methods, steps, or none; default "
-                       "tolerances"));
+  list(sub->add_option(
+      "--animate", arguments->animations,
+      "What varies between the panels of the animations: tolerances (default), methods, steps, or none"));
   add_backend_option(*sub, arguments->backend);
-  sub->add_option("--runs", options.runs, "Timed runs of every case; default 5")->check(whole_number_in({1, 1000}));
+  sub->add_option("--runs", options.runs, "Timed runs per case; default 5")->check(whole_number_in({1, 1000}));
   sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/accuracy");
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_accuracy(*arguments, common); }; });

@@ -31,7 +31,7 @@ ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
       blessing = bless_scene(scene, settings, arguments.backend, stop, progress);
     });
     if (!blessing) {
-      spdlog::error("interrupted; {} is as it was", golden_folder(scene.file).string());
+      spdlog::error("interrupted: {} is unchanged", golden_folder(scene.file).string());
       return ExitCode::interrupted;
     }
     if (!common.quiet) {
@@ -46,9 +46,9 @@ ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
 
 void add_bless_command(CLI::App& app, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<BlessArguments>();
-  CLI::App* sub = app.add_subcommand("bless", "Record the golden frames and motion that drape check compares with");
+  CLI::App* sub = app.add_subcommand("bless", "Record the golden frames and motion that drape check compares against");
   sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
-  sub->add_option("--frames", arguments->frames, "A,B,C: compare these frames of the film, see [check] in the scene");
+  sub->add_option("--frames", arguments->frames, "Frames of the film to compare: A,B,C; see [check] in the scene");
   add_backend_option(*sub, arguments->backend);
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return bless(*arguments, common); }; });

@@ -24,7 +24,7 @@ std::uint64_t parse_byte_count(const std::string& option, const std::string& tex
     const double bytes = std::floor(number * unit->second);
     if (bytes >= 1 && bytes <= largest) return static_cast<std::uint64_t>(bytes);
   }
-  throw UsageError(fmt::format("{} takes a number of bytes such as 5MB, 800kB or 1.5GiB, found '{}'", option, text));
+  throw UsageError(fmt::format("{} takes a size such as 5MB, 800kB or 1.5GiB; found '{}'", option, text));
 }
 
 }  // namespace drape

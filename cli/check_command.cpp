@@ -44,7 +44,8 @@ struct CheckArguments {
 UpdateMode parse_update(const std::string& name) {
   static const std::vector<std::string> names{"all", "missing", "none"};  // as the enumeration
   if (name == "changed") {
-    throw UsageError("--update changed is no more: look at the report of a check, then accept it with drape accept");
+    throw UsageError(
+        "--update changed no longer exists: look at the report of a check, then accept it with drape accept");
   }
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<UpdateMode>(found - names.begin());
@@ -188,7 +189,7 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   report.command += command_options(arguments);
   Verdicts verdicts;
   if (check_all(scenes, arguments, options, common, verdicts, report)) {
-    spdlog::error("interrupted; there is no report");
+    spdlog::error("interrupted: no report was written");
     return ExitCode::interrupted;
   }
   report.machine = this_machine(report.machine.renderer);
@@ -196,18 +197,19 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   write_reports(report, folder);
   if (!common.quiet) verdicts.print((folder / "report.html").string());
   if (verdicts.reason().empty()) return exit_code(report);
-  spdlog::error("the verdicts cannot be written to standard output: {}", verdicts.reason());
+  spdlog::error("cannot write the verdicts to standard output: {}", verdicts.reason());
   return std::max(exit_code(report), ExitCode::output);
 }
 
 void add_limits(CLI::App& sub, CheckArguments& arguments) {
-  sub.add_option("--motion-tolerance", arguments.motion_tolerance, "How far a vertex may be from its golden place, m")
+  sub.add_option("--motion-tolerance", arguments.motion_tolerance,
+                 "Largest accepted distance of a vertex from its golden position, m")
       ->check(number_in({.minimum = 0}));
-  sub.add_option("--channel-limit", arguments.channel, "Largest difference of a pixel in any channel, of 255")
+  sub.add_option("--channel-limit", arguments.channel, "Largest accepted difference of a pixel in any channel, of 255")
       ->check(whole_number_in({0, 255}));
-  sub.add_option("--pixel-limit", arguments.pixels, "Largest fraction of pixels that differ at all")
+  sub.add_option("--pixel-limit", arguments.pixels, "Largest accepted fraction of pixels that differ at all")
       ->check(number_in({0, 1}));
-  sub.add_option("--flip-limit", arguments.flip, "Largest FLIP error of a pixel")->check(number_in({0, 1}));
+  sub.add_option("--flip-limit", arguments.flip, "Largest accepted FLIP error of a pixel")->check(number_in({0, 1}));
 }
 
 }  // namespace
@@ -216,16 +218,16 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* sub = app.add_subcommand("check", "Compare scenes with their golden frames and motion");
   sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
-  sub->add_option("--set", arguments->overrides, "key.path=value: replaces a value of the scene; repeatable")
+  sub->add_option("--set", arguments->overrides, "Override a value of the scene: key.path=value; repeatable")
       ->allow_extra_args(false);
-  sub->add_option("--frames", arguments->frames, "A,B,C: compare only these of the golden frames");
-  sub->add_flag("--end-to-end", arguments->end_to_end, "Run the whole motion and draw it, too");
+  sub->add_option("--frames", arguments->frames, "Compare only these golden frames: A,B,C");
+  sub->add_flag("--end-to-end", arguments->end_to_end, "Also run and draw the whole motion");
   sub->add_option("--update", arguments->update,
-                  "all, missing or none: which goldens to write; missing is the default, and fails all the same")
+                  "Which goldens to write: missing (default; such a check still fails), all or none")
       ->type_name("WHICH");
   add_backend_option(*sub, arguments->backend);
-  sub->add_option("--report", arguments->report, "Folder for the reports (HTML, JSON, JUnit); default out/check");
-  sub->add_option("--threads", arguments->threads, "How many windows of motion are computed at once")
+  sub->add_option("--report", arguments->report, "Folder for the report (HTML, JSON, JUnit); default out/check");
+  sub->add_option("--threads", arguments->threads, "Number of windows of motion computed at once")
       ->check(whole_number_in({1, 1024}));
   add_limits(*sub, *arguments);
   sub->callback(

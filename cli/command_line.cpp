@@ -78,7 +78,7 @@ void add_backend_option(CLI::App& subcommand, GlBackend& backend) {
             throw CLI::ValidationError(
                 "--backend", "unknown backend '" + given + "'" + did_you_mean(given, names, "the backends are"));
           },
-          "What OpenGL comes from: auto (the default), osmesa or egl")
+          "OpenGL library: auto (default), osmesa or egl")
       ->type_name("NAME");
 }
 
@@ -89,7 +89,7 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   app.fallthrough();
   CommonOptions common;
   auto* quiet = app.add_flag("--quiet", common.quiet, "Print errors only");
-  app.add_flag("--verbose", common.verbose, "Print more about what is done")->excludes(quiet);
+  app.add_flag("--verbose", common.verbose, "Print more details")->excludes(quiet);
 
   Command command;
   add_run_commands(app, common, command);
@@ -132,10 +132,10 @@ ExitCode reported(const std::function<ExitCode()>& work) {
   } catch (const Error& error) {
     return report(error);
   } catch (const std::bad_alloc&) {
-    spdlog::error("there is not enough memory for this");
+    spdlog::error("not enough memory");
     return ExitCode::usage;
   } catch (const std::system_error& error) {
-    spdlog::error("the system does not give what this needs: {}", error.code().message());
+    spdlog::error("the system refused a resource: {}", error.code().message());
     return ExitCode::usage;
   }
 }

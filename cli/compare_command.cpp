@@ -69,7 +69,7 @@ std::pair<std::vector<Scene>, std::vector<std::shared_ptr<MotionReader>>> load_v
   if (!problems.empty()) throw UsageError(problems);
   constexpr std::size_t most = 36;
   if (scenes.size() > most) {
-    throw UsageError(fmt::format("{} motions side by side are more than {}", scenes.size(), most));
+    throw UsageError(fmt::format("{} motions cannot be shown side by side; the limit is {}", scenes.size(), most));
   }
   return {std::move(scenes), std::move(recorded)};
 }
@@ -147,26 +147,27 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
   CompareOptions& options = arguments->options;
   CLI::App* sub = app.add_subcommand("compare", "Draw motions side by side");
   const auto one_each = [](CLI::Option* option) { option->allow_extra_args(false); };
-  sub->add_option("SCENE", arguments->scenes,
-                  "Scene files (TOML), or motions (.drape) that drape simulate has computed")
+  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML), or motions (.drape) recorded by drape simulate")
       ->required();
-  one_each(sub->add_option("-o,--output", options.outputs,
-                           fmt::format("Where to, and by the extension in which form; repeatable; default "
-                                       "out/compare.gif.\n.html a self-contained page: the motions in step, their "
-                                       "figures and differences\n{}",
-                                       output_help(true))));
+  one_each(sub->add_option(
+      "-o,--output", options.outputs,
+      fmt::format("Output file; its extension selects the format (repeatable; default out/compare.gif).\n.html a "
+                  "self-contained page: the motions in step, their figures and differences\n{}",
+                  output_help(true))));
   one_each(
-      sub->add_option("--set", arguments->overrides, "key.path=value: replaces a value of all scenes; repeatable"));
-  one_each(sub->add_option("--vary", arguments->varied,
-                           "key.path=value,value…: each scene once with each of these values; FROM..TO/COUNT and "
-                           "FROM..TO/COUNTlog are ranges; repeatable"));
-  sub->add_option("--grid", arguments->grid, "COLUMNSxROWS of the panels");
-  sub->add_flag("--difference", options.difference, "Colour each cloth by its distance to the first, vertex by vertex");
+      sub->add_option("--set", arguments->overrides, "Override a value of all scenes: key.path=value; repeatable"));
+  one_each(sub->add_option(
+      "--vary", arguments->varied,
+      "Load each scene once with each of these values: key.path=value,value…, or a range FROM..TO/COUNT or "
+      "FROM..TO/COUNTlog; repeatable"));
+  sub->add_option("--grid", arguments->grid, "Layout of the panels: COLUMNSxROWS");
+  sub->add_flag("--difference", options.difference,
+                "Colour each cloth by its distance from the first, vertex by vertex");
   sub->add_option("--sheet", arguments->sheet, sheet_help);
   add_file_limit(*sub, arguments->max_size, arguments->keep);
   sub->add_option("--steps", options.steps, "Simulate this many steps instead of the scenes' durations")
       ->check(whole_number_in({0, 1e9}));
-  sub->add_option("--frames", arguments->frames, "A..B: only these frames of the film");
+  sub->add_option("--frames", arguments->frames, "Only these frames of the film: A..B");
   add_backend_option(*sub, options.backend);
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_compare(*arguments, common); }; });

@@ -76,7 +76,8 @@ Finding find_blas() {
   if (const auto describe = reinterpret_cast<Describe>(dlsym(RTLD_DEFAULT, "openblas_get_config"))) {
     found.detail += fmt::format(", {}", describe());
   } else if (found.detail.find("/blas/libblas") != std::string::npos) {
-    found.problem = "this is the reference BLAS, which factors large systems three times slower: " + found.detail;
+    found.problem =
+        "this is the reference BLAS, which takes three times as long to factor large systems: " + found.detail;
   }
   return found;
 }
@@ -114,7 +115,7 @@ Finding find_drawing(const std::vector<BackendFinding>& backends) {
   Finding drawing{.name = "drawing", .detail = {}, .problem = {}, .packages = {}};
   const auto first = std::find_if(backends.begin(), backends.end(), [](const Finding& b) { return b.works(); });
   if (first == backends.end()) {
-    drawing.problem = "there is no OpenGL";
+    drawing.problem = "no OpenGL library works";
     return drawing;
   }
   drawing.detail = first->name;
@@ -174,7 +175,7 @@ std::vector<Finding> find_diagrams() {
   files.problem = problem_of([&] { fonts.detail = first_font(SvgPrinter().pdf(letter)); });
   if (!files.works()) return {files};
   files.detail = "SVG, PDF, PNG";
-  if (fonts.detail.empty()) fonts.problem = "no font is found: the diagrams' PDF and PNG files have no text";
+  if (fonts.detail.empty()) fonts.problem = "no font found: text is missing from the diagrams' PDF and PNG files";
   return {files, fonts};
 }
 

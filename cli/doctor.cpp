@@ -22,7 +22,7 @@ std::string line(const Finding& finding) {
 }
 
 std::string limits(const GlFacts& facts) {
-  return fmt::format("{} samples a pixel, textures to {}², pictures to {}², anisotropy {}", facts.max_samples,
+  return fmt::format("{} samples per pixel, textures up to {}², pictures up to {}², anisotropy {}", facts.max_samples,
                      facts.max_texture_size, facts.max_picture_size, facts.max_anisotropy);
 }
 
@@ -45,7 +45,7 @@ std::string to_text(const Diagnosis& d) {
 
   text += "\ndrawing\n";
   text +=
-      d.drawing.works() ? line("--backend auto", d.drawing.detail + ": the test picture is right") : line(d.drawing);
+      d.drawing.works() ? line("--backend auto", d.drawing.detail + ": the test picture is correct") : line(d.drawing);
   for (const BackendFinding& backend : d.backends) {
     text += line(backend);
     if (backend.works()) text += line("", limits(backend.facts));
@@ -53,7 +53,7 @@ std::string to_text(const Diagnosis& d) {
 
   text += "\noutputs\n" + line(d.codecs);
   for (const Finding& output : d.outputs) text += line(output);
-  text += "\nfor captions and drape study\n";
+  text += "\ncaptions and drape study\n";
   for (const Finding& finding : d.optional) text += line(finding);
 
   const std::vector<std::string> missing = d.missing_packages();
@@ -125,9 +125,9 @@ Json to_json(const Diagnosis& d) {
 }  // namespace
 
 void add_doctor_command(CLI::App& app, Command& command) {
-  CLI::App* doctor = app.add_subcommand("doctor", "Say what drape finds on this machine, and what to install");
+  CLI::App* doctor = app.add_subcommand("doctor", "Report what drape finds on this machine, and what to install");
   auto as_json = std::make_shared<bool>(false);
-  doctor->add_flag("--json", *as_json, "For programs");
+  doctor->add_flag("--json", *as_json, "Print JSON");
   doctor->callback([as_json, &command] {
     command = [as_json] {
       const Diagnosis diagnosis = diagnose();

@@ -18,7 +18,7 @@ std::vector<int> parse_frame_list(const std::string& text) {
     const auto [next, error] = std::from_chars(at, end, frame);
     const bool separated = next == end || (*next == ',' && next + 1 != end);
     if (error != std::errc() || frame < 0 || !separated) {
-      throw UsageError(fmt::format("--frames takes A,B,C, numbers of frames from 0 on, found '{}'", text));
+      throw UsageError(fmt::format("--frames takes frame numbers A,B,C, counted from 0; found '{}'", text));
     }
     frames.push_back(frame);
     at = next == end ? end : next + 1;
@@ -35,7 +35,7 @@ FrameRange parse_frames(const std::string& text) {
   const bool two = first.ec == std::errc() && std::string_view(first.ptr, end).starts_with("..");
   const auto last = two ? std::from_chars(first.ptr + 2, end, range.last) : first;
   if (!two || last.ec != std::errc() || last.ptr != end || range.first < 0 || range.last < range.first) {
-    throw UsageError(fmt::format("--frames takes A..B, two frame numbers with 0 ≤ A ≤ B, found '{}'", text));
+    throw UsageError(fmt::format("--frames takes A..B, two frame numbers with 0 ≤ A ≤ B; found '{}'", text));
   }
   return range;
 }

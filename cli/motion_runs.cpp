@@ -62,7 +62,7 @@ SceneToRun open_motion(const std::string& file, const std::vector<std::string>& 
 
 SceneToRun open_scene(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
   if (file.ends_with(".drape.partial")) {
-    throw UsageError(fmt::format("{0} is not complete: drape simulate --resume {0} goes on with it", file));
+    throw UsageError(fmt::format("{0} is not complete: drape simulate --resume {0} continues it", file));
   }
   if (is_motion_file(file)) return open_motion(file, overrides, look);
   return {load_scene(file, overrides), nullptr};
@@ -71,8 +71,7 @@ SceneToRun open_scene(const std::string& file, const std::vector<std::string>& o
 void warn_of_gaps(const std::string& file, const MotionReader& motion, const FilmExtent& extent) {
   const int between = frames_in_gaps(motion, extent);
   if (between == 0) return;
-  spdlog::warn("{}: {} frames lie between states that are more than a step apart, and are interpolated between them",
-               file, between);
+  spdlog::warn("{}: {} frames lie between stored states more than a step apart and are interpolated", file, between);
 }
 
 std::string motion_to_resume(std::string file) {
@@ -89,8 +88,8 @@ std::optional<RunToGoOn> find_run_to_go_on(const std::string& file, const std::v
   motion->scene.file = file;
   const MotionHeader& header = motion->from.partial->header();
   if (const std::string program = this_program(); header.program != program) {
-    spdlog::warn("{}: it was begun by drape {}, and this is drape {}: the rest may differ in its bits", file,
-                 header.program, program);
+    spdlog::warn("{}: begun by drape {}, but this is drape {}: the bits of the rest may differ", file, header.program,
+                 program);
   }
   RunOptions options;
   options.motion = {.path = file, .recorded = header.recorded};
@@ -106,7 +105,7 @@ RecordedSteps parse_every(const std::string& text) {
   const char* const end = text.data() + text.size();
   const auto read = std::from_chars(text.data(), end, every);
   if (read.ec != std::errc() || read.ptr != end || every < 1 || every > 1'000'000'000) {
-    throw UsageError(fmt::format("--every takes a number of steps from 1 on, or frames, found '{}'", text));
+    throw UsageError(fmt::format("--every takes a number of steps of at least 1, or frames; found '{}'", text));
   }
   return {.every = every};
 }
@@ -124,9 +123,9 @@ void limit_to_motion(const std::string& file, std::int64_t last_step, RunOptions
         std::pair{"--positions", records.positions}, std::pair{"--trace", records.trace}}) {
     if (path.empty()) continue;
     throw UsageError(
-        fmt::format("{} is written by a simulation, and {} is only read: ask drape simulate for it", option, file));
+        fmt::format("{} needs a simulation, and {} is only read: use it with drape simulate", option, file));
   }
-  if (options.motion) throw UsageError(fmt::format("-o {}: {} is a motion file already", options.motion->path, file));
+  if (options.motion) throw UsageError(fmt::format("-o {}: {} is already a motion file", options.motion->path, file));
 }
 
 }  // namespace drape

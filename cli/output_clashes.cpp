@@ -55,8 +55,7 @@ class Clashes {
       const std::string identity = file_identity(file);
       const auto reader = readers_.find(identity);
       if (reader != readers_.end()) {
-        return fmt::format("{} would overwrite {}, which {} is read from", writer.option, file,
-                           reader->second->file.string());
+        return fmt::format("{} would overwrite {}, an input of {}", writer.option, file, reader->second->file.string());
       }
       const auto [other, free] = writers_.emplace(identity, Claim{writer.scene, writer.option, file});
       if (!free && problem.empty()) problem = describe(writer, file, other->second);
@@ -78,7 +77,7 @@ class Clashes {
     const Scene &first = scenes_[other.scene], &second = scenes_[writer.scene];
     return fmt::format(
         "'{}' would be written for {} and again for {}: {}", file, first.file.string(), second.file.string(),
-        first.name == second.name ? "they have the same name, so render them one at a time, to files of their own"
+        first.name == second.name ? "they have the same name, so render them one at a time, to different files"
                                   : "put {scene} into the name");
   }
 

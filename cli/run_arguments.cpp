@@ -24,7 +24,7 @@ void set_outputs(const RunArguments& arguments, const auto& expanded, RunOptions
     if (!is_motion_file(output)) {
       options.outputs.push_back(output);
     } else if (options.motion) {
-      throw UsageError(fmt::format("-o {} and -o {}: a run writes one motion file", options.motion->path, output));
+      throw UsageError(fmt::format("-o {} and -o {}: a run writes only one motion file", options.motion->path, output));
     } else {
       options.motion = {
           .path = expanded(output), .recorded = every, .checkpoint_seconds = arguments.checkpoint_seconds};
@@ -38,7 +38,7 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
   const auto expanded = [&](const std::string& text) {
     const PathTemplate path(text);
     if (path.has_frame())
-      throw UsageError(fmt::format("'{}' is one file for the whole run: it cannot hold {{frame}}", text));
+      throw UsageError(fmt::format("'{}' is one file for the whole run: it cannot contain {{frame}}", text));
     return path.path(scene.name, 0, 1);
   };
   RunOptions options;
@@ -60,9 +60,9 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
 
 void add_file_limit(CLI::App& command, std::string& max_size, std::string& keep) {
   command.add_option("--max-size", max_size,
-                     "5MB: make a film's pictures smaller, then fewer, until it has no more bytes; also kB, GB, kiB, "
-                     "MiB, GiB");
-  command.add_option("--keep", keep, "size or rate: what --max-size leaves as it is, so that the other gives")
+                     "Size limit for films, such as 5MB (or kB, GB, kiB, MiB, GiB): makes pictures smaller, then "
+                     "fewer, until the film fits");
+  command.add_option("--keep", keep, "What --max-size keeps, at the cost of the other: size or rate")
       ->check(CLI::IsMember({"size", "rate"}));
 }
 
@@ -72,13 +72,13 @@ void require_a_film(const std::string& option, const std::vector<std::string>& o
     return format != nullptr && format->drawn() && !format->file_per_frame();
   };
   if (std::ranges::any_of(outputs, is_film)) return;
-  throw UsageError(option + " is for films, and no -o is one, such as .gif, .webp or .mp4");
+  throw UsageError(option + " needs a film, and no -o is one; films are .gif, .webp, .mp4 and the like");
 }
 
 std::optional<FileLimit> parse_file_limit(const std::string& max_size, const std::string& keep,
                                           const std::vector<std::string>& outputs) {
   if (max_size.empty() && keep.empty()) return std::nullopt;
-  if (max_size.empty()) throw UsageError("--keep " + keep + " is for a film that must fit: give --max-size, too");
+  if (max_size.empty()) throw UsageError("--keep " + keep + " needs --max-size");
   require_a_film("--max-size", outputs);
   return FileLimit{.bytes = parse_byte_count("--max-size", max_size),
                    .keeps = keep == "size"   ? FilmKeeps::size
@@ -90,25 +90,24 @@ void add_shared_options(CLI::App& command, RunArguments& arguments, const char* 
   command.add_option("SCENE", arguments.scenes, scenes);
   const auto one_each = [](CLI::Option* option) { option->allow_extra_args(false); };
   one_each(
-      command.add_option("--set", arguments.overrides, "key.path=value: replaces a value of the scene; repeatable"));
+      command.add_option("--set", arguments.overrides, "Override a value of the scene: key.path=value; repeatable"));
   command.add_option("--steps", arguments.steps, "Simulate this many steps instead of the scene's duration")
       ->check(whole_number_in({0, 1e9}));
-  command.add_option("--frames", arguments.frames, "A..B: only these frames of the film");
-  command.add_option(
-      "--every", arguments.every,
-      "N: a frame after every N steps, instead of as [video] fps and speed say, and in a .drape, which has "
-      "every step otherwise, as many; frames: in a .drape only what the film's frames need");
+  command.add_option("--frames", arguments.frames, "Only these frames of the film: A..B");
+  command.add_option("--every", arguments.every,
+                     "N: a frame after every N steps instead of by [video] fps and speed; a .drape stores every step "
+                     "by default, and with N every Nth. frames: store only what the film's frames need in a .drape");
   command
       .add_option("--checkpoint", arguments.checkpoint_seconds,
-                  "Seconds of work that are lost at most where a run that writes a .drape is killed")
+                  "Interval between checkpoints of a .drape: the most work lost if the run is killed, in s")
       ->check(number_in({.minimum = 0}))
       ->default_str("60");
   command.add_option("--resume", arguments.resume,
-                     "MOTION.drape: goes on with a run that was interrupted or killed, to the same bits; what -o asks "
-                     "for is made of the whole motion then");
-  command.add_option("--stats", arguments.records.stats, "Write the run's figures to a JSON file");
+                     "Resume an interrupted or killed run that writes this motion, with the same bits; -o then makes "
+                     "outputs of the whole motion");
+  command.add_option("--stats", arguments.records.stats, "Write statistics of the run to a JSON file");
   command.add_option("--energies", arguments.records.energies, "Write the energies of every step to a CSV file");
-  command.add_option("--positions", arguments.records.positions, "Write the last positions to a CSV file");
+  command.add_option("--positions", arguments.records.positions, "Write the final positions to a CSV file");
   command.add_option("--trace", arguments.records.trace,
                      "Write iterations, residual and time of every step to a CSV file");
   command.add_flag("--step-by-step", arguments.step_by_step, "Pause after each step and print its energies");
@@ -116,11 +115,12 @@ void add_shared_options(CLI::App& command, RunArguments& arguments, const char* 
 
 void add_outputs(CLI::App& command, RunArguments& arguments, const std::string& usage, bool drawn) {
   command
-      .add_option("-o,--output", arguments.outputs,
-                  fmt::format("Where to, and by the extension in which form; {}.\nWhat ends early, by Ctrl-C or a "
-                              "diverging motion, becomes NAME.partial.EXT; of a .drape, "
-                              "NAME.drape.partial, which --resume goes on with.\n{}",
-                              usage, output_help(drawn)))
+      .add_option(
+          "-o,--output", arguments.outputs,
+          fmt::format(
+              "Output file; its extension selects the format ({}).\nA run that ends early, by Ctrl-C or divergence, "
+              "writes NAME.partial.EXT instead, and for a .drape NAME.drape.partial, which --resume continues.\n{}",
+              usage, output_help(drawn)))
       ->allow_extra_args(false);
 }
 

@@ -60,7 +60,7 @@ void require_no_drawing(const std::vector<std::string>& outputs) {
   for (const std::string& path : outputs) {
     const OutputFormat* format = find_format(path);
     if (format == nullptr || !format->drawn()) continue;
-    throw UsageError(fmt::format("drape simulate draws nothing, and -o {} must be drawn: use drape render", path));
+    throw UsageError(fmt::format("drape simulate draws nothing, but -o {} has to be drawn: use drape render", path));
   }
 }
 
@@ -123,8 +123,8 @@ void require_something_to_make(const RunArguments& arguments) {
   if (!arguments.outputs.empty()) return;
   if (arguments.overrides.empty() && !arguments.steps && arguments.frames.empty() && arguments.every.empty()) return;
   throw UsageError(
-      fmt::format("--resume {} goes on as the run began; --set, --steps, --frames and --every say what is made of the "
-                  "whole motion, and no -o is there",
+      fmt::format("--resume {} continues the run as it began; --set, --steps, --frames and --every apply to outputs of "
+                  "the whole motion, and there is no -o",
                   arguments.resume));
 }
 
@@ -146,7 +146,7 @@ ExitCode make_of_motion(const std::string& file, const RunArguments& arguments, 
 ExitCode go_on(const RunArguments& arguments, const CommonOptions& common) {
   if (!arguments.scenes.empty()) {
     throw UsageError(
-        fmt::format("--resume {} goes on with the run of its scene, and takes no SCENE", arguments.resume));
+        fmt::format("--resume {} continues the run of its own scene, and takes no SCENE", arguments.resume));
   }
   require_something_to_make(arguments);
   const std::string file = motion_to_resume(arguments.resume);
@@ -181,7 +181,7 @@ std::vector<SceneToRun> load_all(const RunArguments& arguments) {
   std::string problems;
   for (const std::string& file : arguments.scenes) {
     if (is_motion_file(file) && !arguments.drawing) {
-      throw UsageError(fmt::format("{} is a motion already: drape render draws it, drape simulate computes one", file));
+      throw UsageError(fmt::format("{} is already a motion: use drape render to draw it", file));
     }
     try {
       all.push_back(open_scene(file, arguments.overrides, arguments.look));
@@ -227,14 +227,16 @@ ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
 void add_run_commands(CLI::App& app, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<RunArguments>();
 
-  CLI::App* render = app.add_subcommand("render", "Simulate scenes and draw them into films, or draw motions");
+  CLI::App* render =
+      app.add_subcommand("render", "Simulate scenes and render them into films, or render recorded motions");
   add_outputs(*render, *arguments, "repeatable; default out/{scene}.gif", true);
   render->add_option("--sheet", arguments->sheet, sheet_help);
   add_backend_option(*render, arguments->backend);
   add_file_limit(*render, arguments->max_size, arguments->keep);
-  render->add_flag("--poster", arguments->poster, "Put FILM.poster.png beside each film: the frame that shows most");
-  add_shared_options(*render, *arguments, "Scene files (TOML), or motions (.drape) that drape simulate has computed");
-  render->add_option("--scene", arguments->look, "Draws motions with the camera, look and film of this scene");
+  render->add_flag("--poster", arguments->poster,
+                   "Also write FILM.poster.png beside each film: its most telling frame");
+  add_shared_options(*render, *arguments, "Scene files (TOML), or motions (.drape) recorded by drape simulate");
+  render->add_option("--scene", arguments->look, "Render motions with the camera, look and film of this scene");
   render->callback([arguments, &common, &command] {
     if (arguments->outputs.empty())
       arguments->outputs = {arguments->sheet.empty() ? "out/{scene}.gif" : "out/{scene}.png"};

@@ -23,9 +23,9 @@ ExitCode run_scaling(const ScalingArguments& arguments, const CommonOptions& com
 void add_scaling_study(CLI::App& study, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<ScalingArguments>();
   CLI::App* sub = study.add_subcommand("scaling", "Measure how time and memory grow with the cloth");
-  sub->add_option("--largest", arguments->options.largest, "Cells along a side of the largest grid; default 80")
+  sub->add_option("--largest", arguments->options.largest, "Cells per side of the largest grid; default 80")
       ->check(whole_number_in({10, 10000}));
-  sub->add_option("--runs", arguments->options.runs, "Timed runs of every case; default 5")
+  sub->add_option("--runs", arguments->options.runs, "Timed runs per case; default 5")
       ->check(whole_number_in({1, 1000}));
   sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/scaling");
   sub->callback(

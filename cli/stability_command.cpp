@@ -21,9 +21,10 @@ void add_stability_study(CLI::App& study, const CommonOptions& common, Command& 
   auto detail = std::make_shared<StabilityDetail>();
   CLI::App* stability = study.add_subcommand("stability", "Map where each method is stable, converges or blows up");
   stability->add_option("-o,--output", *folder, "Folder for the results; default out/stability");
-  stability->add_option("--per-decade", detail->per_decade, "Steps and stiffnesses in a factor of ten; default 3")
+  stability->add_option("--per-decade", detail->per_decade, "Time steps and stiffnesses per factor of ten; default 3")
       ->check(whole_number_in({1, 20}));
-  stability->add_option("--steps", detail->steps, "Of every run; default 100")->check(whole_number_in({1, 100000}));
+  stability->add_option("--steps", detail->steps, "Steps of every run; default 100")
+      ->check(whole_number_in({1, 100000}));
   stability->callback([folder, detail, &common, &command] {
     command = [folder, detail, &common] { return run_stability(*folder, *detail, common); };
   });

@@ -16,7 +16,7 @@ constexpr int poll_milliseconds = 100;  // how soon an interruption is noticed
 
 }  // namespace
 
-void StepByStep::begin(const Simulation&) { print_text(stdout, "Enter for the next step, q to stop.\n"); }
+void StepByStep::begin(const Simulation&) { print_text(stdout, "Press Enter for the next step, q to stop.\n"); }
 
 void StepByStep::after_step(const Simulation& simulation, const StepReport& report, double seconds) {
   const Energies e = simulation.energies();
@@ -26,8 +26,8 @@ void StepByStep::after_step(const Simulation& simulation, const StepReport& repo
     text += fmt::format(", {} iterations{}", report.iterations, report.converged ? "" : " (not converged)");
   }
   if (report.estimate) {
-    text += fmt::format(", {} substeps, an error of about {}{}", report.substeps, readable_length(*report.estimate),
-                        report.converged ? "" : ", more than asked");
+    text += fmt::format(", {} substeps, estimated error {}{}", report.substeps, readable_length(*report.estimate),
+                        report.converged ? "" : ", above the requested accuracy");
   }
   print_text(stdout, text + fmt::format(", {:.1f} µs\n", 1e6 * seconds));
   wait_for_line();

@@ -27,10 +27,10 @@ ExitCode run_homework(const HomeworkArguments& arguments, const CommonOptions& c
 
 void add_homework_study(CLI::App& study, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<HomeworkArguments>();
-  CLI::App* homework = study.add_subcommand("homework", "Measure the homework's tables again, beside its report");
+  CLI::App* homework =
+      study.add_subcommand("homework", "Measure the homework's tables again and compare with its report");
   homework->add_option("-o,--output", arguments->folder, "Folder for the results; default out/homework");
-  homework->add_option("--runs", arguments->runs, "Timed runs of every case; default 5")
-      ->check(whole_number_in({1, 1000}));
+  homework->add_option("--runs", arguments->runs, "Timed runs per case; default 5")->check(whole_number_in({1, 1000}));
   homework->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_homework(*arguments, common); }; });
 }
@@ -43,7 +43,7 @@ ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& com
   std::optional<StudyReport> report;
   run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) { report = measure(stop, progress); });
   if (!report) {
-    spdlog::error("interrupted; there is no report");
+    spdlog::error("interrupted: no report was written");
     return ExitCode::interrupted;
   }
   const std::string problem = write_report(*report, folder);
@@ -55,7 +55,8 @@ ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& com
 }
 
 void add_study_command(CLI::App& app, const CommonOptions& common, Command& command) {
-  CLI::App* study = app.add_subcommand("study", "Measure what accuracy costs, and write tables, diagrams and a page");
+  CLI::App* study =
+      app.add_subcommand("study", "Measure accuracy, cost and stability; writes tables, diagrams and a page");
   study->require_subcommand(1);
   add_homework_study(*study, common, command);
   add_accuracy_study(*study, common, command);

@@ -40,7 +40,7 @@ std::string describe(const Scene& scene, const RunOptions& options) {
   const std::int64_t steps = options.steps.value_or(scene.step_count());
   if (options.recorded) {
     const MotionReader& motion = *options.recorded;
-    return fmt::format("{}: the motion of {}, {} vertices, {} steps of {:g} s ({:g} s), {} states of them",
+    return fmt::format("{}: motion of {}, {} vertices, {} steps of {:g} s ({:g} s), {} states stored",
                        scene.file.string(), motion.header().name, motion.header().vertices, motion.last_step(), s.step,
                        static_cast<double>(motion.last_step()) * s.step, motion.states());
   }
@@ -54,7 +54,8 @@ std::string describe(const Scene& scene, const RunOptions& options) {
 std::string effect_shares(const Statistics& statistics) {
   std::string text;
   for (const auto& [name, share] : statistics.effects()) {
-    text += fmt::format("{}{} {:.1f} %", text.empty() ? "of the steps' time: " : ", ", name, 100 * share.value_or(0));
+    text +=
+        fmt::format("{}{} {:.1f} %", text.empty() ? "share of the step time: " : ", ", name, 100 * share.value_or(0));
   }
   return text.empty() ? "no effects" : text;
 }
@@ -74,11 +75,11 @@ std::string describe_end(const RunResult& result, const std::string& resume) {
                         result.frames_wanted);
   }
   if (motion) {
-    text += fmt::format("; {} has what there is of the motion", result.motion->growing);
-    if (!resume.empty()) text += fmt::format(", and {} goes on", resume);
+    text += fmt::format("; {} has the motion so far", result.motion->growing);
+    if (!resume.empty()) text += fmt::format(", and {} continues it", resume);
   }
   if (!result.records.empty()) {
-    text += fmt::format("; {} up to there", fmt::join(result.records, ", "));
+    text += fmt::format("; {} written up to that point", fmt::join(result.records, ", "));
   }
   return text;
 }
@@ -87,15 +88,15 @@ std::vector<std::string> doubts(const RunResult& result) {
   const Exactness& exactness = result.statistics.exactness();
   const char* remedy =
       exactness.asked()
-          ? "ask for a smaller [time] accuracy"
-          : "leave [integrator] tolerance and stop out with method = \"quasi-newton\", or take a smaller tolerance";
+          ? "use a smaller [time] accuracy"
+          : "omit [integrator] tolerance and stop with method = \"quasi-newton\", or use a smaller tolerance";
   std::vector<std::string> found;
   if (exactness.coarse()) {
-    found.push_back(fmt::format("the steps were solved to about {}, more than a hundredth of the cloth's size: {}",
+    found.push_back(fmt::format("the steps were solved only to about {}, more than a hundredth of the cloth's size: {}",
                                 readable_length(exactness.errors()->mean), remedy));
   }
   if (const auto& unbalanced = exactness.unbalanced(); unbalanced && unbalanced->notable()) {
-    found.push_back(fmt::format("the cloth stands still with {}, so this is no equilibrium: {}",
+    found.push_back(fmt::format("the cloth is at rest with {}, so this is not an equilibrium: {}",
                                 out_of_balance(*unbalanced), remedy));
   }
   return found;
@@ -122,7 +123,7 @@ std::string of_steps(const Statistics& s) {
   if (asked) {
     text += fmt::format(", {:.3g} substeps each (at most {})", s.mean_substeps(), s.max_substeps());
     if (s.not_converged() > 0) {
-      text += fmt::format(", {} steps less accurate than {}", s.not_converged(), readable_length(*asked));
+      text += fmt::format(", {} steps missed {}", s.not_converged(), readable_length(*asked));
     }
   }
   if (s.mean_iterations() > 0) {
@@ -132,13 +133,13 @@ std::string of_steps(const Statistics& s) {
     }
   }
   if (const auto errors = s.exactness().errors()) {
-    text += fmt::format(", an error of about {} a step, estimated (at most {})", readable_length(errors->mean),
+    text += fmt::format(", estimated error {} per step (at most {})", readable_length(errors->mean),
                         readable_length(errors->largest));
   }
   if (const auto& unbalanced = s.exactness().unbalanced()) {
-    text += fmt::format(", stands still with {}", out_of_balance(*unbalanced));
+    text += fmt::format(", at rest with {}", out_of_balance(*unbalanced));
   }
-  text += fmt::format(", {} a step (median {})\n", duration(1e-6 * s.mean_microseconds()),
+  text += fmt::format(", {} per step (median {})\n", duration(1e-6 * s.mean_microseconds()),
                       duration(1e-6 * s.median_microseconds()));
   return text + fmt::format("simulate {}", duration(s.total_seconds()));
 }

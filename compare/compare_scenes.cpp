@@ -218,16 +218,16 @@ FilmInfo comparison_info(const std::vector<Scene>& scenes, const CompareOptions&
 }
 
 void require_comparison(const std::vector<Scene>& scenes, const CompareOptions& options) {
-  if (scenes.size() < 2) throw UsageError("drape compare needs two motions at least");
+  if (scenes.size() < 2) throw UsageError("drape compare needs at least two motions");
   for (const std::string& path : outputs_that(false, options)) {
     if (!format_of(path).drawn()) {
-      throw UsageError(fmt::format("drape compare draws pictures, and -o {} holds none", path));
+      throw UsageError(fmt::format("drape compare draws pictures, but -o {} has none", path));
     }
   }
   const int vertices = scenes.front().simulation.cloth.vertex_count();
   for (const Scene& scene : scenes) {
     if (!options.difference || scene.simulation.cloth.vertex_count() == vertices) continue;
-    throw UsageError(fmt::format("--difference compares vertex by vertex: {} has {} of them, {} has {}",
+    throw UsageError(fmt::format("--difference compares vertex by vertex, but {} has {} vertices and {} has {}",
                                  scenes.front().file.string(), vertices, scene.file.string(),
                                  scene.simulation.cloth.vertex_count()));
   }

@@ -22,12 +22,12 @@ Markup films(const CompareResult& result, const std::vector<PageMoment>& moments
   for (const PageMoment& moment : moments) shown.push_back({fmt::format("t = {:.2f} s", moment.time), moment.pictures});
   Markup content = html::film("film", names, shown);
   if (!bar.empty()) content += html::figure(html::picture("image/png", bar, "What the colours mean"), {});
-  return html::section(2, "motions", "The motions in step", content);
+  return html::section(2, "motions", "The motions side by side", content);
 }
 
 Markup differences_table(const CompareResult& result) {
-  if (result.differences.empty()) return html::paragraph("They differ in nothing that a scene can say.");
-  html::Table table{"Keys in which they differ", {{"key"}}, {}};
+  if (result.differences.empty()) return html::paragraph("The scenes are the same.");
+  html::Table table{"Keys that differ", {{"key"}}, {}};
   for (const ComparedMotion& motion : result.motions) table.columns.push_back({motion.label});
   for (const KeyDifference& difference : result.differences) {
     std::vector<Markup> cells{html::code(difference.key)};
@@ -50,10 +50,10 @@ Markup figures_table(const CompareResult& result) {
   html::Table table{"Figures of the motions",
                     {{"motion"},
                      {"steps", true},
-                     {"iterations a step", true},
-                     {"µs a step", true},
+                     {"iterations per step", true},
+                     {"µs per step", true},
                      {"energy at the end [J]", true},
-                     {"farthest from the first", true},
+                     {"largest distance from the first", true},
                      {"mean distance at the end", true}},
                     {}};
   for (const ComparedMotion& motion : result.motions) {
@@ -69,8 +69,8 @@ Markup figures_table(const CompareResult& result) {
                           length(motion.mean.back())});
   }
   return html::table(table) + html::note(
-                                  "The times are medians of a run with all motions at once: compare them with drape "
-                                  "study. A motion that was "
+                                  "Times are medians of one run of all motions at once; measure them properly with "
+                                  "drape study. A motion that was "
                                   "read from a file has none.");
 }
 
@@ -93,10 +93,10 @@ Markup lines(const CompareResult& result, const std::string& title, const std::s
 }
 
 Markup curves(const CompareResult& result) {
-  const Markup energy = lines(result, "The total energy over time", "total energy [J]",
+  const Markup energy = lines(result, "Total energy over time", "total energy [J]",
                               [](const ComparedMotion& m, std::size_t k) { return std::optional(m.total_energy[k]); });
   const Markup distance = lines(
-      result, "The mean distance of the vertices to the first motion's", "mean distance [m]",
+      result, "Mean distance of the vertices from those of the first motion", "mean distance [m]",
       [&](const ComparedMotion& m, std::size_t k) { return &m == &result.motions.front() ? std::nullopt : m.mean[k]; });
   return energy + distance;
 }
@@ -119,9 +119,9 @@ std::string comparison_page(const CompareResult& result, const std::vector<PageM
   page.title = "drape compare";
   page.kind = "drape compare";
   page.heading = fmt::format("{} motions side by side", result.motions.size());
-  page.introduction = html::findings(found) + html::command("Make it again", command);
+  page.introduction = html::findings(found) + html::command("Reproduce this page", command);
   page.content = films(result, moments, bar) + html::section(2, "figures", "Figures", figures_table(result)) +
-                 html::section(2, "differences", "In what they differ", differences_table(result)) +
+                 html::section(2, "differences", "Differences", differences_table(result)) +
                  html::section(2, "curves", "Over time", curves(result));
   page.foot = html::provenance();
   return html::render(page);

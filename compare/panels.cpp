@@ -65,7 +65,8 @@ Image PanelColors::bar(Pen& pen, int width, int size) const {
     return color_bar(pen, width, size, measures_.front().title(), scale_->marks(measures_.front().factor()));
   }
   const auto [unit, count] = unit_of(scale_->limit());
-  return color_bar(pen, width, size, fmt::format("distance to the first, {} [{}]", first_, unit), scale_->marks(count));
+  return color_bar(pen, width, size, fmt::format("distance from the first, {} [{}]", first_, unit),
+                   scale_->marks(count));
 }
 
 PanelLayout::PanelLayout(Pen& pen, const std::vector<std::string>& labels, const Eigen::Vector2i& panel, int columns,
@@ -79,7 +80,7 @@ PanelLayout::PanelLayout(Pen& pen, const std::vector<std::string>& labels, const
   if (columns_ == 0) columns_ = count <= 3 ? count : static_cast<int>(std::ceil(std::sqrt(count)));
   if (rows_ == 0) rows_ = (count + columns_ - 1) / columns_;
   if (columns_ * rows_ < count) {
-    throw UsageError(fmt::format("--grid {}x{} has {} places, and {} motions are compared", columns_, rows_,
+    throw UsageError(fmt::format("--grid {}x{} has {} places, but {} motions are compared", columns_, rows_,
                                  columns_ * rows_, count));
   }
   for (const std::string& label : labels) {

@@ -106,7 +106,7 @@ double memory_left(const fs::path& root) {
 void require_memory(const std::string& what, double bytes, const std::string& remedy) {
   const double left = memory_left();
   if (bytes <= left) return;
-  throw UsageError(fmt::format("{} would take {:.2f} GB of memory, and {:.2f} GB are left: {}", what, bytes / 1e9,
+  throw UsageError(fmt::format("{} would take {:.2f} GB of memory, but {:.2f} GB are left: {}", what, bytes / 1e9,
                                left / 1e9, remedy));
 }
 

@@ -31,10 +31,10 @@ BlockReader::BlockReader(std::filesystem::path file, const std::string& magic, c
   size_ = std::min(limit, static_cast<std::uint64_t>(status.st_size));
   const std::string begin = bytes(0, std::min<std::uint64_t>(magic.size(), size_));
   const std::string name = magic.substr(0, magic.find_last_of(' ') + 1);
-  if (!begin.starts_with(name)) fail(fmt::format("this is no {} of drape's", what));
+  if (!begin.starts_with(name)) fail(fmt::format("this is not a drape {}", what));
   if (begin == magic) return;
   const std::string version = begin.substr(name.size(), begin.find('\n') - name.size());
-  fail(fmt::format("this is a {} of version {}, and this drape reads version {}", what, escape_controls(version),
+  fail(fmt::format("this {} has version {}, but this drape reads version {}", what, escape_controls(version),
                    magic.substr(name.size(), magic.size() - name.size() - 1)));
 }
 

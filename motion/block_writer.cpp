@@ -43,7 +43,7 @@ void remove_unless_written(const std::filesystem::path& file) {
 
 BlockWriter::BlockWriter(std::filesystem::path file, std::string_view magic)
     : file_(std::move(file)), descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) {
-  if (descriptor_ < 0 && errno == EEXIST) throw UsageError(fmt::format("{} is there already", file_.string()));
+  if (descriptor_ < 0 && errno == EEXIST) throw UsageError(fmt::format("{} already exists", file_.string()));
   if (descriptor_ < 0) fail(errno);
   lock_blocks(descriptor_, file_);
   write(magic);

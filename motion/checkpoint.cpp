@@ -96,11 +96,11 @@ std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double ste
 Resumption read_resumption(const fs::path& file) {
   const fs::path growing = growing_name(file), checkpoint = checkpoint_name(file);
   if (!fs::exists(growing)) {
-    throw UsageError(fmt::format("{}: there is nothing to go on with: no {}", file.string(), growing.string()));
+    throw UsageError(fmt::format("{}: nothing to resume: no {}", file.string(), growing.string()));
   }
   if (!fs::exists(checkpoint)) {
-    throw UsageError(fmt::format("{}: there is nothing in it to go on with, as there is no {}: simulate anew",
-                                 growing.string(), checkpoint.string()));
+    throw UsageError(fmt::format("{}: cannot be resumed, because there is no {}: simulate again", growing.string(),
+                                 checkpoint.string()));
   }
   const BlockReader blocks(checkpoint, checkpoint_magic, "checkpoint");
   try {

@@ -48,8 +48,9 @@ MotionScene::MotionScene(const MotionReader& motion) : folder_(new_folder()) {
       throw UsageError(motion.file().string() + ": the file's scene has another cloth than its motion");
     }
     if (physics_hash(physics_values(scene_)) != header.physics) {
-      throw UsageError(fmt::format("{}: this drape reads its scene otherwise than drape {}, which computed the motion",
-                                   motion.file().string(), header.program));
+      throw UsageError(
+          fmt::format("{}: this drape interprets its scene differently from drape {}, which computed the motion",
+                      motion.file().string(), header.program));
     }
   } catch (...) {
     std::error_code ignored;
@@ -69,8 +70,8 @@ void require_same_physics(const std::string& motion, const Scene& scene, const S
   const std::string difference = physics_difference(physics_values(scene), physics_values(other), name);
   if (difference.empty()) return;
   throw UsageError(
-      fmt::format("{} holds another motion than {} would give: simulate anew, or leave these as they are\n{}", motion,
-                  name, difference));
+      fmt::format("{} is a different motion from what {} gives: simulate again, or leave these values unchanged\n{}",
+                  motion, name, difference));
 }
 
 }  // namespace drape

@@ -51,7 +51,7 @@ void require_not_growing(const fs::path& file) {
   const fs::path growing = growing_name(file);
   if (!fs::exists(growing) || !fs::exists(checkpoint_name(file))) return;
   throw UsageError(fmt::format(
-      "{} is there, of a run that goes on or ended early: drape simulate --resume {} completes it; to begin anew, "
+      "{} exists, from a run in progress or ended early: drape simulate --resume {} completes it; to start over, "
       "remove it",
       growing.string(), file.string()));
 }

@@ -13,10 +13,10 @@ namespace {
 
 double rate_of_animation(const std::filesystem::path& file, double fps) {
   if (fps >= 0.01 && fps <= 90) return fps;
-  throw UsageError(fmt::format(
-      "cannot write {} at {} frames per second: an animated picture has 0.01 to 90, because browsers slow down frames "
-      "of ten milliseconds or less; choose another fps, or write .mp4 or .webm",
-      file.string(), fps));
+  throw UsageError(
+      fmt::format("cannot write {} at {} frames per second: an animated picture takes 0.01 to 90, because browsers "
+                  "slow down frames of ten milliseconds or less; choose another fps, or write .mp4 or .webm",
+                  file.string(), fps));
 }
 
 OutputFormat animation_format(const std::string& form, const std::string& help) {
@@ -72,11 +72,9 @@ std::vector<OutputFile> AnimationEncoder::finish(Ending ending) {
 }
 
 OutputFormat webp_format() {
-  return animation_format("webp", "an animation that repeats for ever, of all colours, half a GIF's size");
+  return animation_format("webp", "looping animation in full colour, half the size of a GIF");
 }
 
-OutputFormat apng_format() {
-  return animation_format("apng", "an animation that repeats for ever, of exactly the pixels that were drawn");
-}
+OutputFormat apng_format() { return animation_format("apng", "looping animation with exactly the drawn pixels"); }
 
 }  // namespace drape

@@ -126,7 +126,7 @@ void FittedFilm::fail(const Trial& smallest) const {
   throw OutputError(
       fmt::format("cannot write {} with at most {} bytes: with {} it still has {}; {}", file_.file().string(),
                   limit_.bytes, given_up.empty() ? "all that it has to keep" : given_up, smallest.bytes,
-                  limit_.keeps == FilmKeeps::nothing ? "take fewer frames, with --frames" : "leave --keep out"));
+                  limit_.keeps == FilmKeeps::nothing ? "use fewer frames, with --frames" : "omit --keep"));
 }
 
 std::vector<OutputFile> FittedFilm::finish(Ending ending) {

@@ -18,13 +18,13 @@ namespace {
 double checked_rate(const std::filesystem::path& file, double fps) {
   if (fps > 50) {
     throw UsageError(fmt::format(
-        "cannot write {} at {} frames per second: the most a GIF can play is 50, because it counts in hundredths of a "
+        "cannot write {} at {} frames per second: a GIF can play at most 50, because it counts in hundredths of a "
         "second and browsers slow down frames shorter than two; choose fps = 50 or less, or write .mp4 or .webm",
         file.string(), fps));
   }
   if (!(fps >= 0.01)) {
     throw UsageError(
-        fmt::format("cannot write {} at {} frames per second: the least of a GIF is 0.01", file.string(), fps));
+        fmt::format("cannot write {} at {} frames per second: a GIF can play at least 0.01", file.string(), fps));
   }
   return fps;
 }
@@ -67,7 +67,7 @@ void GifEncoder::encode() {
 
 OutputFormat gif_format() {
   return {.extension = ".gif",
-          .help = "an animation that repeats for ever, of at most 50 frames per second",
+          .help = "looping animation, at most 50 frames per second",
           .made_by = {},
           .packages = "libopencv-dev",  // reads it back
           .make = FilmMaker<Image>([](const std::filesystem::path& file, const FilmInfo& film) {

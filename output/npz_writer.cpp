@@ -126,7 +126,7 @@ std::vector<OutputFile> NpzWriter::finish(Ending ending) {
 
 OutputFormat npz_format() {
   return {.extension = ".npz",
-          .help = "the motion as numpy's arrays: positions, velocities, faces, times, energies and more",
+          .help = "the motion as numpy arrays: positions, velocities, faces, times, energies and more",
           .made_by = {},
           .packages = {},
           .make = FilmMaker<Frame>([](const std::filesystem::path& file, const FilmInfo& film) {

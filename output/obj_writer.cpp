@@ -44,7 +44,7 @@ std::function<std::string(const Frame&)> obj_writer(const FilmInfo& film) {
 
 OutputFormat obj_format() {
   return {.extension = ".obj",
-          .help = "the cloth as a Wavefront mesh [m, z up]; spheres and ground are left out",
+          .help = "the cloth as a Wavefront mesh [m, z up], without spheres and ground",
           .made_by = {},
           .packages = {},
           .make = FrameMaker<Frame>(obj_writer)};

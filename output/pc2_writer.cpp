@@ -42,7 +42,7 @@ std::vector<OutputFile> Pc2Writer::finish(Ending ending) {
 
 OutputFormat pc2_format() {
   return {.extension = ".pc2",
-          .help = "the motion as a point cache for Blender's Mesh Cache [m, z up], with an .obj beside",
+          .help = "the motion as a point cache for Blender's Mesh Cache [m, z up], plus an .obj",
           .made_by = {},
           .packages = {},
           .make = FilmMaker<Frame>([](const std::filesystem::path& file, const FilmInfo& film) {

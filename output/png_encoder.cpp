@@ -25,7 +25,7 @@ std::string encode_png(const Image& image) {
 
 OutputFormat png_format() {
   return {.extension = ".png",
-          .help = "a picture",
+          .help = "picture",
           .made_by = "OpenCV " + cv::getVersionString(),
           .packages = "libopencv-dev",
           .make = FrameMaker<Image>([](const FilmInfo&) {

@@ -37,7 +37,7 @@ const std::vector<OutputFormat>& output_formats() {
       vtp_format(),   //
       pc2_format(),   //
       {.extension = ".drape",
-       .help = "the motion itself, to draw it in any way later and to go on after Ctrl-C",
+       .help = "the motion itself, to draw later in any way and to resume after Ctrl-C",
        .made_by = {},
        .packages = {},
        .make = OfSteps{}},

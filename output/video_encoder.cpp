@@ -22,8 +22,8 @@ double checked_rate(const std::filesystem::path& file, double fps) {
 
 /// @param codecs in the order to try
 OutputFormat video_format(const std::string& extension, const std::vector<VideoCodec>& codecs) {
-  std::string help = "a video, ";
-  for (const VideoCodec& codec : codecs) help += (&codec == &codecs.front() ? "" : " or else ") + codec.name;
+  std::string help = "video, ";
+  for (const VideoCodec& codec : codecs) help += (&codec == &codecs.front() ? "" : " or ") + codec.name;
   return {.extension = extension,
           .help = help,
           .made_by = "OpenCV " + cv::getVersionString(),

@@ -184,7 +184,7 @@ OutputFormat vtp_format() {
 }
 
 OutputFormat pvd_format() {
-  OutputFormat format = vtk_format(".pvd", "the motion for ParaView, with its .vtp files in a folder beside",
+  OutputFormat format = vtk_format(".pvd", "the motion for ParaView, plus a folder of .vtp files",
                                    FilmMaker<Frame>([](const std::filesystem::path& file, const FilmInfo& film) {
                                      return std::make_unique<PvdWriter>(file, film);
                                    }));

@@ -63,7 +63,7 @@ std::string format_field(const FieldValue& value, const std::string& format) {
   throw std::invalid_argument(
       fmt::format("unknown format '{}'; {}", format,
                   std::holds_alternative<std::string>(value)
-                      ? "a word takes a width at most, as in ':>12'"
+                      ? "text takes only a width, as in ':>12'"
                       : "a number takes one like ':.2f', ':.1e', ':.3g', ':6.1f' or, if it is whole, ':04'"));
 }
 
@@ -79,11 +79,11 @@ TextTemplate::TextTemplate(std::string_view text) {
     } else if (i + 1 < text.size() && text[i + 1] == text[i]) {
       plain += text[i++];
     } else if (text[i] == '}') {
-      throw std::invalid_argument("there is a '}' without its '{'; a brace that is meant is written '}}'");
+      throw std::invalid_argument("there is a '}' without its '{'; write '}}' for a brace");
     } else {
       const std::size_t end = text.find_first_of("{}", i + 1);
       if (end == std::string_view::npos || text[end] == '{') {
-        throw std::invalid_argument(fmt::format("'{}' has no '}}'; a brace that is meant is written '{{{{'",
+        throw std::invalid_argument(fmt::format("'{}' has no '}}'; write '{{{{' for a brace",
                                                 text.substr(i, std::min<std::size_t>(text.size() - i, 24))));
       }
       const std::string_view field = text.substr(i + 1, end - i - 1);

@@ -44,7 +44,7 @@ void require_size(const std::filesystem::path& file, int width, int height, int 
   // smaller levels.
   constexpr double bytes_per_pixel = 3 + 1.5 * (12 + 6);
   require_memory(fmt::format("the texture {} of {}x{} pixels", file.string(), width, height),
-                 bytes_per_pixel * width * height, "take a smaller picture");
+                 bytes_per_pixel * width * height, "use a smaller picture");
 }
 
 std::string read_bytes(const std::filesystem::path& file) {

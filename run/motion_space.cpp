@@ -33,7 +33,7 @@ fs::path folder_there(const fs::path& file) {
 }  // namespace
 
 std::string MotionSpace::text(const std::string& file) const {
-  return fmt::format("{} will take about {} ({} at most), and {} are free there", file, size_text(expected),
+  return fmt::format("{} will take about {} (at most {}), and {} are free there", file, size_text(expected),
                      size_text(most), size_text(free));
 }
 
@@ -62,8 +62,9 @@ void require_motion_file(const MotionOptions& options, const MotionSpace& space,
     require_not_growing(options.path);
   }
   if (space.expected <= space.free) return;
-  throw UsageError(space.text(options.path) +
-                   ": make room, or take fewer states with --every frames or --every N, or a shorter [time] duration");
+  throw UsageError(
+      space.text(options.path) +
+      ": free some space, or store fewer states with --every frames or --every N, or use a shorter [time] duration");
 }
 
 }  // namespace drape

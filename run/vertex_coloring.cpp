@@ -18,7 +18,7 @@ Eigen::VectorXd VertexMeasure::operator()(const Frame& frame) const {
 std::string VertexMeasure::title() const {
   switch (what_) {
     case ColorBy::stretch:
-      return "stretched by [%]";
+      return "stretch [%]";
     case ColorBy::speed:
       return "speed [m/s]";
     case ColorBy::curvature:

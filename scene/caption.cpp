@@ -53,7 +53,7 @@ std::string suggestion(const std::string& name, const std::vector<SceneField>& f
   const auto ends = std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.ends_with("." + name); });
   if (meant.empty() && !name.empty() && ends != names.end()) meant = *ends;
   if (!meant.empty()) return fmt::format("; did you mean '{}'?", meant);
-  return fmt::format("; what changes with time is {}, all else is named as in 'integrator.method'",
+  return fmt::format("; values that change with time are {}; scene keys are written as in 'integrator.method'",
                      quoted_list(moment_fields()));
 }
 

@@ -136,7 +136,7 @@ bool give_material(const ClothTable& table, const TomlValue& value, Cloth& cloth
 /// Complains where a table says its mass or its stiffness twice.
 void check_said_once(const ClothTable& table, const TomlValue& value, Problems& problems) {
   const auto both = [&](const char* one, const char* other) {
-    problems.add(place_of(value, other), fmt::format("{}: '{}' already says it; give only one of them", other, one));
+    problems.add(place_of(value, other), fmt::format("{}: '{}' already sets it; give only one of them", other, one));
   };
   if (says(value, "mass") && table.density) both("mass", "density");
   if (table.stiffness && table.modulus) both("stiffness", "modulus");
@@ -176,7 +176,7 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
     const double furthest = mesh->positions.cwiseAbs().maxCoeff();
     if (furthest <= furthest_place) continue;
     problems.add(place_of(value, mesh == &*start ? "mesh" : "rest"),
-                 fmt::format("{}: a vertex is at {:g} m, and what is further than {:g} m away cannot be computed with",
+                 fmt::format("{}: a vertex is at {:g} m; distances beyond {:g} m cannot be computed with",
                              mesh == &*start ? "mesh" : "rest", furthest, furthest_place));
     return std::nullopt;
   }

@@ -31,8 +31,8 @@ std::filesystem::path data_folder() {
   if (is_folder(source)) return source;
   std::filesystem::path configured = configured_prefix() / installed;
   if (is_folder(configured)) return configured;
-  throw UsageError("no data folder: none is beside the program, and neither " + configured.string() + " nor " +
-                   source.string() + " is one");
+  throw UsageError("no data folder found: none beside the program, and neither " + configured.string() + " nor " +
+                   source.string() + " exists");
 }
 
 }  // namespace drape

@@ -144,7 +144,7 @@ TomlValue value_on_the_way(const std::vector<std::string>& path, std::size_t dep
     const auto initial = std::visit([&](const auto& target) { return default_array(target, place); }, key.target);
     if (!initial) {
       throw UsageError(
-          fmt::format("{0} has no items unless it is given: give all of it, {0}=…", joined(path, depth + 1)));
+          fmt::format("{0} has no items until it is given: set all of it, {0}=…", joined(path, depth + 1)));
     }
     value = *initial;
   });

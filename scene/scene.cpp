@@ -37,11 +37,10 @@ class Checks {
     const double frames = scene_.duration / scene_.video.speed * scene_.video.fps;
     if (!(steps <= most_steps)) {
       add("time", "duration",
-          fmt::format("duration: {:g} s in steps of {:g} s are {:.4g} steps, at most {:g} can be taken",
-                      scene_.duration, scene_.simulation.step, steps, most_steps));
+          fmt::format("duration: {:g} s in steps of {:g} s are {:.4g} steps; the limit is {:g}", scene_.duration,
+                      scene_.simulation.step, steps, most_steps));
     } else if (!(frames <= most_frames)) {
-      add("video", "fps",
-          fmt::format("the film would have {:.4g} frames, at most {:g} can be drawn", frames, most_frames));
+      add("video", "fps", fmt::format("the film would have {:.4g} frames; the limit is {:g}", frames, most_frames));
     }
   }
 
@@ -49,8 +48,8 @@ class Checks {
     const IntegratorSettings& integrator = scene_.simulation.integrator;
     if (integrator.stop != StoppingRule::error || !is_explicit(integrator.method)) return;
     add("integrator", "stop",
-        fmt::format("stop: {} computes a step without solving for it, so there is no error of a solve to stop at; take "
-                    "an implicit method, or leave the key out",
+        fmt::format("stop: {} computes a step without solving for it, so there is no solve error to stop at; use an "
+                    "implicit method, or omit the key",
                     method_name(integrator.method)));
   }
 
@@ -59,7 +58,7 @@ class Checks {
     for (const char* key : {"tolerance", "stop"}) {
       if (find_path(document_, std::string("integrator.") + key) == nullptr) continue;
       add("integrator", key,
-          fmt::format("{}: with an accuracy in [time], that says when a step is solved well enough: leave out one of "
+          fmt::format("{}: an accuracy in [time] already determines when a step is solved well enough: omit one of "
                       "the two",
                       key));
     }
@@ -79,8 +78,8 @@ class Checks {
     const Method method = scene_.simulation.integrator.method;
     if (!is_explicit(method) || find_path(document_, "integrator.scheme") == nullptr) return;
     add("integrator", "scheme",
-        fmt::format("scheme: it is how time advances with an implicit method, and {} is a scheme of its own: leave it "
-                    "out, or take method = \"implicit\", \"liu13\" or \"quasi-newton\"",
+        fmt::format("scheme: it applies to implicit methods, and {} is a scheme of its own: omit it, or use method = "
+                    "\"implicit\", \"liu13\" or \"quasi-newton\"",
                     method_name(method)));
   }
 

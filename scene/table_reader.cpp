@@ -227,7 +227,7 @@ void TableReader::report_unknown(const TomlEntry& entry, const TableType& type,
                                  const std::vector<std::string>& subtables) {
   std::string message = fmt::format("unknown key '{}' in [{}]", entry.name, type.name);
   if (const auto replaced = type.replaced.find(entry.name); replaced != type.replaced.end()) {
-    message = fmt::format("'{}' in [{}] is no more: {}", entry.name, type.name, replaced->second);
+    message = fmt::format("'{}' in [{}] no longer exists: {}", entry.name, type.name, replaced->second);
   } else if (const Home* home = home_of(entry.name)) {
     message += fmt::format("; it belongs in [{}]", home->table);
   } else {

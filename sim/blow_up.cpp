@@ -56,8 +56,10 @@ DivergedError diverged(const State& state, double time, std::optional<double> gr
   std::string text =
       fmt::format("the simulation diverged at step {} (t = {:g} s): vertex {} ", state.step, time, worst);
   text += std::isfinite(speed) && state.x.row(worst).allFinite() ? fmt::format("moves at {:.3g} m/s", speed)
-                                                                 : "is no longer at a finite place";
-  text += growth ? fmt::format(" and the energy has grown to {:.2g} times what the cloth had and was given", *growth)
+                                                                 : "is no longer at a finite position";
+  text += growth ? fmt::format(
+                       " and the energy has grown to {:.2g} times the cloth's initial energy plus the work done on it",
+                       *growth)
                  : " and the energy has grown without bound";
   return DivergedError(text + remedy);
 }

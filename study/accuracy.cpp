@@ -48,7 +48,7 @@ AccuracyOptions complete(AccuracyOptions options, const Scene& scene) {
   for (double& time : options.times) {
     const std::int64_t steps = steps_until(time, h);
     if (steps < 1 || steps > scene.step_count()) {
-      throw UsageError(fmt::format("--times: {:g} s is outside of the motion of {}, which lasts {:g} s", time,
+      throw UsageError(fmt::format("--times: {:g} s is beyond the motion of {}, which lasts {:g} s", time,
                                    scene.file.string(), duration));
     }
     time = static_cast<double>(steps) * h;

@@ -87,10 +87,10 @@ std::optional<StudyPicture> animate_accuracy(const SceneAccuracy& accuracy, Anim
   StudyPicture picture;
   picture.file = fmt::format("{}-by-{}.gif", accuracy.name, name);
   picture.caption = fmt::format(
-      "{} with different {}. Each vertex has the colour of its distance to the reference, computed {}; above each "
-      "panel stand its time per step, and its error and flipped pairs of triangles at the moment.",
+      "{} with different {}. Vertices are coloured by their distance from the reference, computed {}. Above each "
+      "panel: time per step, current error and flipped pairs of triangles.",
       accuracy.scene, name,
-      by == AnimatedBy::steps ? fmt::format("with h = {:g} s", reference.step) : "by Newton's method to rounding");
+      by == AnimatedBy::steps ? fmt::format("with h = {:g} s", reference.step) : "by Newton's method down to rounding");
   picture.command = fmt::format("{} --animate {}", study_command(accuracy), name);
   auto bytes = animate_errors(scene, to_rounding(reference, Method::implicit), panels, folder / picture.file, backend,
                               stop, progress);

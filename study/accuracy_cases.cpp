@@ -69,8 +69,8 @@ AccuracyCases accuracy_cases(const Scene& scene, const std::string& file, const 
       cases.steps.push_back({method, step, std::move(what)});
     }
     if (!unstable.empty()) {
-      notes.push_back(fmt::format("{} is not stable with h = {} s in {}, so it was not run with it.",
-                                  step_method_name(method), unstable, file));
+      notes.push_back(fmt::format("{} is unstable with h = {} s in {} and was not run there.", step_method_name(method),
+                                  unstable, file));
     }
   }
   return cases;

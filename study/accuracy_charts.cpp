@@ -69,17 +69,16 @@ html::Chart by_time(const SceneAccuracy& scene, const std::string& title, const 
 
 NamedChart motion_chart(const SceneAccuracy& scene, std::size_t i) {
   const double time = scene.options.times[i];
-  std::string title =
-      fmt::format("Error of the motion at {:g} s: the largest distance of a vertex to the reference.", time);
+  std::string title = fmt::format("Motion error at {:g} s: the largest distance of a vertex from the reference.", time);
   const bool chaotic = scene.chaotic_from && time >= *scene.chaotic_from;
   if (chaotic) {
     title += fmt::format(
-        " The motion is chaotic from {:g} s on: nearby motions part, and errors near the dashed line or below it are "
+        " The motion is chaotic from {:g} s: nearby motions diverge, and errors near or below the dashed line are "
         "those of the reference.",
         *scene.chaotic_from);
   }
   html::Chart chart = by_time(scene, title, "error [m]", [i](const TolerancePoint& p) { return p.motion.at(i).max; });
-  if (scene.apart[i] > 0) chart.levels.push_back({scene.apart[i], "how far the two references are apart"});
+  if (scene.apart[i] > 0) chart.levels.push_back({scene.apart[i], "distance between the two references"});
   return {fmt::format("{}-motion-{}", scene.name, i + 1), std::move(chart)};
 }
 
@@ -101,7 +100,7 @@ html::Chart by_step(const SceneAccuracy& scene, const std::string& title, const 
     }
     if (!series.points.empty()) chart.series.push_back(std::move(series));
   }
-  if (scene.step_gained > 0) chart.levels.push_back({scene.step_gained, "the reference is known better than this"});
+  if (scene.step_gained > 0) chart.levels.push_back({scene.step_gained, "uncertainty of the reference"});
   return chart;
 }
 
@@ -114,9 +113,9 @@ NamedChart apart_chart(const SceneAccuracy& scene) {
         {time, scene.apart_by_step[i], fmt::format("{:g} s: {:.2g} m apart", time, scene.apart_by_step[i]), {}, {}});
   }
   return {scene.name + "-apart",
-          {"How far the two references are apart: what rounding alone makes of the motion.",
+          {"Distance between the two references: the effect of rounding alone.",
            "time [s]",
-           "largest distance of a vertex [m]",
+           "largest vertex distance [m]",
            html::Scale::linear,
            html::Scale::logarithmic,
            {std::move(series)},
@@ -142,24 +141,22 @@ std::vector<NamedChart> accuracy_charts(const SceneAccuracy& scene) {
   std::vector<NamedChart> charts;
   if (!scene.points.empty()) {
     charts.push_back(
-        {scene.name + "-solve",
-         by_time(scene,
-                 fmt::format("Error of the solve: the largest distance of a vertex to the exact minimiser, "
-                             "mean over {} states along the motion.",
-                             scene.states),
-                 "error [m]", [](const TolerancePoint& p) { return p.solve.max; })});
+        {scene.name + "-solve", by_time(scene,
+                                        fmt::format("Solve error: the largest distance of a vertex from the exact "
+                                                    "minimiser, mean over {} states along the motion.",
+                                                    scene.states),
+                                        "error [m]", [](const TolerancePoint& p) { return p.solve.max; })});
     for (std::size_t i = 0; i < scene.options.times.size(); ++i) charts.push_back(motion_chart(scene, i));
   }
   if (!scene.steps.empty()) {
     const double time = scene.options.times.front();
-    charts.push_back(
-        {scene.name + "-step", by_step(
-                                   scene, fmt::format("Error of the time step at {:g} s, by the step's length.", time),
-                                   "h [s]", [](const StepPoint& p) { return p.step; }, false)});
+    charts.push_back({scene.name + "-step", by_step(
+                                                scene, fmt::format("Time-step error at {:g} s, by step length.", time),
+                                                "h [s]", [](const StepPoint& p) { return p.step; }, false)});
     charts.push_back(
         {scene.name + "-step-cost", by_step(
-                                        scene, fmt::format("Error of the time step at {:g} s, by what it costs.", time),
-                                        "computing time per second of motion [ms], median and quartiles",
+                                        scene, fmt::format("Time-step error at {:g} s, by cost.", time),
+                                        "CPU time per second of motion [ms], median and quartiles",
                                         [](const StepPoint& p) { return cost_of_motion(p).median; }, true)});
   }
   if (!scene.points.empty()) charts.push_back(apart_chart(scene));

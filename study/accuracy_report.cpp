@@ -16,18 +16,17 @@ constexpr std::array<double, 4> limits{1e-3, 1e-4, 1e-5, smallest_error};
 std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
 
 ResultTable tolerance_table(const SceneAccuracy& scene) {
-  ResultTable table{
-      scene.name + "-tolerances",
-      fmt::format("{}: methods and tolerances, h = {:g} s", scene.scene, scene.step),
-      {"method", fmt::format("ε [{}]", scene.tolerance_unit), "iterations", "capped steps", "µs per step",
-       "lower quartile", "upper quartile", "set-up [µs]", "solve: max [m]", "RMS [m]", "‖∇g‖, relative"},
-      {},
-      {"Set-up is what comes before the first step, the factorisation of the constant matrix above all."}};
+  ResultTable table{scene.name + "-tolerances",
+                    fmt::format("{}: methods and tolerances, h = {:g} s", scene.scene, scene.step),
+                    {"method", fmt::format("ε [{}]", scene.tolerance_unit), "iterations", "capped steps", "µs per step",
+                     "lower quartile", "upper quartile", "set-up [µs]", "solve: max [m]", "RMS [m]", "‖∇g‖, relative"},
+                    {},
+                    {"Set-up is the work before the first step, mainly the factorisation of the constant matrix."}};
   for (const double time : scene.options.times) table.columns.push_back(fmt::format("motion at {:g} s [m]", time));
   table.columns.emplace_back("flipped pairs");
   table.notes.emplace_back(
-      "Flipped pairs: neighbouring triangles whose normals are more than 150° apart, mean over the steps of the whole "
-      "motion. Times and iterations are means up to the last of the times compared.");
+      "Flipped pairs: neighbouring triangles whose normals are more than 150° apart, averaged over all steps. Times "
+      "and iterations are averages up to the last compared time.");
   for (const TolerancePoint& p : scene.points) {
     const Quartiles time = p.measured.time();
     table.rows.push_back({step_method_name(p.method), plain_number(p.tolerance),
@@ -48,8 +47,8 @@ ResultTable step_table(const SceneAccuracy& scene) {
       {"method", "h [s]", "iterations", "µs per step", "ms per second of motion", "lower quartile", "upper quartile",
        "error: max [m]", "RMS [m]", "order"},
       {},
-      {fmt::format("Order: measured from the step before. The reference is extrapolated from h = {:g} s and "
-                   "twice that, by which it gains {:.2g} m; its two solvers are {:.2g} m apart.",
+      {fmt::format("Order: relative to the preceding step length. The reference is extrapolated from h = {:g} s and "
+                   "twice that, which changes it by {:.2g} m; its two solvers differ by {:.2g} m.",
                    scene.step_reference, scene.step_gained, scene.step_apart)}};
   for (const StepPoint& p : scene.steps) {
     const Quartiles motion = cost_of_motion(p);
@@ -72,9 +71,9 @@ struct Kind {
 std::vector<Kind> kinds_of(const SceneAccuracy& scene) {
   std::vector<Kind> kinds;
   if (!scene.points.empty()) {
-    kinds.push_back({"of the solve", "µs per step", {}});
+    kinds.push_back({"solve", "µs per step", {}});
     for (const double time : scene.options.times) {
-      kinds.push_back({fmt::format("of the motion at {:g} s", time), "µs per step", {}});
+      kinds.push_back({fmt::format("motion at {:g} s", time), "µs per step", {}});
     }
   }
   for (const TolerancePoint& p : scene.points) {
@@ -87,7 +86,7 @@ std::vector<Kind> kinds_of(const SceneAccuracy& scene) {
     }
   }
   if (scene.steps.empty()) return kinds;
-  Kind steps{fmt::format("of the time step at {:g} s", scene.options.times.front()), "ms per second of motion", {}};
+  Kind steps{fmt::format("time step at {:g} s", scene.options.times.front()), "ms per second of motion", {}};
   for (const StepPoint& p : scene.steps) {
     steps.offers.push_back(
         {step_method_name(p.method), fmt::format("h = {:g} s", p.step), p.error.max, cost_of_motion(p)});
@@ -101,18 +100,17 @@ std::string why_unknown(const SceneAccuracy& scene, std::size_t kind, double lim
   if (kind == 0 && !scene.points.empty()) return {};
   const std::size_t motions = scene.points.empty() ? 0 : scene.apart.size();
   if (kind <= motions && motions > 0) {
-    return scene.apart[kind - 1] < limit ? std::string() : "not known: the motion is chaotic";
+    return scene.apart[kind - 1] < limit ? std::string() : "unknown: the motion is chaotic";
   }
-  return scene.step_gained < limit ? std::string() : "not known: the reference's own steps are too large";
+  return scene.step_gained < limit ? std::string() : "unknown: the reference is not accurate enough";
 }
 
 ResultTable cheapest_table(const SceneAccuracy& scene) {
-  ResultTable table{
-      scene.name + "-cheapest",
-      fmt::format("{}: what accuracy costs", scene.scene),
-      {"for an error", "below", "the cheapest is", "at", "for", "unit", "next best", "next at", "next for"},
-      {},
-      {}};
+  ResultTable table{scene.name + "-cheapest",
+                    fmt::format("{}: what accuracy costs", scene.scene),
+                    {"error", "below", "cheapest", "at", "cost", "unit", "next best", "next at", "next cost"},
+                    {},
+                    {}};
   const std::vector<Kind> kinds = kinds_of(scene);
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     for (const double limit : limits) {
@@ -120,7 +118,7 @@ ResultTable cheapest_table(const SceneAccuracy& scene) {
       std::vector<std::string> row{kinds[k].name, readable_length(limit)};
       const std::string unknown = why_unknown(scene, k, limit);
       if (!unknown.empty() || c.first == nullptr) {
-        row.emplace_back(unknown.empty() ? "none that was run" : unknown);
+        row.emplace_back(unknown.empty() ? "none of those run" : unknown);
         row.resize(table.columns.size(), "–");
       } else {
         row.insert(row.end(), {c.first->method, c.first->at, three_digits(c.first->cost.median), kinds[k].unit});
@@ -142,7 +140,7 @@ std::string describe_cheapest(const SceneAccuracy& scene) {
   for (const double limit : limits) {
     const Cheapest c = find_cheapest(kinds.front().offers, limit);
     text += fmt::format("{} below {} is {}", limit == limits.front() ? "" : "; the cheapest", readable_length(limit),
-                        c.first == nullptr ? "not among what was run"
+                        c.first == nullptr ? "none of those run"
                                            : fmt::format("{} at {} with {} µs per step", c.first->method, c.first->at,
                                                          three_digits(c.first->cost.median)));
   }
@@ -157,39 +155,39 @@ std::string describe_orders(const SceneAccuracy& scene) {
                                    [method](const StepPoint& p) { return p.method == method; });
     if (last == scene.steps.rend() || !std::isfinite(last->order)) continue;
     if (last->error.max < scene.step_gained) {
-      unknown +=
-          fmt::format(" The errors of {} are smaller than what the reference is known to.", step_method_name(method));
+      unknown += fmt::format(" The errors of {} are below the uncertainty of the reference.", step_method_name(method));
       continue;
     }
     text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", step_method_name(method), last->order);
   }
-  return text.empty() ? text : text + ", each between its two smallest steps." + unknown;
+  return text.empty() ? text : text + ", each between the two smallest steps." + unknown;
 }
 
 void add_findings(StudyReport& report, const SceneAccuracy& scene) {
   if (!scene.points.empty()) {
     report.findings.push_back(
-        {html::Tone::neutral, "", fmt::format("{}: the error of the solve.", scene.scene), describe_cheapest(scene)});
+        {html::Tone::neutral, "", fmt::format("{}: solve error.", scene.scene), describe_cheapest(scene)});
     const std::string confirmed = fmt::format(
         "From the same state, Newton's method and quasi-Newton end at most {:.2g} m apart, over {} states{}.",
         scene.solve_apart, scene.states,
         scene.left_out > 0
-            ? fmt::format(" ({} more are so near to buckling that the minimiser is not known to 1 µm)", scene.left_out)
+            ? fmt::format(" ({} more are so close to buckling that the minimiser is uncertain by more than 1 µm)",
+                          scene.left_out)
             : "");
     report.findings.push_back({scene.solve_apart < smallest_error ? html::Tone::good : html::Tone::caution, "",
-                               fmt::format("{}: the reference.", scene.scene), confirmed});
+                               fmt::format("{}: reference.", scene.scene), confirmed});
     report.findings.push_back(
         {scene.chaotic_from ? html::Tone::caution : html::Tone::good, "",
-         scene.chaotic_from ? fmt::format("{}: the motion is chaotic from {:g} s on.", scene.scene, *scene.chaotic_from)
+         scene.chaotic_from ? fmt::format("{}: the motion is chaotic from {:g} s.", scene.scene, *scene.chaotic_from)
                             : fmt::format("{}: the motion is not chaotic up to its end.", scene.scene),
-         fmt::format("The two reference motions, which differ by rounding alone, {} 1 µm; at {:g} s they are {:.2g} m "
+         fmt::format("The two reference motions, which differ only by rounding, {} 1 µm; at {:g} s they are {:.2g} m "
                      "apart.",
-                     scene.chaotic_from ? "part by more than" : "stay within", scene.options.times.back(),
+                     scene.chaotic_from ? "diverge by more than" : "stay within", scene.options.times.back(),
                      scene.apart.back())});
   }
   if (const std::string orders = describe_orders(scene); !orders.empty()) {
     report.findings.push_back(
-        {html::Tone::neutral, "", fmt::format("{}: the orders of the methods in the time step.", scene.scene), orders});
+        {html::Tone::neutral, "", fmt::format("{}: orders of convergence in the time step.", scene.scene), orders});
   }
 }
 
@@ -233,8 +231,8 @@ StudyReport accuracy_report(const std::vector<SceneAccuracy>& scenes, const std:
   report.title = "What accuracy costs in time";
   report.headline = headline(scenes);
   report.introduction =
-      "How far a step is from the exact minimiser, and a motion from the reference motion, against the time that it "
-      "takes: each point is a method with a tolerance, or with a time step. Lower and further left is better.";
+      "Error against computing time: of a step relative to the exact minimiser, and of a motion relative to the "
+      "reference motion. Each point is a method with a tolerance or a time step. Lower and further left is better.";
   report.command = command;
   report.seconds = seconds;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -248,14 +246,14 @@ StudyReport accuracy_report(const std::vector<SceneAccuracy>& scenes, const std:
   }
   report.sections.push_back(
       {"How it was measured",
-       {describe_measuring(scenes.front().options.runs) + " The time of a step is without the set-up before the first.",
-        fmt::format("Tolerances decide when a step ends, not the number of iterations, which may be up to {}. The "
-                    "reference is Newton's method until its iterations change nothing but rounding; quasi-Newton "
-                    "does the same beside it, and how far they are apart says how well the reference is known.",
+       {describe_measuring(scenes.front().options.runs) + " Step times exclude the set-up before the first step.",
+        fmt::format("Tolerances decide when a step ends; the limit of {} iterations is not meant to. The reference is "
+                    "Newton's method, iterated until only rounding changes. Quasi-Newton does the same independently, "
+                    "and the distance between the two is the uncertainty of the reference.",
                     most_study_iterations),
-        "An error of the solve is the distance of one step's result to the exact result from the same state. An error "
-        "of the motion is what has become of these errors since the beginning. An error of the time step is the "
-        "distance to a motion in steps so small that their length no longer counts, each step solved to 1e-9 m."},
+        "Solve error: distance of one step's result from the exact result, starting from the same state. Motion error: "
+        "what these errors have accumulated to since the start. Time-step error: distance from a motion with steps so "
+        "small that their length no longer matters, each solved to 1e-9 m."},
        {},
        {},
        {}});

@@ -55,7 +55,7 @@ Image distance_bar(Pen& pen, int width) {
   const std::vector<Tick> marks{{along_bar(1e-6), "1 µm"}, {along_bar(1e-5), "10 µm"}, {along_bar(1e-4), "0.1 mm"},
                                 {along_bar(1e-3), "1 mm"}, {along_bar(1e-2), "1 cm"},  {along_bar(0.1), "0.1 m"},
                                 {along_bar(1), "1 m"}};
-  return color_bar(pen, width, letters, "distance to the reference", marks);
+  return color_bar(pen, width, letters, "distance from the reference", marks);
 }
 
 Image beneath(const Image& upper, const Image& lower) {

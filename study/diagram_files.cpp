@@ -57,7 +57,7 @@ std::string write_diagram(const html::Diagram& diagram, const std::filesystem::p
     pdf = printer.pdf(svg);
     png = printer.png(svg, png_scale);
   } catch (const OutputError& error) {
-    return fmt::format("the diagrams are there as SVG only, not as PDF and PNG: {}", error.what());
+    return fmt::format("the diagrams were written only as SVG, not as PDF and PNG: {}", error.what());
   }
   write_file_atomically(folder / (name + ".pdf"), pdf);
   write_file_atomically(folder / (name + ".png"), png);

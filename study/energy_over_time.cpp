@@ -85,9 +85,9 @@ std::optional<std::vector<EnergyCurve>> measure_energies(const std::stop_token& 
 }
 
 NamedChart energy_chart(const std::vector<EnergyCurve>& curves) {
-  html::Chart chart{"The energy of a cloth that swings without damping, against what gravity has moved.",
+  html::Chart chart{"Energy of a cloth that swings without damping, relative to the energy exchanged with gravity.",
                     "time [s]",
-                    "energy gained, relative to what gravity moved",
+                    "energy gained, relative to energy exchanged",
                     html::Scale::linear,
                     html::Scale::linear,
                     {},
@@ -115,8 +115,8 @@ std::string describe_energies(const std::vector<EnergyCurve>& curves) {
   std::string text = "After eight seconds ";
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const double end = curves[i].energies.back();
-    text += fmt::format("{}{} has {} {:.2g} % of what gravity moved", i == 0 ? "" : ", ", name_of(curves[i]),
-                        end < 0 ? "lost" : "gained", 100 * std::abs(end));
+    text += fmt::format("{}{} has {} {:.2g} % of the energy exchanged with gravity", i == 0 ? "" : ", ",
+                        name_of(curves[i]), end < 0 ? "lost" : "gained", 100 * std::abs(end));
   }
   return text + ".";
 }

@@ -39,7 +39,7 @@ ResultTable make_table(int table, const std::vector<HomeworkRow>& rows, const st
                            microseconds(time.median), microseconds(time.lower), microseconds(time.upper),
                            fmt::format("{:.1f}", r.reported.microseconds / time.median)});
   }
-  if (table == 2) result.notes.push_back("The implicit method over its first 167 steps, as in the report.");
+  if (table == 2) result.notes.push_back("The implicit method is measured over its first 167 steps, as in the report.");
   return result;
 }
 
@@ -66,9 +66,8 @@ void add_energies(HomeworkStudy& study) {
       {"step", "total: report", "drape", "kinetic: report", "drape", "gravity: report", "drape", "elastic: report",
        "drape"},
       {},
-      {"The report's positions are in single precision, which leaves noise of about 2e-10 J in its elastic "
-       "energy. The steady loss is the scheme's own, ½ M g² h² = 4.78e-5 J per step in free fall, and no "
-       "damping.",
+      {"The report's positions are in single precision, which leaves noise of about 2e-10 J in its elastic energy. The "
+       "steady loss is that of the scheme, ½ M g² h² = 4.78e-5 J per step in free fall, not damping.",
        what.command() + " --energies energies.csv"}};
   run_steps(simulation, what.steps, {}, [&](const StepReport&) {
     const std::int64_t step = simulation.state().step;
@@ -150,18 +149,18 @@ void add_charts(HomeworkStudy& study, const std::vector<HomeworkRow>& rows, cons
   const Measured& liu13 = measured[find_row(rows, 3, "liu13", "1e-3")];
   const Measured& undamped = extras.at(static_cast<std::size_t>(Extra::undamped));
   study.charts = {
-      over_time("iterations-k18", "Iterations of every step over the motion, k = 18 N/m, ε = 1e-3 m.", "iterations",
+      over_time("iterations-k18", "Iterations per step over time, k = 18 N/m, ε = 1e-3 m.", "iterations",
                 {iterations_of(soft, "implicit"), iterations_of(soft_liu13, "liu13")}),
-      over_time("height-k18", "Height of the centre of mass, k = 18 N/m: the swings, by both methods.", "height [m]",
+      over_time("height-k18", "Height of the centre of mass, k = 18 N/m, by both methods.", "height [m]",
                 {height_of(soft, "implicit", 1), height_of(undamped, "semi-implicit, undamped", 20)}),
-      over_time("iterations-k180", "Iterations of every step over the motion, k = 180 N/m, ε = 1e-3 m.", "iterations",
+      over_time("iterations-k180", "Iterations per step over time, k = 180 N/m, ε = 1e-3 m.", "iterations",
                 {iterations_of(newton, "implicit"), iterations_of(liu13, "liu13")}),
       by_tolerance(
-          "iterations-by-tolerance", "Mean iterations per step by tolerance (table 3).", "iterations per step", rows,
-          measured, [](const Measured& m) { return m.mean_iterations(); },
+          "iterations-by-tolerance", "Mean iterations per step against tolerance (table 3).", "iterations per step",
+          rows, measured, [](const Measured& m) { return m.mean_iterations(); },
           [](const Reported& r) { return r.iterations.value_or(0); }),
       by_tolerance(
-          "time-by-tolerance", "Time per step by tolerance (table 3).", "time per step [µs]", rows, measured,
+          "time-by-tolerance", "Time per step against tolerance (table 3).", "time per step [µs]", rows, measured,
           [](const Measured& m) { return m.time().median; }, [](const Reported& r) { return r.microseconds; })};
 }
 

@@ -59,14 +59,14 @@ class Results {
 Conclusion implicit_looks_right(const Results& of) {
   const double pairs = of(3, "implicit", "1").flipped_pairs;
   return {"Implicit Euler looks right even at ε = 1.", pairs < visible_pairs,
-          fmt::format("Pairs of triangles flipped over per frame: {} at ε = 1, {} at ε = 1e-5.", per_frame(pairs),
+          fmt::format("Flipped pairs of triangles per frame: {} at ε = 1, {} at ε = 1e-5.", per_frame(pairs),
                       per_frame(of(3, "implicit", "1e-5").flipped_pairs))};
 }
 
 Conclusion liu13_flips(const Results& of) {
   const double one = of(3, "liu13", "1").flipped_pairs, tenth = of(3, "liu13", "1e-1").flipped_pairs,
                tight = of(3, "liu13", "1e-4").flipped_pairs;
-  return {"Liu13 at ε = 1 or 0.1 shows triangles flipped over.",
+  return {"Liu13 flips triangles over at ε = 1 or 0.1.",
           one > visible_pairs && tenth > visible_pairs && tight < visible_pairs,
           fmt::format("Pairs per frame: {} at ε = 1, {} at 0.1, {} at 1e-2, {} at 1e-3, {} at 1e-4.", per_frame(one),
                       per_frame(tenth), per_frame(of(3, "liu13", "1e-2").flipped_pairs),
@@ -77,11 +77,10 @@ Conclusion liu13_slows_down(const Results& of) {
   const double one = of(3, "liu13", "1").mean_iterations(), hundredth = of(3, "liu13", "1e-2").mean_iterations(),
                thousandth = of(3, "liu13", "1e-3").mean_iterations(), next = of(3, "liu13", "1e-4").mean_iterations();
   const double newton = of(3, "implicit", "1e-4").mean_iterations() - of(3, "implicit", "1e-3").mean_iterations();
-  return {
-      "Liu13 converges fast at first and then slowly.", hundredth - one < 1 && next - thousandth > 10 * newton,
-      fmt::format("From ε = 1 to 1e-2 it takes {:.2f} more iterations, from 1e-3 to 1e-4 it takes {:.1f} more, where "
-                  "Newton's method takes {:.2f} more.",
-                  hundredth - one, next - thousandth, newton)};
+  return {"Liu13 converges quickly at first, then slowly.", hundredth - one < 1 && next - thousandth > 10 * newton,
+          fmt::format("From ε = 1 to 1e-2 it needs {:.2f} more iterations, from 1e-3 to 1e-4 {:.1f} more; Newton's "
+                      "method needs {:.2f} more there.",
+                      hundredth - one, next - thousandth, newton)};
 }
 
 Conclusion sphere_slows_down(const Results& of, const Measured& semi_without) {
@@ -103,10 +102,9 @@ Conclusion newton_at_the_lowest_point(const Results& of) {
   const auto [low, high] = iterations_low_and_high(of(3, "implicit", "1e-3"));
   return {"Newton's method needs more iterations when the cloth swings through its lowest point.",
           soft_low > soft_high && low > high,
-          fmt::format(
-              "Centre of mass in the lowest and in the highest quarter of its range: {:.2f} and {:.2f} iterations per "
-              "step at k = 18, {:.2f} and {:.2f} at k = 180.",
-              soft_low, soft_high, low, high)};
+          fmt::format("With the centre of mass in the lowest and in the highest quarter of its range: {:.2f} and "
+                      "{:.2f} iterations per step at k = 18, {:.2f} and {:.2f} at k = 180.",
+                      soft_low, soft_high, low, high)};
 }
 
 Conclusion implicit_looks_like_semi_implicit(const Results& of, const Measured& undamped) {
@@ -155,20 +153,17 @@ std::vector<Conclusion> judge_conclusions(const std::vector<HomeworkRow>& rows, 
 
 std::vector<std::string> homework_differences() {
   return {
-      "Pins are held in Liu13's first local step as well. The report's code lets them move there; with pins held "
-      "throughout, it takes 2, 2, 2.295, 9.307, 52.12 and 99.64 iterations in table 3 and 7.240 in table 1.",
-      "A step that ends at its cap counts as the cap, 100 iterations; the report counts 101. The report's table 1 "
-      "counts "
-      "Liu13 one iteration too low.",
-      "Newton's method takes all terms of its first iteration at its starting point y; the report's code takes the "
-      "elastic "
-      "ones at the last positions, and needs more iterations. Compressed springs keep the stiffness k x̂x̂ᵀ, as in the "
-      "course's notes; the report's code scales it by L/‖x‖.",
-      "With the sphere the implicit method's count is sensitive: the report prints 7.07, and its own code gives 8.59 "
-      "when "
-      "it is run again.",
-      "The report's times are from its author's machine; ours are the computing time of one "
-      "thread on the machine below."};
+      "drape also holds pins in Liu13's first local step, where the report's code lets them move. With pins held "
+      "throughout, the report's code takes 2, 2, 2.295, 9.307, 52.12 and 99.64 iterations in table 3 and 7.240 in "
+      "table 1.",
+      "A step that ends at the limit of 100 iterations counts as 100; the report counts 101. The report's table 1 "
+      "gives Liu13 one iteration too few.",
+      "Newton's method evaluates all terms of its first iteration at its starting point y. The report's code evaluates "
+      "the elastic ones at the last positions, and needs more iterations. Compressed springs keep the stiffness k x̂x̂ᵀ, "
+      "as in the course's notes; the report's code scales it by L/‖x‖.",
+      "With the sphere the implicit method's count is sensitive: the report prints 7.07, but its own code (the "
+      "column " its code again ") gives 8.59 when run again.",
+      "The report's times are from its author's machine; drape's are CPU times of one thread on the machine below."};
 }
 
 }  // namespace drape

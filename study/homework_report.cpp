@@ -11,12 +11,11 @@ StudyReport homework_report(const HomeworkStudy& study) {
                                        [](const Conclusion& c) { return c.confirmed; });
   StudyReport report;
   report.kind = report.command = "drape study homework";
-  report.title = "The homework, measured again";
+  report.title = "The homework's results, measured again";
   report.headline = fmt::format("{} of the report's {} conclusions are confirmed", confirmed, study.conclusions.size());
   report.introduction =
-      "The tables of the report that drape grew out of, with its own figures beside drape's: mass-spring cloth of "
-      "20×20 "
-      "cells, 8.34 s of motion.";
+      "The tables of the report that drape grew out of, with drape's measurements beside its own: mass-spring cloth of "
+      "20×20 cells, 8.34 s of motion.";
   for (const Conclusion& c : study.conclusions) {
     report.findings.push_back({c.confirmed ? html::Tone::good : html::Tone::bad,
                                c.confirmed ? "confirmed" : "Not confirmed.", c.claim, c.figures});

@@ -147,8 +147,8 @@ std::string count_of_runs(int runs) { return fmt::format("{} run{}", runs, runs 
 
 std::string describe_measuring(int runs) {
   return fmt::format(
-      "Times are the computing time of one thread that stays on one processor, the mean over the steps of a run: the "
-      "median and the quartiles of {}, in which the cases take turns. A first run is not timed.",
+      "Times are CPU times of one thread pinned to one core, averaged over the steps of a run: the median and the "
+      "quartiles of {}, in which the cases take turns. A first run is not timed.",
       count_of_runs(runs));
 }
 

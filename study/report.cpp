@@ -22,11 +22,12 @@ html::Markup to_html(const StudySection& section, std::size_t number) {
   for (const std::string& paragraph : section.text) content += html::paragraph(paragraph);
   for (const StudyPicture& picture : section.pictures) {
     content += html::figure(html::picture("image/gif", picture.bytes, picture.caption), picture.caption) +
-               html::command("This animation", picture.command);
+               html::command("Reproduce this animation", picture.command);
   }
   if (!section.charts.empty()) {
     content += html::note(
-        "Point at a curve, or go along it with the arrow keys, to see its values and the command that computes them.");
+        "Point at a curve, or move along it with the arrow keys, to see its values and the command that reproduces "
+        "them.");
   }
   for (const NamedChart& chart : section.charts) content += html::chart(chart.chart);
   if (!section.maps.empty()) {
@@ -88,12 +89,12 @@ std::string to_page(const StudyReport& report) {
   page.kind = report.kind;
   page.title = report.title;
   page.heading = report.headline;
-  page.introduction = html::paragraph(report.introduction) + html::command("This study", report.command);
+  page.introduction = html::paragraph(report.introduction) + html::command("Reproduce this study", report.command);
   page.content = html::findings(findings);
   for (std::size_t i = 0; i < report.sections.size(); ++i) page.content += to_html(report.sections[i], i + 1);
   page.foot = html::provenance();
   page.foot.emplace_back("Instruction set", std::string(kernels().name));
-  page.foot.emplace_back("Took", fmt::format("{:.0f} s", report.seconds));
+  page.foot.emplace_back("Duration", fmt::format("{:.0f} s", report.seconds));
   return html::render(page);
 }
 

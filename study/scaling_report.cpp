@@ -55,9 +55,9 @@ ResultTable time_table(const ScalingStudy& study) {
       "scaling-times",
       "Time and memory",
       {"method", "grid", "vertices", "h [s]", "iterations", "µs per step", "lower quartile", "upper quartile",
-       "µs per iteration", "set-up [µs]", "of it, the factor", "memory [MB]"},
+       "µs per iteration", "set-up [µs]", "of which factor", "memory [MB]"},
       {},
-      {"A semi-implicit step is as long as is stable, with some room; set-up is then the search for that."}};
+      {"Semi-implicit steps are just below the stability limit; set-up is then the search for that limit."}};
   for (const ScalingPoint& p : study.points) {
     table.rows.push_back({p.method, fmt::format("{0}×{0}", p.cells), fmt::format("{}", p.vertices),
                           fmt::format("{:g}", p.step), p.iterations > 0 ? fmt::format("{:.1f}", p.iterations) : "–",
@@ -82,17 +82,15 @@ ResultTable growth_table(const ScalingStudy& study) {
 }
 
 ResultTable share_table(const ScalingStudy& study) {
-  ResultTable table{
-      "scaling-shares",
-      "Where the time of a step goes [%]",
-      {"method", "grid", "local", "assembly", "products", "global", "vectors", "contact", "rest"},
-      {},
-      {"Local: the springs' energies and forces. Assembly: the blocks of Newton's matrix. Products: with "
-       "that matrix, in the conjugate gradients. Global: the two triangles of the constant factor, which "
-       "is also Newton's preconditioner. Vectors: their sums and products. Contact: the sphere, and "
-       "gravity.",
-       "With cholesky the rest is Newton's matrix, its factor and the solution with it. Measured in a run "
-       "of its own, with a clock around every hot loop."}};
+  ResultTable table{"scaling-shares",
+                    "Where step time goes [%]",
+                    {"method", "grid", "local", "assembly", "products", "global", "vectors", "contact", "rest"},
+                    {},
+                    {"Local: the springs' energies and forces. Assembly: the blocks of Newton's matrix. Products: with "
+                     "that matrix, in conjugate gradients. Global: solves with the constant factor, also Newton's "
+                     "preconditioner. Vectors: their sums and products. Contact: the sphere, and gravity.",
+                     "With cholesky, the rest is Newton's matrix, its factorisation and the solve. Measured in a "
+                     "separate run with a clock around every hot loop."}};
   for (const ScalingPoint& p : study.points) {
     const TimeShares& s = p.shares;
     table.rows.push_back({p.method, fmt::format("{0}×{0}", p.cells), percent(s.local), percent(s.assembly),
@@ -144,8 +142,7 @@ StudyReport scaling_report(const ScalingStudy& study) {
   report.title = "How time and memory grow with the cloth";
   report.command = fmt::format("drape study scaling --largest {} --runs {}", study.options.largest, study.options.runs);
   report.introduction =
-      "The homework's cloth on the sphere, k = 180 N/m, h = 0.02 s and ε = 1e-3 m, on finer and finer grids. Every "
-      "method "
+      "The homework's cloth on the sphere, k = 180 N/m, h = 0.02 s and ε = 1e-3 m, on ever finer grids. Every method "
       "starts from the same state, 0.5 s into the motion.";
   report.seconds = study.seconds;
   report.headline = "How time and memory grow with the cloth";
@@ -154,7 +151,7 @@ StudyReport scaling_report(const ScalingStudy& study) {
                                    [&](const ScalingPoint& p) { return p.method == g.method; });
     report.findings.push_back(
         {html::Tone::neutral, "",
-         fmt::format("{}: time per step grows like n to the power of {}.", g.method, exponent(g.step)),
+         fmt::format("{}: time per step grows as n to the power {}.", g.method, exponent(g.step)),
          fmt::format("On {0}×{0} cells a step takes {1} µs{2}, most of it {3}, and the simulation {4} MB.", last->cells,
                      three_digits(last->time.median),
                      last->iterations > 0 ? fmt::format(" in {:.1f} iterations", last->iterations) : "",
@@ -164,11 +161,11 @@ StudyReport scaling_report(const ScalingStudy& study) {
       {"Growth",
        study.notes,
        {growth_table(study), time_table(study)},
-       {chart_of(study, "scaling-step", "Time per step by the number of vertices.", "time per step", "µs",
+       {chart_of(study, "scaling-step", "Time per step against the number of vertices.", "time per step", "µs",
                  [](const ScalingPoint& p) { return p.time.median; }),
-        chart_of(study, "scaling-iteration", "Time per iteration by the number of vertices.", "time per iteration",
+        chart_of(study, "scaling-iteration", "Time per iteration against the number of vertices.", "time per iteration",
                  "µs", per_iteration),
-        chart_of(study, "scaling-memory", "Memory by the number of vertices.", "memory", "MB",
+        chart_of(study, "scaling-memory", "Memory against the number of vertices.", "memory", "MB",
                  [](const ScalingPoint& p) { return 1e-6 * p.memory; })},
        {}},
       {"Where the time goes", {}, {share_table(study)}, {}, {}},

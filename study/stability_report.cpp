@@ -28,11 +28,10 @@ ResultTable border_table(const std::vector<StabilityBorder>& borders) {
   ResultTable table{
       .name = "border",
       .title = "Where a method becomes unstable",
-      .columns = {"method", "what is stiff", "stiffness", "predicted [s]", "measured [s]", "measured/predicted"},
+      .columns = {"method", "stiff part", "stiffness", "predicted [s]", "measured [s]", "measured/predicted"},
       .rows = {},
-      .notes = {"Predicted: for the explicit methods 2/√λ of the stiffest that springs and pushes can be together in "
-                "any state, and else 2/√stiffness of the push. Measured: the longest step with which 2000 steps do not "
-                "blow up."}};
+      .notes = {"Predicted: for explicit methods 2/√λ, with springs and pushes together at their stiffest; otherwise "
+                "2/√stiffness of the push. Measured: the longest step with which 2000 steps do not blow up."}};
   for (const StabilityBorder& b : borders) {
     const bool springs = b.axis == StabilityAxis::springs;
     table.rows.push_back({step_method_name(b.method), springs ? "springs" : "explicit push",
@@ -64,11 +63,11 @@ StudySection section(const StabilityStudy& study, StabilityAxis axis, const char
 StudyReport stability_report(const StabilityStudy& study) {
   StudyReport report;
   report.kind = "drape study stability";
-  report.title = "How far each method goes";
+  report.title = "Stability of each method";
   report.headline = headline(study.borders);
   report.introduction = fmt::format(
-      "Every square is a run of {} steps of a cloth of 6×6 cells and 1 kg. Its colour says how much energy was lost "
-      "or gained, relative to what was exchanged.",
+      "Each square is a run of {} steps of a cloth of 6×6 cells and 1 kg. Its colour shows the energy lost or gained, "
+      "relative to the energy exchanged.",
       study.detail.steps);
   report.command =
       fmt::format("drape study stability --per-decade {} --steps {}", study.detail.per_decade, study.detail.steps);
@@ -77,14 +76,13 @@ StudyReport stability_report(const StabilityStudy& study) {
   }
   constexpr const char* hangs = "The cloth hangs from two corners under gravity.";
   constexpr const char* lies =
-      "The cloth, with springs of 180 N/m, lies 1 cm deep in a level ground under an acceleration that the push just "
-      "carries there, and swings 0.1 mm to and fro.";
-  report.sections = {
-      section(study, StabilityAxis::springs, "Springs", hangs),
-      section(study, StabilityAxis::explicit_push, "A push that is evaluated once in a step", lies),
-      section(study, StabilityAxis::implicit_push, "A push that is part of what a step solves", lies),
-      {"The borders", {}, {border_table(study.borders)}, {}, {}},
-      {"The energy over time", {describe_energies(study.energies)}, {}, {energy_chart(study.energies)}, {}}};
+      "The cloth, with springs of 180 N/m, rests 1 cm deep in a level ground under an acceleration that the push just "
+      "balances, and oscillates by 0.1 mm.";
+  report.sections = {section(study, StabilityAxis::springs, "Springs", hangs),
+                     section(study, StabilityAxis::explicit_push, "Explicit push, evaluated once per step", lies),
+                     section(study, StabilityAxis::implicit_push, "Implicit push, solved for in each step", lies),
+                     {"Limits of stability", {}, {border_table(study.borders)}, {}, {}},
+                     {"Energy over time", {describe_energies(study.energies)}, {}, {energy_chart(study.energies)}, {}}};
   report.seconds = study.seconds;
   return report;
 }

@@ -84,15 +84,15 @@ class AirForce final : public Force {
 }  // namespace
 
 void Air::describe(Keys& keys) {
-  keys.add("velocity", &velocity, "m/s", "Of the wind; air that is still slows the cloth down.");
-  keys.add("density", &density, "kg/m³", "Of the air.").at_least(0);
-  keys.add("drag", &drag, "", "Coefficient C_D of the force along the wind that passes a triangle.").at_least(0);
-  keys.add("lift", &lift, "", "Coefficient C_L of the force across it.").at_least(0);
+  keys.add("velocity", &velocity, "m/s", "Velocity of the wind. Still air slows the cloth down.");
+  keys.add("density", &density, "kg/m³", "Density of the air.").at_least(0);
+  keys.add("drag", &drag, "", "Drag coefficient C_D, for the force along the flow past a triangle.").at_least(0);
+  keys.add("lift", &lift, "", "Lift coefficient C_L, for the force across the flow.").at_least(0);
   gusts.describe(keys);
 }
 
 void Air::check(const SimulationSettings&, const ProblemSink& problem) const {
-  if (lift > 0 && drag == 0) problem("lift", "there is no lift without drag: expected 0, or a drag above 0");
+  if (lift > 0 && drag == 0) problem("lift", "lift needs drag: expected 0, or a drag above 0");
 }
 
 void Air::install(System& system) const {

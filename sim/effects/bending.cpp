@@ -7,17 +7,16 @@
 namespace drape {
 
 void Bending::describe(Keys& keys) {
-  keys.add("rigidity", &rigidity, "N·m",
-           "Bending rigidity D of the cloth: rolled to the radius R, an area A holds ½·D·A/R².")
+  keys.add("rigidity", &rigidity, "N·m", "Bending rigidity D: an area A rolled to radius R stores the energy ½·D·A/R².")
       .above(0);
   keys.add("cross_stiffness", &cross_stiffness, "N/m",
-           "Of \"cross\" springs between the vertices opposite to each inner edge, as long as they are apart at rest.")
+           "Stiffness of \"cross\" springs between the two vertices opposite each inner edge.")
       .above(0);
 }
 
 void Bending::check(const SimulationSettings&, const ProblemSink& problem) const {
   if (!rigidity && !cross_stiffness) {
-    problem("", "expected 'rigidity', 'cross_stiffness', or both; without one of them nothing resists bending");
+    problem("", "expected 'rigidity', 'cross_stiffness' or both; with neither, nothing resists bending");
   }
 }
 

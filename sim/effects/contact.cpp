@@ -9,15 +9,14 @@ namespace drape {
 
 void describe_contact(Keys& keys, double& stiffness, Response& response, double& friction,
                       std::optional<double>& restitution, const std::string& without_restitution) {
-  keys.add("stiffness", &stiffness, "1/s²", "Acceleration per metre that a vertex is within that reach.").at_least(0);
+  keys.add("stiffness", &stiffness, "1/s²", "Outward acceleration per metre of depth within that reach.").at_least(0);
   keys.choice("response", response, {"explicit", "implicit"},
-              "Whether the push is evaluated once in a step, or solved for together with the springs.");
+              "Whether the push is evaluated once per step, or solved for together with the springs.");
   keys.add("friction", &friction, "",
-           "Coulomb's coefficient µ: what rests on a slope of tan θ ≤ µ stays there; 0 is slippery.")
+           "Coulomb's coefficient µ: a vertex at rest on a slope of tan θ ≤ µ stays there; 0 is frictionless.")
       .at_least(0);
   keys.add("restitution", &restitution, "",
-           "The share of the speed of its arrival with which a vertex leaves again: 1 all of it, 0 none" +
-               without_restitution + ".")
+           "Fraction of its impact speed with which a vertex rebounds: 1 all of it, 0 none" + without_restitution + ".")
       .at_least(0)
       .at_most(1);
 }
@@ -25,10 +24,9 @@ void describe_contact(Keys& keys, double& stiffness, Response& response, double&
 void ContactLaw::check(const SimulationSettings& settings, const ProblemSink& problem) const {
   if (response == Response::implicit_energy) {
     if (is_explicit(settings.integrator.method)) {
-      problem("response",
-              fmt::format("{} evaluates every force once in a step and solves for nothing, so the push can only be "
-                          "\"explicit\" with it; the implicit methods take \"implicit\" too",
-                          explicit_title(settings.integrator.method)));
+      problem("response", fmt::format("{} evaluates every force once per step and solves for nothing, so the push can "
+                                      "only be \"explicit\"; the implicit methods also allow \"implicit\"",
+                                      explicit_title(settings.integrator.method)));
     }
     return;
   }
@@ -39,7 +37,7 @@ void ContactLaw::check(const SimulationSettings& settings, const ProblemSink& pr
   const double product = h * std::sqrt(stiffness);
   if (product > 2) {
     problem("stiffness",
-            fmt::format("an explicit penalty is unstable where step·√stiffness > 2, and here it is {:.3g}: with step = "
+            fmt::format("an explicit push is unstable where step·√stiffness > 2, and here it is {:.3g}: with step = "
                         "{:g} s the stiffness can be at most {:.4g}, or with this stiffness the step at most {:.3g} s",
                         product, h, 4 / (h * h), 2 / std::sqrt(stiffness)));
   }

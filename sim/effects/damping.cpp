@@ -17,7 +17,7 @@ struct VelocityDecay final : Correction {
 }  // namespace
 
 void Damping::describe(Keys& keys) {
-  keys.add("factor", &factor, "", "What is left of every velocity after one second; 1 damps nothing.")
+  keys.add("factor", &factor, "", "Fraction of every velocity left after one second; 1 means no damping.")
       .must_be_given()
       .above(0)
       .at_most(1);

@@ -43,14 +43,12 @@ class FieldForce final : public Force {
 }  // namespace
 
 void Field::describe(Keys& keys) {
-  keys.add(
-          "acceleration", FormulaList{&acceleration, FormulaField::problem}, "m/s²",
-          "Of every vertex, by formulas in its place x, y, z (in m), the time t (in s) and its velocity vx, vy, vz (in "
-          "m/s).")
+  keys.add("acceleration", FormulaList{&acceleration, FormulaField::problem}, "m/s²",
+           "Acceleration of every vertex, as formulas in its position x, y, z (m), the time t (s) and its velocity vx, "
+           "vy, vz (m/s).")
       .must_be_given();
   keys.add("stiffness_bound", &stiffness_bound, "1/s²",
-           "By how much the acceleration changes at most with the place: for a method that is explicit, whose largest "
-           "stable step follows from it.")
+           "Largest change of the acceleration per metre. Explicit methods need it to find their largest stable step.")
       .at_least(0);
 }
 
@@ -58,10 +56,12 @@ void Field::check(const SimulationSettings& settings, const ProblemSink& problem
   const Method method = settings.integrator.method;
   if (stiffness_bound || !is_explicit(method) || settings.integrator.allow_unstable) return;
   if (!FormulaField(acceleration).of_place()) return;
-  problem("acceleration", fmt::format("it depends on the place, so the largest step with which {} is stable depends on "
-                                      "how steep it is, which no formula tells: give its 'stiffness_bound' [1/s²], or "
-                                      "take method = \"implicit\", \"liu13\" or \"quasi-newton\"",
-                                      explicit_title(method)));
+  problem(
+      "acceleration",
+      fmt::format(
+          "it depends on position, so the largest stable step of {} depends on how steep it is, which a formula does "
+          "not reveal: give its 'stiffness_bound' [1/s²], or use method = \"implicit\", \"liu13\" or \"quasi-newton\"",
+          explicit_title(method)));
 }
 
 void Field::install(System& system) const {

@@ -34,12 +34,11 @@ struct RestingGround final : ColliderMotion {
 }  // namespace
 
 void Ground::describe(Keys& keys) {
-  keys.add("height", &height, "m", "Its distance from the origin along its normal: for a level ground its z.")
+  keys.add("height", &height, "m", "Distance from the origin along its normal: for a level ground, its z.")
       .must_be_given();
-  keys.add("normal", &normal, "", "The direction out of it, of any length: a ground can be tilted.");
+  keys.add("normal", &normal, "", "Outward direction, of any length; a ground can be tilted.");
   keys.add("thickness", &thickness, "m",
-           "Where it pushes: within this distance of the surface that is drawn, so that cloth lies on it and not in "
-           "it.")
+           "Reach of the push: within this distance of the drawn surface, so that cloth lies on it and not in it.")
       .at_least(0);
   describe_contact(keys, stiffness, response, friction, restitution, "");
 }

@@ -29,11 +29,11 @@ Eigen::Vector3d random_vector(std::uint64_t bits) {
 }  // namespace
 
 void GustValues::describe(Keys& keys) {
-  keys.add("gust", &speed, "m/s", "The most by which gusts change each component of the wind; 0: it is steady.")
+  keys.add("gust", &speed, "m/s", "Largest change of each component of the wind by gusts; 0 is a steady wind.")
       .at_least(0);
-  keys.add("gust_size", &size, "m", "The distance from one gust to the next.").above(0);
-  keys.add("gust_duration", &duration, "s", "How long a gust lasts for one who moves with the wind.").above(0);
-  keys.add("seed", &seed, "", "Another number gives other gusts.");
+  keys.add("gust_size", &size, "m", "Distance from one gust to the next.").above(0);
+  keys.add("gust_duration", &duration, "s", "Lifetime of a gust, in the frame moving with the wind.").above(0);
+  keys.add("seed", &seed, "", "Different numbers give different gusts.");
 }
 
 Eigen::Vector3d Gusts::at(const Eigen::Vector3d& place, double time) const {

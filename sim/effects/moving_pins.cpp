@@ -17,18 +17,20 @@ constexpr double most_steps = 1e15;
 }  // namespace
 
 void MovingPins::describe(Keys& keys) {
-  keys.add("pins", VertexSelection{&pins}, "", "Which pins; each must be among those of [cloth].").must_be_given();
+  keys.add("pins", VertexSelection{&pins}, "", "The pins to move. Each must be among those of [cloth].")
+      .must_be_given();
   keys.add("keyframes",
            KeyframeList{{"offset", "position"},
                         &keyframes,
                         [this](std::size_t i) { path = static_cast<Path>(i); },
                         static_cast<std::size_t>(path)},
            "s, m",
-           "Where they are at which times: how far from where they start, or where the middle of all of them is. "
-           "They start from where the cloth has them at 0 s, do not turn, and stay at the last keyframe.");
+           "Positions over time: the displacement from their start, or the position of their centroid. The pins start "
+           "at their place in the cloth at 0 s, do not turn, and stay at the last keyframe.");
   keys.choice("interpolation", interpolation, {"linear", "smooth"},
-              "How they get from one keyframe to the next: at a steady speed, or without jumps of their speed.");
-  keys.add("release", &release, "s", "When they are let go, with the speed that they have; without it never.")
+              "Interpolation between keyframes: at constant speed, or with continuous velocity.");
+  keys.add("release", &release, "s",
+           "Time at which they are released, with the velocity they have then. Default: never.")
       .at_least(0);
 }
 
@@ -36,11 +38,11 @@ void MovingPins::check(const SimulationSettings& settings, const ProblemSink& pr
   const Cloth& cloth = settings.cloth;
   for (const int vertex : pins) {
     if (std::ranges::binary_search(cloth.pins, vertex)) continue;
-    problem("pins", fmt::format("vertex {} is not pinned; [cloth] pins must have it too", vertex));
+    problem("pins", fmt::format("vertex {} is not pinned; add it to [cloth] pins", vertex));
     break;
   }
   if (pins.empty()) problem("pins", "expected at least one");
-  if (keyframes.empty() && !release) problem("", "give 'keyframes', 'release' or both: nothing happens without");
+  if (keyframes.empty() && !release) problem("", "give 'keyframes', 'release' or both; with neither, nothing happens");
   for (const Effect& other : settings.effects) {
     const auto* moving = other.as<MovingPins>();
     if (moving == this) break;
@@ -49,10 +51,9 @@ void MovingPins::check(const SimulationSettings& settings, const ProblemSink& pr
   if (pins.empty() || keyframes.empty() || keyframes.front().time > 0) return;
   const double jump = (keyframes.front().value - start(cloth)).norm();
   if (jump > largest_jump) {
-    problem("keyframes",
-            fmt::format("the pins start where the cloth has them, and the keyframe at 0 s is {:.3g} m away "
-                        "from there: give it a later time",
-                        jump));
+    problem("keyframes", fmt::format("the pins start at their place in the cloth, and the keyframe at 0 s is {:.3g} m "
+                                     "away from it: give it a later time",
+                                     jump));
   }
 }
 

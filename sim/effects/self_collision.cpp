@@ -10,13 +10,13 @@
 namespace drape {
 
 void SelfCollision::describe(Keys& keys) {
-  keys.add("thickness", &thickness, "m", "Distance that layers of the cloth keep.").above(0);
+  keys.add("thickness", &thickness, "m", "Distance kept between layers of the cloth.").above(0);
   keys.add("repulsion", &repulsion, "1/s",
-           "Which part of what is missing to that distance they part by in a second, at first.")
+           "Rate at which layers that are too close separate, as a fraction of the missing distance per second.")
       .at_least(0);
   keys.add("friction", &friction, "", "Coefficient of Coulomb friction between layers.").at_least(0);
   keys.add("iterations", &iterations, "",
-           "Passes over the contacts in a step, and over the collisions before what is left becomes rigid for a step.")
+           "Passes over the contacts in a step, and over the collisions before the rest becomes rigid for that step.")
       .at_least(1);
 }
 
@@ -32,8 +32,8 @@ void SelfCollision::check(const SimulationSettings& settings, const ProblemSink&
   const auto found = find_intersection(settings.cloth.triangles, x);
   if (!found) return;
   const auto& [edge, triangle] = *found;
-  problem("", fmt::format("the cloth starts through itself, where neither side is the right one: the edge between the "
-                          "vertices {} and {} passes through the triangle {}, {}, {}",
+  problem("", fmt::format("the cloth starts intersecting itself, where neither side is the right one: the edge between "
+                          "the vertices {} and {} passes through the triangle {}, {}, {}",
                           edge[0], edge[1], triangle[0], triangle[1], triangle[2]));
 }
 

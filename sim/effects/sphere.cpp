@@ -54,35 +54,36 @@ struct TrackedSphere final : ColliderMotion {
 }  // namespace
 
 void Sphere::describe(Keys& keys) {
-  keys.add("center", &center, "m", "Where its centre is at the start.").must_be_given_unless({"keyframes", "track"});
-  keys.add("radius", &radius, "m", "Its radius, as it is drawn.").must_be_given_unless({"track"}).above(0);
-  keys.add("scale", &scale, "", "Where it pushes: within scale·radius of the centre.").at_least(1);
-  describe_contact(keys, stiffness, response, friction, restitution, "; left out, the push gives back what it takes");
-  keys.add("velocity", &velocity, "m/s", "It moves straight on from `center`.");
+  keys.add("center", &center, "m", "Position of its centre at the start.").must_be_given_unless({"keyframes", "track"});
+  keys.add("radius", &radius, "m", "Its radius, as drawn.").must_be_given_unless({"track"}).above(0);
+  keys.add("scale", &scale, "", "Reach of the push: within scale·radius of the centre.").at_least(1);
+  describe_contact(keys, stiffness, response, friction, restitution, "; if omitted, the push acts as a spring");
+  keys.add("velocity", &velocity, "m/s", "Constant velocity, starting from `center`.");
   keys.add("orbit_period", &orbit_period, "s",
-           "It circles, starting from `center`, and takes as long for a turn; negative: the other way round.");
-  keys.add("orbit_center", &orbit_center, "m", "A point of the axis that it circles around.");
-  keys.add("orbit_axis", &orbit_axis, "", "The direction of that axis, seen from whose tip it goes counterclockwise.");
-  keys.add("keyframes", KeyframeList{{"center"}, &keyframes}, "s, m", "Where its centre is at which times.");
+           "Period of a circular orbit that starts from `center`; negative reverses it.");
+  keys.add("orbit_center", &orbit_center, "m", "A point on the axis of the orbit.");
+  keys.add("orbit_axis", &orbit_axis, "",
+           "Direction of that axis; the motion is counterclockwise as seen from its tip.");
+  keys.add("keyframes", KeyframeList{{"center"}, &keyframes}, "s, m", "Positions of its centre over time.");
   keys.choice("interpolation", interpolation, {"linear", "smooth"},
-              "How it gets from one keyframe to the next: at a steady speed, or without jumps of its speed.");
+              "Interpolation between keyframes: at constant speed, or with continuous velocity.");
   keys.add("track", OwnForm{"file", &track}, "",
-           "An ASCII USD file whose first moving Mesh or Sphere it follows, in place and size; at the file's start "
-           "time code the clock shows 0 s.");
+           "ASCII USD file whose first moving Mesh or Sphere it follows, position and size. The file's start time code "
+           "is 0 s.");
 }
 
 void Sphere::check(const SimulationSettings& settings, const ProblemSink& problem) const {
   const int motions =
       int{velocity.has_value()} + int{orbit_period.has_value()} + int{!keyframes.empty()} + int{track != nullptr};
   if (motions > 1) {
-    problem("", "give only one of 'velocity', 'orbit_period', 'keyframes' and 'track': each says where it is");
+    problem("", "give only one of 'velocity', 'orbit_period', 'keyframes' and 'track': each defines the motion");
   }
   const bool placed = !keyframes.empty() || track != nullptr;
   if (center && placed) {
     problem("center", std::string("'") + (track ? "track" : "keyframes") + "' already says where its centre is");
   }
   if (!radius && track && !(track->at(0).radius > 0)) {
-    problem("track", "what moves in this file has no size: give the 'radius' as well");
+    problem("track", "the moving object in this file has no size: also give the 'radius'");
   }
   if (orbit_period && *orbit_period == 0) problem("orbit_period", "expected a time other than 0");
   if (orbit_axis.isZero(0)) problem("orbit_axis", "expected a direction, found [0, 0, 0]");

@@ -136,7 +136,7 @@ class StrainFilter final : public MotionFilter {
 /// That an edge starts beyond a limit.
 std::string beyond(const char* side, double limit, const Spring& s, double stretch) {
   return fmt::format(
-      "the cloth starts beyond the limit, from where one step would throw it back: the edge between the vertices {} "
+      "the cloth starts beyond the limit, and one step would throw it back: the edge between the vertices {} "
       "and {} is {:.4g} times as long as at rest, {} {:g}",
       s.i, s.j, stretch, side, limit);
 }
@@ -144,15 +144,14 @@ std::string beyond(const char* side, double limit, const Spring& s, double stret
 }  // namespace
 
 void StrainLimit::describe(Keys& keys) {
-  keys.add("max_stretch", &max_stretch, "", "Longest that an edge may become, in multiples of its rest length.")
-      .at_least(1);
-  keys.add("min_stretch", &min_stretch, "", "Shortest that it may become, likewise. Without it there is no such limit.")
+  keys.add("max_stretch", &max_stretch, "", "Largest length of an edge, in multiples of its rest length.").at_least(1);
+  keys.add("min_stretch", &min_stretch, "", "Smallest length of an edge, likewise. Default: no limit.")
       .at_least(0)
       .at_most(1);
   keys.add("iterations", &iterations, "",
-           "Sweeps over the edges in a step, at most; a step that needs more counts as not converged.")
+           "Largest number of sweeps over the edges in a step. A step that needs more counts as not converged.")
       .at_least(1);
-  keys.add("tolerance", &tolerance, "", "By which fraction a limit may be exceeded.").above(0);
+  keys.add("tolerance", &tolerance, "", "Fraction by which a limit may be exceeded.").above(0);
 }
 
 void StrainLimit::check(const SimulationSettings& settings, const ProblemSink& problem) const {

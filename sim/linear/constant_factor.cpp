@@ -71,7 +71,7 @@ ConstantFactor::ConstantFactor(const System& system, double duration, Precision 
                         tolerated_zeros * (sizeof(double) + sizeof(float)));
   if (!factor.factorize(matrix.values.data())) {
     throw UsageError(
-        "the cloth's matrix is not positive definite to working precision: take a shorter step, softer springs or more "
+        "the cloth's matrix is not positive definite to working precision: use a shorter step, softer springs or more "
         "mass");
   }
 

@@ -66,8 +66,8 @@ void require_surface(double rows, double operations, FactorKind kind) {
   constexpr double per_row = 2000;
   if (operations <= std::max(always, per_row * rows * std::sqrt(rows))) return;
   throw UsageError(
-      fmt::format("a sparse factor of {} rows takes {:.1e} operations, as the mesh is not like a surface: too many "
-                  "vertices are joined across it; take a coarser cloth or method = \"semi-implicit\"",
+      fmt::format("a sparse factor of {} rows takes {:.1e} operations, because the mesh is unlike a surface: too many "
+                  "vertices are joined across it; use a coarser cloth or method = \"semi-implicit\"",
                   rows, operations));
 }
 
@@ -94,8 +94,8 @@ SparseCholesky::SparseCholesky(const LowerPattern& pattern, FactorKind kind, boo
   require_memory("a sparse factor of " + std::to_string(pattern.size()) + " rows",
                  (too_large ? std::max(i.common.lnz, largest) * entry : i.common.lnz * (entry + caller_bytes)) +
                      (kind == FactorKind::supernodal ? blas_work : 0),
-                 "take a coarser cloth or another method");
-  if (too_large) throw UsageError("a sparse factor of this cloth has more than 2³¹ entries: take conjugate gradients");
+                 "use a coarser cloth or another method");
+  if (too_large) throw UsageError("a sparse factor of this cloth has more than 2³¹ entries: use conjugate gradients");
   i.require(i.factor != nullptr);
   require_surface(pattern.size(), i.common.fl, kind);
   i.matrix.xtype = CHOLMOD_REAL;

@@ -24,9 +24,9 @@ std::optional<std::string> ConditionGuard::problem() const {
   const std::string shorter =
       finite ? fmt::format("a step of at most {:.2g} s, ", step_ * std::sqrt(largest_condition / condition_)) : "";
   return fmt::format(
-      "with a step of {:g} s the springs hold a vertex {} times as fast as its inertia, and double precision keeps "
-      "{:.0e} apart: beyond that the motion is rounding; take {}softer springs or more mass, "
-      "or set [integrator] allow_unstable = true to run it nevertheless",
+      "with a step of {:g} s the springs hold a vertex {} times as strongly as its inertia does; beyond {:.0e} double "
+      "precision leaves only rounding noise: use {}softer springs or more mass, or set [integrator] allow_unstable = "
+      "true to run it anyway",
       step_, times, largest_condition, shorter);
 }
 

@@ -23,8 +23,8 @@ SafeStepGuard::SafeStepGuard(std::string_view scheme, const System& system)
 std::optional<std::string> SafeStepGuard::problem() const {
   if (step_ <= safe_step_) return std::nullopt;
   return fmt::format(
-      "{:g} s is too long for {}: with these springs and masses it is stable up to {:.4g} s; take a "
-      "shorter step or an implicit method, or set [integrator] allow_unstable = true to run it nevertheless",
+      "{:g} s is too long for {}: with these springs and masses it is stable up to {:.4g} s; use a shorter step or an "
+      "implicit method, or set [integrator] allow_unstable = true to run it anyway",
       step_, scheme_, safe_step_);
 }
 
@@ -49,11 +49,11 @@ std::string SafeStepGuard::remedy() const {
   constexpr const char* others = "method = \"liu13\", \"implicit\" or \"quasi-newton\"";
   if (step_ <= safe_step_) {
     return fmt::format(
-        ", though the step is below {:.4g} s, up to which {} is stable as long as springs do not pass "
-        "through zero length, where each gains a little: take a step far below it, or {}",
+        ", although the step is below {:.4g} s, up to which {} is stable unless springs pass through zero length and "
+        "gain energy: use a much shorter step, or {}",
         safe_step_, scheme_, others);
   }
-  return fmt::format("; {} is stable up to a step of {:.4g} s here: take a shorter one, or {}", scheme_, safe_step_,
+  return fmt::format("; {} is stable up to a step of {:.4g} s here: use a shorter one, or {}", scheme_, safe_step_,
                      others);
 }
 

@@ -26,8 +26,8 @@ void Sdirk2Guard::go_on(const BlowUpWatch::Books& books) {
 }
 
 std::string Sdirk2Guard::remedy() const {
-  return "; sdirk2 does not promise that a step gains none where it is solved loosely or the cloth is crumpled: take a "
-         "smaller tolerance and more max_iterations, a shorter [time] step, or scheme = \"backward-euler\", which does";
+  return "; sdirk2 can gain energy where steps are solved loosely or the cloth is crumpled: use a smaller tolerance "
+         "and more max_iterations, a shorter [time] step, or scheme = \"backward-euler\", which cannot";
 }
 
 }  // namespace drape

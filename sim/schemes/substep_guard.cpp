@@ -15,7 +15,7 @@ int SubstepGuard::fewest_halvings(double step, double longest) {
 
 std::optional<std::string> SubstepGuard::problem() const {
   if (step_ <= std::ldexp(longest_step(), most_halvings)) return std::nullopt;
-  return "too long even in 2^20 substeps: " + guard_->problem().value_or("pushes are too stiff for them");
+  return "too long even in 2^20 substeps: " + guard_->problem().value_or("pushes are too stiff even then");
 }
 
 }  // namespace drape

@@ -70,7 +70,8 @@ TEST_F(CheckReports, ReportsWhatCannotBeJudged) {
   const auto json = nlohmann::json::parse(json_report(report));
   EXPECT_EQ(json.at("passed"), false);
   EXPECT_EQ(json.at("scenes")[0].at("verdict"), "error");
-  EXPECT_NE(json.at("scenes")[0].at("findings")[0].get<std::string>().find("motion.bin: is not as it was recorded"),
+  EXPECT_NE(json.at("scenes")[0].at("findings")[0].get<std::string>().find(
+                "motion.bin: has been modified since it was recorded"),
             std::string::npos);
 
   const std::string junit = junit_report(report);

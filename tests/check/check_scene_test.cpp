@@ -110,7 +110,7 @@ TEST_F(CheckScene, SeesABodyMoveThatTouchesNothing) {
   const SceneResult moved = check(bystander(passing));
   EXPECT_EQ(moved.windows.motion, MotionVerdict::changed);
   EXPECT_NE(moved.findings.at(0).find("sphere 1 is "), std::string::npos) << moved.findings[0];
-  EXPECT_NE(moved.findings.at(0).find(" from its golden place"), std::string::npos) << moved.findings[0];
+  EXPECT_NE(moved.findings.at(0).find(" from its golden position"), std::string::npos) << moved.findings[0];
 }
 
 TEST_F(CheckScene, EndToEndIsTheMotionThatWasRecorded) {
@@ -176,7 +176,7 @@ TEST_F(CheckScene, RefusesAPictureThatSomebodyChanged) {
   put(golden() / "frames/0010.png", encode_png(test::plain_image(64, 48, {1, 2, 3})));
   EXPECT_EQ(test::usage_error([&] { check(); }),
             (golden() / "frames/0010.png").string() +
-                ": is not as it was recorded; restore it, or record it anew with drape bless");
+                ": has been modified since it was recorded; restore it, or record it again with drape bless");
 }
 
 TEST_F(CheckScene, NamesTheStepTheVertexAndTheDistance) {
@@ -272,7 +272,7 @@ TEST_F(CheckScene, SaysWhenItsPrecisionIsTooLow) {
   finer.motion_tolerance = 1e-8;
   const auto message =
       test::usage_error([&] { check_scene(scene(), "swing", finer, {.update = UpdateMode::none}, {}, progress_); });
-  EXPECT_NE(message.find("keeps positions to 6e-08 m"), std::string::npos) << message;
+  EXPECT_NE(message.find("stores positions to 6e-08 m"), std::string::npos) << message;
 }
 
 }  // namespace

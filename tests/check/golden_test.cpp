@@ -65,7 +65,7 @@ TEST_F(GoldenFolder, IsRefusedIfAnyByteIsChanged) {
       put(folder() / name, bad);
       const std::string said = message();
       EXPECT_EQ(said.find((folder() / name).string() + ": "), 0u) << said;
-      EXPECT_NE(said.find("; restore it, or record it anew with drape bless"), std::string::npos) << said;
+      EXPECT_NE(said.find("; restore it, or record it again with drape bless"), std::string::npos) << said;
     }
     put(folder() / name, good.substr(0, good.size() / 2));
     EXPECT_NE(message(), "(no error)");
@@ -76,8 +76,9 @@ TEST_F(GoldenFolder, IsRefusedIfAnyByteIsChanged) {
   other.windows.back().start.v(2, 1) += 1;  // at the end of the motion, where no step begins
   write_golden(folder_ / "other", other, {picture(), picture()});
   fs::copy(folder_ / "other/motion.bin", folder() / "motion.bin", fs::copy_options::overwrite_existing);
-  EXPECT_EQ(message(), (folder() / "motion.bin").string() +
-                           ": is not as it was recorded; restore it, or record it anew with drape bless");
+  EXPECT_EQ(message(),
+            (folder() / "motion.bin").string() +
+                ": has been modified since it was recorded; restore it, or record it again with drape bless");
 }
 
 TEST_F(GoldenFolder, OfAnOlderDrapeIsToBeRecordedAnew) {
@@ -85,8 +86,8 @@ TEST_F(GoldenFolder, OfAnOlderDrapeIsToBeRecordedAnew) {
   put(folder() / "motion.bin", "drape motion 1\n");
   const std::string message = test::usage_error([&] { read_golden(folder()); });
   EXPECT_EQ(message, (folder() / "manifest.json").string() +
-                         ": was recorded by an older drape, in format 1; this one reads format 3; restore it, or "
-                         "record it anew with drape bless");
+                         ": was recorded by an older drape in format 1; this one reads format 3; restore it, or "
+                         "record it again with drape bless");
   EXPECT_TRUE(has_golden(folder()));  // and bless may replace it
 }
 
@@ -95,7 +96,7 @@ TEST_F(GoldenFolder, SaysWhichFileIsNone) {
   for (const char* name : {"manifest.json", "motion.bin"}) {
     const fs::path file = folder() / name;
     const auto expect = [&](const std::string& problem) {
-      EXPECT_EQ(message(), file.string() + ": " + problem + "; restore it, or record it anew with drape bless");
+      EXPECT_EQ(message(), file.string() + ": " + problem + "; restore it, or record it again with drape bless");
       fs::remove_all(folder());
       write_golden(folder(), golden(), {picture(), picture()});
       fs::remove(file);
@@ -107,9 +108,9 @@ TEST_F(GoldenFolder, SaysWhichFileIsNone) {
     fs::create_directory(file);
     expect("is a folder, not a file");
     ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
-    expect("is no regular file");
+    expect("is not a regular file");
     fs::create_symlink("/dev/zero", file);
-    expect("is no regular file");
+    expect("is not a regular file");
     fs::create_symlink(file, file);
     EXPECT_NE(message().find(file.string() + ": cannot be read"), std::string::npos) << message();
     fs::remove(file);

@@ -46,11 +46,10 @@ TEST(Manifest, GivesBackWhatWasWritten) {
 TEST(Manifest, KnowsItsOwnText) {
   std::string text = manifest();
   text.replace(text.find("\"steps\": 100"), 12, "\"steps\": 101");
-  EXPECT_EQ(manifest_refusal(text), "is not as it was recorded");
-  EXPECT_EQ(manifest_refusal(manifest() + " "), "is not as it was recorded");
-  EXPECT_EQ(manifest_refusal("{\"format\": 1}"),
-            "was recorded by an older drape, in format 1; this one reads format 3");
-  EXPECT_EQ(manifest_refusal("{\"format\": 4}"), "was recorded by a newer drape, in format 4; this one reads format 3");
+  EXPECT_EQ(manifest_refusal(text), "has been modified since it was recorded");
+  EXPECT_EQ(manifest_refusal(manifest() + " "), "has been modified since it was recorded");
+  EXPECT_EQ(manifest_refusal("{\"format\": 1}"), "was recorded by an older drape in format 1; this one reads format 3");
+  EXPECT_EQ(manifest_refusal("{\"format\": 4}"), "was recorded by a newer drape in format 4; this one reads format 3");
 }
 
 TEST(Manifest, RefusesValuesThatMakeNoSense) {
@@ -75,7 +74,7 @@ TEST(Manifest, RefusesValuesThatMakeNoSense) {
   EXPECT_NE(manifest_with("/frames/0/view/up", {0, 0, 0}), "");
   EXPECT_NE(manifest_with("/frames/0/view/field_of_view", 180), "");
   EXPECT_EQ(manifest_with("/camera/margin", "none"), "'camera.margin': expected a number");
-  EXPECT_EQ(manifest_with("/machine", 7), "'machine.' is no JSON object");
+  EXPECT_EQ(manifest_with("/machine", 7), "'machine.' is not a JSON object");
   EXPECT_NE(manifest_with("/frames/0/frame", -1), "");
   EXPECT_NE(manifest_with("/frames/1/frame", 3), "");  // twice the same
   EXPECT_NE(manifest_with("/window_steps", 0), "");
@@ -112,13 +111,13 @@ TEST(Manifest, RefusesDeepNesting) {
 }
 
 TEST(Manifest, SaysWhereItIsNoJson) {
-  EXPECT_EQ(manifest_refusal(""), "is no JSON: something else is expected in line 1");
-  EXPECT_EQ(manifest_refusal("{\n\"a\": 1,\n]"), "is no JSON: something else is expected in line 3");
+  EXPECT_EQ(manifest_refusal(""), "is not valid JSON: syntax error in line 1");
+  EXPECT_EQ(manifest_refusal("{\n\"a\": 1,\n]"), "is not valid JSON: syntax error in line 3");
   EXPECT_EQ(manifest_refusal("{\"a\": 1e999}"), "holds a number that is too large");
-  EXPECT_EQ(manifest_refusal("[]"), "is no JSON object");
+  EXPECT_EQ(manifest_refusal("[]"), "is not a JSON object");
   std::string latin = manifest();
   latin.insert(latin.find("0123456789abcdef"), "\xE4");
-  EXPECT_EQ(manifest_refusal(latin).find("is no JSON"), 0u);
+  EXPECT_EQ(manifest_refusal(latin).find("is not valid JSON"), 0u);
 }
 
 }  // namespace

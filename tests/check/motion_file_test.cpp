@@ -96,13 +96,13 @@ TEST(MotionFile, RefusesWhatIsNotFinite) {
   for (const double value : {nan, infinity, -infinity}) {
     Golden bad = sample();
     bad.windows[1].start.v(1, 1) = value;
-    EXPECT_EQ(motion_refusal(pack_motion(bad), bad), "holds a number that is not finite") << value;
+    EXPECT_EQ(motion_refusal(pack_motion(bad), bad), "contains a number that is not finite") << value;
     bad = sample();
     bad.windows[1].energies.kinetic = value;
-    EXPECT_EQ(motion_refusal(pack_motion(bad), bad), "holds a number that is not finite") << value;
+    EXPECT_EQ(motion_refusal(pack_motion(bad), bad), "contains a number that is not finite") << value;
     bad = sample();
     bad.frames[1].x(1, 1) = value;
-    EXPECT_EQ(motion_refusal(pack_motion(bad), bad), "holds a number that is not finite") << value;
+    EXPECT_EQ(motion_refusal(pack_motion(bad), bad), "contains a number that is not finite") << value;
   }
 }
 
@@ -128,9 +128,8 @@ TEST(MotionFile, RefusesTheMotionOfAnotherGolden) {
 
 TEST(MotionFile, UnpacksNoMoreThanItMay) {
   const Golden golden = test::sample_golden(1, 2, 1, {0});
-  EXPECT_EQ(motion_refusal(test::motion_bytes(Words(100'000)), golden),
-            "holds more than belongs to the manifest beside it");
-  EXPECT_EQ(motion_refusal(test::motion_bytes(Words(10)), golden), "is cut off");
+  EXPECT_EQ(motion_refusal(test::motion_bytes(Words(100'000)), golden), "holds more than its manifest allows");
+  EXPECT_EQ(motion_refusal(test::motion_bytes(Words(10)), golden), "is truncated");
 }
 
 TEST(MotionFile, RefusesEveryDamage) {

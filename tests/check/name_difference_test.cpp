@@ -46,7 +46,7 @@ TEST(NameDifference, NamesABrightness) {
 TEST(NameDifference, NamesOtherColours) {
   Image swapped = waves(0, 0);
   for (std::size_t i = 0; i < swapped.pixels.size(); i += 3) std::swap(swapped.pixels[i], swapped.pixels[i + 2]);
-  EXPECT_EQ(name_difference(waves(0, 0), swapped), "other colours in the same places");
+  EXPECT_EQ(name_difference(waves(0, 0), swapped), "different colours in the same places");
 }
 
 TEST(NameDifference, NamesAPlace) {
@@ -54,7 +54,7 @@ TEST(NameDifference, NamesAPlace) {
   for (int y = 20; y < 24; ++y) {
     for (int x = 70; x < 76; ++x) dot.at(x, y)[1] = 250;
   }
-  EXPECT_EQ(name_difference(waves(0, 0), dot), "one place only: 6x4 pixels from column 70 and row 20 on");
+  EXPECT_EQ(name_difference(waves(0, 0), dot), "one place only: 6x4 pixels at column 70, row 20");
 }
 
 TEST(NameDifference, NamesEdges) {
@@ -82,7 +82,7 @@ TEST(NameOtherMachine, TellsWhatMattersOnly) {
   there.renderer = "llvmpipe 17";
   there.kernels = "sse2";
   EXPECT_EQ(name_other_machine(there, here),
-            "with another renderer (llvmpipe 17; here llvmpipe 15), another instruction set (sse2; here avx2)");
+            "with a different renderer (llvmpipe 17; here llvmpipe 15), a different instruction set (sse2; here avx2)");
 }
 
 }  // namespace

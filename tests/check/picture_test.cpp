@@ -101,9 +101,9 @@ TEST(DecodePng, IsTheInverseOfEncoding) { EXPECT_EQ(decode_png(encode_png(base()
 
 TEST(DecodePng, RefusesWhatIsCutOff) {
   const std::string png = encode_png(base());
-  for (const std::size_t bytes : {0, 7, 8, 23}) EXPECT_EQ(png_refusal(png.substr(0, bytes)), "is no PNG") << bytes;
+  for (const std::size_t bytes : {0, 7, 8, 23}) EXPECT_EQ(png_refusal(png.substr(0, bytes)), "is not a PNG") << bytes;
   for (const std::size_t bytes : {24, 33, 60, 500}) EXPECT_EQ(png_refusal(png.substr(0, bytes)), "is damaged") << bytes;
-  EXPECT_EQ(png_refusal("GIF89a" + png), "is no PNG");
+  EXPECT_EQ(png_refusal("GIF89a" + png), "is not a PNG");
 }
 
 TEST(DecodePng, RefusesAnotherSizeBeforeItUnpacksIt) {
@@ -119,7 +119,7 @@ TEST(DecodePng, RefusesDamage) {
     std::string png = good;
     png[i] = static_cast<char>(png[i] ^ 0x10);
     const std::string problem = png_refusal(png);  // or it is one that does not matter, as in the name of a comment
-    EXPECT_TRUE(problem.empty() || problem == "is damaged" || problem == "is no PNG" || problem.starts_with("has "))
+    EXPECT_TRUE(problem.empty() || problem == "is damaged" || problem == "is not a PNG" || problem.starts_with("has "))
         << problem;
   }
 }

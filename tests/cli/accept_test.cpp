@@ -93,23 +93,22 @@ TEST_F(Accept, OnePictureLeavesTheOthersAlone) {
 TEST_F(Accept, TheSameMotionOnly) {
   folder_.write("a.toml", scene("", 1.1));
   EXPECT_EQ(drape(folder_, "check a.toml --update none").code, 1);
-  expect_refused("accept out/check a --frames 5", "the motion or the size of the pictures is another one");
+  expect_refused("accept out/check a --frames 5", "the motion or the size of the pictures has changed");
   EXPECT_EQ(drape(folder_, "accept out/check a").code, 0);
   EXPECT_EQ(drape(folder_, "check a.toml --update none").code, 0);
 }
 
 TEST_F(Accept, NothingThatWasNotChecked) {
   folder_.write("a.toml", scene("color = \"blue\"\n"));
-  expect_refused("accept out/check",
-                 "a.toml: cannot be accepted: the scene is another one than the one that was checked");
+  expect_refused("accept out/check", "a.toml: cannot be accepted: the scene has changed since the check");
   folder_.write("a.toml", scene("color = \"red\"\n"));
   const fs::path description = folder_.path() / "out/check/b/candidate.json";
   std::string text = test::content(description);
   text.replace(text.find("\"program\": \"") + 12, 4, "0000");
   folder_.write("out/check/b/candidate.json", text);
-  expect_refused("accept out/check", "b.toml: cannot be accepted: another drape than this one has checked it");
+  expect_refused("accept out/check", "b.toml: cannot be accepted: it was checked by a different build of drape");
   fs::resize_file(folder_.path() / "out/check/a/candidate/frames/0005.png", 100);
-  expect_refused("accept out/check a", "candidate/frames/0005.png: is not as it was recorded");
+  expect_refused("accept out/check a", "candidate/frames/0005.png: has been modified since it was recorded");
 }
 
 TEST_F(Accept, Kill9LeavesOneGoldenOrTheOther) {

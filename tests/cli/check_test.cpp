@@ -83,16 +83,16 @@ TEST(CheckCommand, SaysWhatIsWrongWithItsOptions) {
   };
   expect("check swing.toml --update misssing", "--update: unknown 'misssing'; did you mean 'missing'?");
   expect("check swing.toml --update changed",
-         "--update changed is no more: look at the report of a check, then accept");
+         "--update changed no longer exists: look at the report of a check, then accept");
   expect("check swing.toml --set check.window=20",
-         "'window' in [check] is no more: the whole motion is compared now, in windows of 'window_time' seconds");
+         "'window' in [check] no longer exists: the whole motion is compared now, in windows of 'window_time' seconds");
   expect("accept out/check", "out/check: there is nothing to accept");
-  expect("check swing.toml --frames 1,,2", "--frames takes A,B,C, numbers of frames from 0 on, found '1,,2'");
+  expect("check swing.toml --frames 1,,2", "--frames takes frame numbers A,B,C, counted from 0; found '1,,2'");
   expect("bless swing.toml --frames 1000", "the film ends with frame 10");
   expect("check nowhere.toml", "nowhere.toml: no such file");
   EXPECT_EQ(drape(folder, "bless swing.toml").code, 0);
   std::ofstream(folder.path() / "swing.golden/motion.bin", std::ios::binary) << "nonsense";
-  expect("check swing.toml", "swing.golden/motion.bin: is not as it was recorded");
+  expect("check swing.toml", "swing.golden/motion.bin: has been modified since it was recorded");
 }
 
 }  // namespace

@@ -51,13 +51,13 @@ TEST(CommandLine, SaysWhatErrorTheStepsLeftAndThatAStandingClothIsNoEquilibrium)
   const std::string stiff = "simulate scene.toml --set cloth.stiffness=1e6 --set time.duration=6 ";
   Finished finished = drape(folder, stiff + "--set integrator.tolerance=1");
   EXPECT_EQ(finished.code, 0) << finished.text;
-  EXPECT_NE(finished.text.find(" a step, estimated (at most "), std::string::npos) << finished.text;
-  EXPECT_NE(finished.text.find("its weight out of balance, so this is no equilibrium"), std::string::npos)
+  EXPECT_NE(finished.text.find(", estimated error "), std::string::npos) << finished.text;
+  EXPECT_NE(finished.text.find("its weight out of balance, so this is not an equilibrium"), std::string::npos)
       << finished.text;
   // Left to itself it says so too, and has nothing to warn of.
   finished = drape(folder, "simulate scene.toml --set integrator={}");
   EXPECT_EQ(finished.code, 0) << finished.text;
-  EXPECT_NE(finished.text.find(" a step, estimated (at most "), std::string::npos) << finished.text;
+  EXPECT_NE(finished.text.find(", estimated error "), std::string::npos) << finished.text;
   EXPECT_EQ(finished.text.find("equilibrium"), std::string::npos) << finished.text;
 }
 
@@ -145,13 +145,12 @@ TEST(CommandLine, MakesAFilmNoLargerThanItMayBe) {
   for (const char* nonsense : {"5XB", "MB", "0", "-3kB", "nan"}) {
     const Finished refused = drape(folder, render + nonsense);
     EXPECT_EQ(refused.code, 2) << nonsense;
-    EXPECT_NE(refused.text.find("--max-size takes a number of bytes such as 5MB"), std::string::npos) << refused.text;
+    EXPECT_NE(refused.text.find("--max-size takes a size such as 5MB"), std::string::npos) << refused.text;
   }
   EXPECT_EQ(drape(folder, "render scene.toml -o x.png --max-size 5MB").code, 2);
   const Finished fewer = drape(folder, render + "12kB --keep size");
   EXPECT_EQ(fewer.text.find(" pixels instead of"), std::string::npos) << fewer.text;
-  EXPECT_EQ(drape(folder, "render scene.toml -o x.gif --keep size").text,
-            "drape: --keep size is for a film that must fit: give --max-size, too\n");
+  EXPECT_EQ(drape(folder, "render scene.toml -o x.gif --keep size").text, "drape: --keep size needs --max-size\n");
 }
 
 TEST(CommandLine, PutsAPosterBesideEachFilm) {

@@ -86,7 +86,7 @@ TEST(Compare, RefusesInOneMessageWithExitCode2) {
     EXPECT_EQ(finished.code, 2) << arguments << finished.text;
     return finished.text;
   };
-  EXPECT_EQ(message("a.toml"), "drape: drape compare needs two motions at least\n");
+  EXPECT_EQ(message("a.toml"), "drape: drape compare needs at least two motions\n");
   EXPECT_EQ(message("a.toml a.toml --grid 3"),
             "drape: --grid takes COLUMNSxROWS, each from 1 to 100, as in 4x3; found '3'\n");
   EXPECT_EQ(message("a.toml a.toml -o x.gif --sheet 2x2"), "drape: --sheet 2x2 needs an output for it: -o NAME.png\n");

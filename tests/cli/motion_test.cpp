@@ -107,14 +107,13 @@ TEST(InterruptedRun, SaysHowItGoesOn) {
   folder.write("scene.toml", long_scene(all_methods[4]));
   const Finished begun = signal_after(folder, "simulate scene.toml --steps 4000 -o m.drape", 0.3, "INT");
   EXPECT_EQ(begun.code, 130);
-  EXPECT_NE(
-      begun.text.find("of 4000 steps; m.drape.partial has what there is of the motion, and drape simulate --resume "
-                      "m.drape goes on"),
-      std::string::npos)
+  EXPECT_NE(begun.text.find("of 4000 steps; m.drape.partial has the motion so far, and drape simulate --resume "
+                            "m.drape continues it"),
+            std::string::npos)
       << begun.text;
   const Finished anew = drape(folder, "simulate scene.toml -o m.drape");
   EXPECT_EQ(anew.code, 2);
-  EXPECT_NE(anew.text.find("drape simulate --resume m.drape completes it; to begin anew, remove it"),
+  EXPECT_NE(anew.text.find("drape simulate --resume m.drape completes it; to start over, remove it"),
             std::string::npos);
   const Finished drawn = drape(folder, "render m.drape.partial -o x.gif");
   EXPECT_EQ(drawn.code, 2);
@@ -156,7 +155,7 @@ TEST(InterruptedRun, DoesNotGoOnWhereItsFilmsCannotBeMade) {
   };
   EXPECT_EQ(refused("simulate --resume m.drape -o x.gif"),
             "drape: drape simulate draws nothing, and -o x.gif must be drawn: use drape render\n");
-  EXPECT_EQ(refused("render --resume m.drape -o n.drape"), "drape: -o n.drape: m.drape is a motion file already\n");
+  EXPECT_EQ(refused("render --resume m.drape -o n.drape"), "drape: -o n.drape: m.drape is already a motion file\n");
   EXPECT_EQ(refused("render --resume m.drape -o x.gif --steps 4001"), "drape: --steps 4001: m.drape has 4000\n");
   EXPECT_EQ(refused("render --resume m.drape -o x.git"), refused("render scene.toml -o x.git"));
   EXPECT_NE(
@@ -164,7 +163,7 @@ TEST(InterruptedRun, DoesNotGoOnWhereItsFilmsCannotBeMade) {
       std::string::npos);
   EXPECT_NE(refused("simulate --resume m.drape --frames 0..3").find("and no -o is there"), std::string::npos);
   EXPECT_EQ(refused("simulate scene.toml --resume m.drape"),
-            "drape: --resume m.drape goes on with the run of its scene, and takes no SCENE\n");
+            "drape: --resume m.drape continues it with the run of its scene, and takes no SCENE\n");
 }
 
 /// The most that a process that has ended had in memory [kB].
@@ -206,30 +205,29 @@ TEST(MotionOnTheCommandLine, SaysWhatIsWrong) {
     EXPECT_EQ(finished.code, code) << arguments;
     return finished.text;
   };
-  EXPECT_EQ(text("simulate m.drape"),
-            "drape: m.drape is a motion already: drape render draws it, drape simulate computes one\n");
+  EXPECT_EQ(text("simulate m.drape"), "drape: m.drape is already a motion: use drape render to draw it\n");
   EXPECT_EQ(text("render m.drape --energies e.csv"),
-            "drape: --energies is written by a simulation, and m.drape is only read: ask drape simulate for it\n");
-  EXPECT_EQ(text("render m.drape -o n.drape"), "drape: -o n.drape: m.drape is a motion file already\n");
+            "drape: --energies needs a simulation, and m.drape is only read: use it with drape simulate\n");
+  EXPECT_EQ(text("render m.drape -o n.drape"), "drape: -o n.drape: m.drape is already a motion file\n");
   EXPECT_EQ(text("render m.drape --steps 30"), "drape: --steps 30: m.drape has 20\n");
-  EXPECT_EQ(
-      text("render m.drape --scene other.toml"),
-      "drape: m.drape holds another motion than other.toml would give: simulate anew, or leave these as they are\n"
-      "drape: cloth.stiffness: 50, and 60 in other.toml\n");
+  EXPECT_EQ(text("render m.drape --scene other.toml"),
+            "drape: m.drape is a different motion from what other.toml gives: simulate again, or leave these values "
+            "unchanged\n"
+            "drape: cloth.stiffness: 50, and 60 in other.toml\n");
   EXPECT_NE(text("render m.drape --set cloth.stiffness=60").find("cloth.stiffness: 50, and 60 in --set"),
             std::string::npos);
   EXPECT_EQ(text("render m.drape --set look.colour=red"),
             "drape: --set look.colour=red: unknown key 'colour' in [look]; did you mean 'color'?\n");
   EXPECT_EQ(text("simulate scene.toml -o a.drape -o b.drape"),
-            "drape: -o a.drape and -o b.drape: a run writes one motion file\n");
+            "drape: -o a.drape and -o b.drape: a run writes only one motion file\n");
   EXPECT_EQ(text("simulate scene.toml -o a.drape --every 0"),
-            "drape: --every takes a number of steps from 1 on, or frames, found '0'\n");
+            "drape: --every takes a number of steps of at least 1, or frames; found '0'\n");
   EXPECT_EQ(text("simulate scene.toml -o {frame}.drape"),
-            "drape: '{frame}.drape' is one file for the whole run: it cannot hold {frame}\n");
+            "drape: '{frame}.drape' is one file for the whole run: it cannot contain {frame}\n");
   EXPECT_EQ(text("simulate"), "drape: SCENE is required; see drape --help\n");
   EXPECT_EQ(text("simulate --resume m.gif"),
             "drape: --resume m.gif: expected the name of a motion file, as in motion.drape\n");
-  EXPECT_EQ(text("simulate --resume n.drape"), "drape: n.drape: there is nothing to go on with: no n.drape.partial\n");
+  EXPECT_EQ(text("simulate --resume n.drape"), "drape: n.drape: nothing to resume: no n.drape.partial\n");
   EXPECT_EQ(text("simulate --resume m.drape", 0), "");
   EXPECT_EQ(drape(folder, "simulate --resume m.drape.partial").text, "drape: m.drape is complete\n");
   EXPECT_EQ(text("render m.drape --scene look.toml -o red.gif", 0), "");
@@ -246,7 +244,7 @@ TEST(MotionOnTheCommandLine, WarnsOfGaps) {
   const Finished rendered = drape(folder, "render m.drape -o x{frame}.obj");
   EXPECT_EQ(rendered.code, 0);
   EXPECT_NE(
-      rendered.text.find("m.drape: 8 frames lie between states that are more than a step apart, and are interpolated"),
+      rendered.text.find("m.drape: 8 frames lie between stored states more than a step apart and are interpolated"),
       std::string::npos)
       << rendered.text;
 }

@@ -93,7 +93,7 @@ TEST_F(MakeSink, RefusesFrameNumbersForOneFile) {
 
 TEST_F(MakeSink, RefusesAGifFasterThanBrowsersPlay) {
   const std::string message = error("x.gif", 60);
-  EXPECT_NE(message.find("the most a GIF can play is 50"), std::string::npos) << message;
+  EXPECT_NE(message.find("a GIF can play at most 50"), std::string::npos) << message;
   EXPECT_EQ(error("x.gif", 50), "(no error)");
   EXPECT_EQ(error("x.mp4", 60), "(no error)");
 }

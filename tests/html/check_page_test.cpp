@@ -30,7 +30,7 @@ class CheckPage : public test::InBrowser {
 TEST_F(CheckPage, OfARunWhereAllIsWell) {
   open(html_report(test::sample_check(false)));
   expect_sound();
-  EXPECT_EQ(browser_->run("return document.querySelector('h1').textContent"), "All 3 scenes are as they were");
+  EXPECT_EQ(browser_->run("return document.querySelector('h1').textContent"), "All 3 scenes are unchanged");
   keep_screenshots("check-passed");
 }
 
@@ -52,7 +52,7 @@ TEST_F(CheckPage, ShowsFailedScenesFirst) {
   EXPECT_GT(browser_->run("return document.querySelectorAll('main .ignored').length"), 0);
   EXPECT_EQ(browser_->run("return document.querySelector('main .findings li').textContent")
                 .get<std::string>()
-                .find("The golden was recorded with another renderer"),
+                .find("The golden was recorded with a different renderer"),
             0u);
   keep_screenshots("check-failed");
 }

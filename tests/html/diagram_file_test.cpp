@@ -54,7 +54,7 @@ html::Chart chart_of(html::Scale x, html::Scale y, double from, double to) {
     }
     chart.series.push_back(series);
   }
-  chart.levels = {{from, "how far the two references are apart"}};
+  chart.levels = {{from, "distance between the two references"}};
   return chart;
 }
 

@@ -121,7 +121,7 @@ SceneResult scene(const std::string& name, SceneVerdict verdict, const std::vect
     const Image image = camera.next();
     s.windows.frames.push_back(compared(number, image, changed(image, how)));
     s.windows.frames.back().why = number == 0 ? "the start" : "first contact with the sphere";
-    if (how > 1) s.windows.frames.back().kind = "one place only: 6x6 pixels from column 140 and row 100 on";
+    if (how > 1) s.windows.frames.back().kind = "one place only: 6x6 pixels at column 140, row 100";
     s.windows.windows.push_back(window(number / 40, how > 1 ? growth : 0, s.settings.motion_tolerance));
     s.windows.picture = std::max(s.windows.picture, s.windows.frames.back().difference.verdict);
     s.windows.motion = std::max(s.windows.motion, s.windows.windows.back().verdict);
@@ -156,7 +156,7 @@ CheckReport sample_check(bool failing) {
                                   : scene("5", SceneVerdict::passed, {0, 0, 1, 0}, 0));
   if (failing) {
     report.accept_command = "drape accept out/check";
-    report.scenes.back().elsewhere = "with another renderer (llvmpipe; here llvmpipe (LLVM 15.0.6, 256 bits))";
+    report.scenes.back().elsewhere = "with a different renderer (llvmpipe; here llvmpipe (LLVM 15.0.6, 256 bits))";
     report.scenes.back().findings = {"the motion changed at step 92 by up to 366 µm at vertex 213",
                                      "the picture changed at frame 40: 36 pixels differ, by at most 180 of 255"};
   }

@@ -29,7 +29,7 @@ HomeworkStudy sample_study() {
     chart.series.push_back(series);
   }
   study.charts = {{"iterations", chart}};
-  study.differences = {"Pins are held."};
+  study.differences = {"drape also holds pins"};
   return study;
 }
 

@@ -142,10 +142,9 @@ TEST(MotionSpace, IsAskedForBeforeARun) {
   EXPECT_NO_THROW(require_motion_file(options, {.expected = 4e9, .most = 9e9, .free = 5e9}, false));
   const std::string message = folder.without_folder(
       usage_error([&] { require_motion_file(options, {.expected = 6e9, .most = 9e9, .free = 5e6}, false); }));
-  EXPECT_EQ(
-      message,
-      "m.drape will take about 6 GB (9 GB at most), and 5 MB are free there: make room, or take fewer states with "
-      "--every frames or --every N, or a shorter [time] duration");
+  EXPECT_EQ(message,
+            "m.drape will take about 6 GB (at most 9 GB), and 5 MB are free there: free some space, or store fewer "
+            "states with --every frames or --every N, or use a shorter [time] duration");
 }
 
 }  // namespace

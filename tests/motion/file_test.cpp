@@ -166,7 +166,7 @@ TEST_F(DamagedMotion, IsRefusedWhicheverByteIsAnother) {
 
 TEST_F(DamagedMotion, SaysWhatItIs) {
   EXPECT_EQ(error_of("drape recorded motion 2\n"),
-            "bad.drape: this is a motion of version 2, and this drape reads version 1");
+            "bad.drape: this motion has version 2, but this drape reads version 1");
   EXPECT_EQ(error_of("solid cube\n"), "bad.drape: this is no motion of drape's");
   EXPECT_EQ(error_of(good_.substr(0, good_.size() - 1)), "bad.drape: the file is cut short: it has no end");
   EXPECT_EQ(usage_error([] { read_all("/nowhere/m.drape"); }), "/nowhere/m.drape: no such file");
@@ -184,7 +184,7 @@ TEST_F(DamagedMotion, OfAnotherSceneIsRefused) {
   EXPECT_EQ(error({"look.color=red", "video.fps=3", "camera.azimuth=10", "time.duration=3"}), "(no error)");
   EXPECT_EQ(error({"cloth.mass=1"}), "(no error)") << "the default";
   EXPECT_EQ(error({"effects.sphere.radius=0.25", "integrator.tolerance=1e-5", "cloth.mass=2"}),
-            "m.drape holds another motion than look.toml would give: simulate anew, or leave these as they are\n"
+            "m.drape is a different motion from what look.toml gives: simulate again, or leave these values unchanged\n"
             "cloth.mass: 1, and 2 in look.toml\n"
             "integrator.tolerance: nothing, and 1e-05 in look.toml\n"
             "effects.sphere.radius: 0.3, and 0.25 in look.toml");

@@ -165,12 +165,11 @@ TEST(ResumedRun, BeginsAgainWhereItWasKilledBeforeTheSecondCheckpoint) {
 TEST(ResumedRun, NeedsSomethingToGoOnFrom) {
   const SceneFolder folder;
   const auto error = [&] { return folder.without_folder(usage_error([&] { resume(folder.path("m.drape")); })); };
-  EXPECT_EQ(error(), "m.drape: there is nothing to go on with: no m.drape.partial");
+  EXPECT_EQ(error(), "m.drape: nothing to resume: no m.drape.partial");
   folder.write("m.drape.partial", "drape recorded motion 1\n");
-  EXPECT_EQ(error(),
-            "m.drape.partial: there is nothing in it to go on with, as there is no m.drape.checkpoint: simulate anew");
+  EXPECT_EQ(error(), "m.drape.partial: cannot be resumed, because there is no m.drape.checkpoint: simulate again");
   folder.write("m.drape.checkpoint", "drape checkpoint 7\n");
-  EXPECT_EQ(error(), "m.drape.checkpoint: this is a checkpoint of version 7, and this drape reads version 1");
+  EXPECT_EQ(error(), "m.drape.checkpoint: this checkpoint has version 7, but this drape reads version 1");
 }
 
 TEST(ResumedRun, IsNotOverwrittenByANewOne) {
@@ -180,7 +179,7 @@ TEST(ResumedRun, IsNotOverwrittenByANewOne) {
   const std::string kept = content(folder.path("m.drape.partial"));
   EXPECT_NE(usage_error([&] {
               record(scene, folder.path("m.drape"));
-            }).find("m.drape.partial is there, of a run that goes on or ended early: drape simulate --resume"),
+            }).find("m.drape.partial exists, from a run in progress or ended early: drape simulate --resume"),
             std::string::npos);
   EXPECT_EQ(content(folder.path("m.drape.partial")), kept);
   // Where there is nothing to go on from, nothing is lost.

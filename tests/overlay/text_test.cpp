@@ -59,9 +59,8 @@ TEST(TextTemplate, RefusesWhatIsNoFormat) {
 }
 
 TEST(TextTemplate, SaysWhichBraceIsWrong) {
-  EXPECT_EQ(message([] { TextTemplate("a {time"); }), "'{time' has no '}'; a brace that is meant is written '{{'");
-  EXPECT_EQ(message([] { TextTemplate("a } b"); }),
-            "there is a '}' without its '{'; a brace that is meant is written '}}'");
+  EXPECT_EQ(message([] { TextTemplate("a {time"); }), "'{time' has no '}'; write '{{' for a brace");
+  EXPECT_EQ(message([] { TextTemplate("a } b"); }), "there is a '}' without its '{'; write '}}' for a brace");
   EXPECT_EQ(message([] { TextTemplate("{a{b}}"); }).substr(0, 10), "'{a{b}}' h");
 }
 

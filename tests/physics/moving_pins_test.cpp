@@ -167,11 +167,12 @@ TEST(MovingPinsChecks, SayWhatIsWrong) {
     const std::vector<std::string> found = problems(effect, settings);
     return found.empty() ? "" : found.front();
   };
-  EXPECT_EQ(said(moving({0, 1}, path)), "pins: vertex 1 is not pinned; [cloth] pins must have it too");
-  EXPECT_EQ(said(drape::MovingPins{.pins = {0}}), ": give 'keyframes', 'release' or both: nothing happens without");
+  EXPECT_EQ(said(moving({0, 1}, path)), "pins: vertex 1 is not pinned; add it to [cloth] pins");
+  EXPECT_EQ(said(drape::MovingPins{.pins = {0}}),
+            ": give 'keyframes', 'release' or both; with neither, nothing happens");
   EXPECT_EQ(
       said(moving({0}, {{0, {0, 0, 0.5}}, {1, {0, 0, 0}}})),
-      "keyframes: the pins start where the cloth has them, and the keyframe at 0 s is 0.5 m away from there: give "
+      "keyframes: the pins start at their place in the cloth, and the keyframe at 0 s is 0.5 m away from it: give "
       "it a later time");
   EXPECT_EQ(said(moving({0}, {{0, {-1, -1, 0}}, {1, {0, 0, 0}}}, Path::position)), "");
   settings.effects = {moving({0}, path), moving({0, 2}, path)};

@@ -183,7 +183,7 @@ TEST(SelfCollisionAlone, RefusesAClothThatStartsThroughItself) {
   settings.cloth.positions.bottomRows(49).col(2) += settings.cloth.positions.bottomRows(49).col(0);
   const auto found = problems(drape::SelfCollision{}, settings);
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_TRUE(found[0].starts_with(": the cloth starts through itself")) << found[0];
+  EXPECT_TRUE(found[0].starts_with(": the cloth starts intersecting itself")) << found[0];
 }
 
 // A mesh finer than the thickness is not pushed apart at rest.

@@ -59,8 +59,7 @@ TEST(SceneCaption, MistakesAreFoundWhenTheSceneIsRead) {
             "':6.1f' or, if it is whole, ':04'");
   EXPECT_EQ(folder.problems(with_caption("{integrator.method:.2f}")).substr(0, 59),
             "scene.toml:7:8: text: {integrator.method:.2f}: unknown form");
-  EXPECT_EQ(folder.problems(with_caption("{time")),
-            "scene.toml:7:8: text: '{time' has no '}'; a brace that is meant is written '{{'");
+  EXPECT_EQ(folder.problems(with_caption("{time")), "scene.toml:7:8: text: '{time' has no '}'; write '{{' for a brace");
   EXPECT_EQ(folder.problems(least_scene + "[caption]\nplace = \"top\"\n"),
             "scene.toml:6:1: missing key 'text' in [caption]");
   EXPECT_NE(folder.problems(with_caption("{quite something}")).find("what changes with time is 'time', 'frame'"),

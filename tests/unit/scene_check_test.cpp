@@ -28,7 +28,7 @@ TEST(SceneCheck, TakesPartsOfPicturesThatAreNotJudged) {
 TEST(SceneCheck, SaysWhatIsThereInsteadOfAWindowOfSteps) {
   const test::SceneFolder folder;
   EXPECT_EQ(folder.problems(least_scene + "[check]\nwindow = 20\n"),
-            "scene.toml:7:1: 'window' in [check] is no more: the whole motion is compared now, in windows of "
+            "scene.toml:7:1: 'window' in [check] no longer exists: the whole motion is compared now, in windows of "
             "'window_time' seconds");
   EXPECT_EQ(folder.load(least_scene + "[check]\nwindow_time = 1.5\n").check.window_time, 1.5);
   EXPECT_NE(folder.problems(least_scene + "[check]\nwindow_time = 0\n"), "(no error)");

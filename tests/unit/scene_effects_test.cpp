@@ -43,7 +43,7 @@ TEST(SceneEffects, ASphereMovesInOneWayOnly) {
   EXPECT_EQ(folder.problems(with("sphere", "radius = 1")), "scene.toml:6:1: missing key 'center' in [effects.sphere]");
   EXPECT_EQ(folder.problems(with("sphere", "center = [0, 0, 0]\nradius = 1\nvelocity = [1, 0, 0]\norbit_period = 2")),
             "scene.toml:6:1: [effects.sphere]: give only one of 'velocity', 'orbit_period', 'keyframes' and 'track': "
-            "each says where it is");
+            "each defines the motion");
   EXPECT_EQ(
       folder.problems(with("sphere", "center = [0, 0, 0]\nradius = 1\nkeyframes = [{ time = 0, center = [0, 0, 0] }]")),
       "scene.toml:7:10: center: 'keyframes' already says where its centre is");
@@ -89,7 +89,7 @@ TEST(SceneEffects, PinsAreMovedInTheFormsInWhichTheyArePinned) {
   EXPECT_EQ(make_system(scene.simulation).pin_releases.at(0).vertices, (std::vector{0, 1, 2}));
   EXPECT_EQ(make_system(scene.simulation).pin_releases.at(0).step, 100);
   EXPECT_EQ(folder.problems(pinned + "pins = [8]\nrelease = 1"),
-            "scene.toml:9:8: pins: vertex 8 is not pinned; [cloth] pins must have it too");
+            "scene.toml:9:8: pins: vertex 8 is not pinned; add it to [cloth] pins");
   EXPECT_EQ(folder.problems(pinned + "pins = [9]\nrelease = 1"),
             "scene.toml:9:9: pins[0]: the mesh has the vertices 0 to 8, found 9");
   EXPECT_EQ(folder.problems(pinned + "pins = [0]\nkeyframes = [{ time = 1, offset = [0, 0, 1] }, "
@@ -130,7 +130,7 @@ TEST(SceneEffects, ASphereFollowsAUsdFile) {
   EXPECT_EQ(sphere_at(scene, 1).radius, 0.25);
   EXPECT_EQ(sphere_at(folder.load(with("sphere", "track = \"point.usda\"\nradius = 0.4")), 2).radius, 0.4);
   EXPECT_EQ(folder.problems(with("sphere", "track = \"point.usda\"")),
-            "scene.toml:7:9: track: what moves in this file has no size: give the 'radius' as well");
+            "scene.toml:7:9: track: the moving object in this file has no size: also give the 'radius'");
   const std::string missing = folder.problems(with("sphere", "track = \"balls.usda\""));
   EXPECT_EQ(missing.substr(0, 57), "scene.toml:7:9: track: 'balls.usda' cannot be read:\nballs");
 }

@@ -83,8 +83,8 @@ TEST(SceneErrors, AnUnknownChoiceNamesTheNearest) {
   EXPECT_EQ(folder.problems(with("integrator", "scheme = \"sdirk\"")),
             "scene.toml:5:10: unknown scheme 'sdirk'; did you mean 'sdirk2'?");
   EXPECT_EQ(folder.problems(with("integrator", "method = \"verlet\"\nscheme = \"sdirk2\"")),
-            "scene.toml:6:10: scheme: it is how time advances with an implicit method, and verlet is a scheme of its "
-            "own: leave it out, or take method = \"implicit\", \"liu13\" or \"quasi-newton\"");
+            "scene.toml:6:10: scheme: it applies to implicit methods, and verlet is a scheme of its own: omit it, or "
+            "use method = \"implicit\", \"liu13\" or \"quasi-newton\"");
   EXPECT_EQ(folder.problems(with("integrator", "stop = \"never\"")),
             "scene.toml:5:8: unknown stop 'never'; the choices are 'change', 'gradient', 'error'");
 }
@@ -162,10 +162,9 @@ TEST(SceneErrors, AnAccuracyIsANumberAboveZeroAndStandsAlone) {
   EXPECT_EQ(folder.problems(asked), "(no error)");
   for (const std::string value : {"tolerance = 1e-3", "stop = \"error\""}) {
     const std::string key = value.substr(0, value.find(' '));
-    EXPECT_EQ(
-        folder.problems(asked + "\n[integrator]\nmax_iterations = 30\n" + value + "\n"),
-        "scene.toml:9:" + std::to_string(value.find('=') + 3) + ": " + key +
-            ": with an accuracy in [time], that says when a step is solved well enough: leave out one of the two");
+    EXPECT_EQ(folder.problems(asked + "\n[integrator]\nmax_iterations = 30\n" + value + "\n"),
+              "scene.toml:9:" + std::to_string(value.find('=') + 3) + ": " + key +
+                  ": an accuracy in [time] already determines when a step is solved well enough: omit one of the two");
   }
 }
 
@@ -224,11 +223,11 @@ TEST(SceneErrors, ATextureThatIsNotBesideTheSceneComesWithDrape) {
 TEST(SceneErrors, AFilmMustEnd) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems(with("time", "duration = 1e300")),
-            "scene.toml:5:12: duration: 1e+300 s in steps of 0.01 s are 1e+302 steps, at most 1e+09 can be taken");
+            "scene.toml:5:12: duration: 1e+300 s in steps of 0.01 s are 1e+302 steps; the limit is 1e+09");
   EXPECT_EQ(folder.problems(with("video", "speed = 1e-300")),
-            "scene.toml:4:1: the film would have 1.25e+302 frames, at most 1e+07 can be drawn");
+            "scene.toml:4:1: the film would have 1.25e+302 frames; the limit is 1e+07");
   EXPECT_EQ(folder.problems(with("time", "step = 1e-320")),
-            "scene.toml:4:1: duration: 5 s in steps of 9.99989e-321 s are inf steps, at most 1e+09 can be taken");
+            "scene.toml:4:1: duration: 5 s in steps of 9.99989e-321 s are inf steps; the limit is 1e+09");
   EXPECT_EQ(folder.problems(with("time", "step = 5e-9")), "(no error)");
 }
 
@@ -259,7 +258,7 @@ TEST(SceneErrors, EffectsCheckTheirValuesAgainstTheScene) {
   const SceneFolder folder;
   const std::string sphere = "[effects.sphere]\ncenter = [0, 0, 1]\nradius = 1\nstiffness = 160000\n";
   const std::string problem = folder.problems(least_scene + sphere);
-  EXPECT_EQ(problem.substr(0, problem.find(" where")), "scene.toml:9:13: stiffness: an explicit penalty is unstable");
+  EXPECT_EQ(problem.substr(0, problem.find(" where")), "scene.toml:9:13: stiffness: an explicit push is unstable");
   EXPECT_EQ(folder.problems(least_scene + sphere, {"time.step=0.005"}), "(no error)");
 }
 

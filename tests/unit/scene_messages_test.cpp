@@ -46,8 +46,8 @@ TEST(SceneMessages, AllOfThemAreReportedInTheOrderOfTheFile) {
 TEST(SceneMessages, AClothSaysItsMassAndItsStiffnessOnce) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems("[cloth]\nmesh = { grid = [2, 2] }\nmass = 1\ndensity = 1\nmodulus = 9\nstiffness = 9\n"),
-            "scene.toml:4:11: density: 'mass' already says it; give only one of them\n"
-            "scene.toml:5:11: modulus: 'stiffness' already says it; give only one of them");
+            "scene.toml:4:11: density: 'mass' already sets it; give only one of them\n"
+            "scene.toml:5:11: modulus: 'stiffness' already sets it; give only one of them");
   EXPECT_EQ(folder.problems("[cloth]\nmesh = { grid = [2, 2] }\nmaterial = \"denym\"\n"),
             "scene.toml:3:12: unknown material 'denym'; did you mean 'denim'?");
   EXPECT_EQ(folder.problems("[cloth]\nmesh = { grid = [2, 2] }\nmaterial = \"denim\"\n"), "(no error)");

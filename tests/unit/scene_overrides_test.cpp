@@ -115,7 +115,7 @@ TEST(SceneOverrides, ReachItemsOfAnArrayThatIsLeftToItsDefault) {
   EXPECT_EQ(folder.problems(least_scene, {"video.size.2=96"}),
             "--set video.size.2=96: video.size has the items 0 to 1");
   EXPECT_EQ(folder.problems(least_scene, {"camera.position.0=1"}),
-            "--set camera.position.0=1: camera.position has no items unless it is given: give all of it, "
+            "--set camera.position.0=1: camera.position has no items until it is given: set all of it, "
             "camera.position=…");
 }
 
