@@ -27,7 +27,7 @@ FrameResult compare_frame(const GoldenFrame& golden, const std::filesystem::path
   } catch (const std::invalid_argument& error) {
     fail_to_read(golden_file, error.what());
   }
-  if (pixel_hash(expected) != golden.pixels) fail_to_read(golden_file, "is not as it was recorded");
+  if (pixel_hash(expected) != golden.pixels) fail_to_read(golden_file, "has been modified since it was recorded");
   const PictureComparison comparison = compare_pictures(expected, actual, settings.limits, settings.ignore);
   result.difference = comparison.difference;
   if (result.difference.verdict == PictureVerdict::exact) return result;

@@ -120,12 +120,26 @@ class Verdicts {
   std::string reason_;
 };
 
+Ink ink_of(SceneVerdict verdict) {
+  if (verdict == SceneVerdict::passed) return Ink::green;
+  return verdict == SceneVerdict::changed || verdict == SceneVerdict::error ? Ink::red : Ink::yellow;
+}
+
+/// A line for the terminal, in which the verdict has a colour.
+std::string shown(const SceneResult& result, const CommonOptions& common) {
+  const Terminal where = terminal(stdout, common.color);
+  const std::string line = wrapped(describe(result), where.width, 2), verdict = verdict_name(result.verdict);
+  const std::size_t at = line.find(": " + verdict + ":");
+  if (at == std::string::npos) return line;
+  return line.substr(0, at + 2) + inked(verdict, ink_of(result.verdict), where) + line.substr(at + 2 + verdict.size());
+}
+
 void tell(const SceneResult& result, const CommonOptions& common, Verdicts& verdicts) {
   const bool good = result.passed();
   if (result.verdict == SceneVerdict::error) {
     spdlog::error(describe(result));
   } else if (!common.quiet || !good) {
-    verdicts.print(describe(result));
+    verdicts.print(shown(result, common));
   }
   for (const WindowResult& window : result.windows.windows) {
     spdlog::debug("steps {} to {}: {}", window.first_step, window.last_step, verdict_name(window.verdict));

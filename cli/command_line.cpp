@@ -1,14 +1,17 @@
 #include "cli/command_line.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <memory>
 #include <new>
+#include <span>
 #include <system_error>
 
 #include "cli/environment.hpp"
+#include "cli/examples.hpp"
+#include "cli/suggestions.hpp"
 #include "core/build_info.hpp"
 #include "core/console.hpp"
 #include "core/nearest.hpp"
@@ -17,39 +20,56 @@ namespace drape {
 namespace {
 
 void set_up_logging(const CommonOptions& common) {
-  auto logger = spdlog::stderr_color_st("drape");
-  logger->set_pattern("drape: %v");
-  logger->set_level(common.quiet ? spdlog::level::err : common.verbose ? spdlog::level::debug : spdlog::level::info);
-  spdlog::set_default_logger(std::move(logger));
+  log_to_terminal(common.color);
+  spdlog::set_level(common.quiet ? spdlog::level::err : common.verbose ? spdlog::level::debug : spdlog::level::info);
 }
 
-/// The words that could have been meant at the place where parsing stopped: the options of the chosen subcommand.
-std::vector<std::string> known_options(const CLI::App& app) {
-  std::vector<std::string> names;
-  const auto add = [&](const CLI::App& of) {
-    for (const CLI::Option* option : of.get_options()) {
-      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    }
-  };
-  add(app);
-  for (const CLI::App* chosen : app.get_subcommands()) add(*chosen);
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
+/// Parses one of a few names into the enumerator at its place.
+template <class Enum>
+void add_choice(CLI::App& app, const char* option, Enum& value, const std::vector<std::string>& names,
+                const char* help) {
+  app.add_option_function<std::string>(
+         option,
+         [option, &value, names](const std::string& given) {
+           const auto found = std::find(names.begin(), names.end(), given);
+           if (found == names.end()) {
+             throw CLI::ValidationError(option,
+                                        "unknown '" + given + "'" + did_you_mean(given, names, "the choices are"));
+           }
+           value = static_cast<Enum>(found - names.begin());
+         },
+         help)
+      ->type_name("WHEN");
 }
 
-std::vector<std::string> subcommand_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* subcommand : app.get_subcommands(nullptr)) names.push_back(subcommand->get_name());
-  return names;
+void print_help(const CLI::App& of, const std::string& name, const CommonOptions& common) {
+  // Not of.help(), which is that of the subcommand that was chosen.
+  const std::string help = of.get_formatter()->make_help(&of, name, CLI::AppFormatMode::Normal);
+  print_text(stdout, wrapped_help(help, terminal(stdout, common.color).width));
 }
 
-std::string explain(const CLI::App& app, const CLI::ParseError& error) {
-  const std::vector<std::string> extras = app.remaining(true);
-  if (extras.empty()) return fmt::format("{}; see drape --help", error.what());
-  const std::string& word = extras.front();
-  if (word.starts_with("-")) return "unknown option '" + word + "'" + did_you_mean(word, known_options(app), "options");
-  return "unknown command '" + word + "'" + did_you_mean(word, subcommand_names(app), "commands");
+/// The names of a command and of those that it belongs to: "drape study accuracy".
+std::string full_name(const CLI::App& of) {
+  return of.get_parent() == nullptr ? of.get_name() : full_name(*of.get_parent()) + " " + of.get_name();
+}
+
+void add_help_command(CLI::App& app, const CommonOptions& common, Command& command) {
+  auto names = std::make_shared<std::vector<std::string>>();
+  CLI::App* help = app.add_subcommand("help", "Show the help of drape or of a command");
+  help->add_option("COMMAND", *names, "Names of a command, such as render or study accuracy");
+  help->callback([&app, names, &common, &command] {
+    command = [&app, names, &common] {
+      const CLI::App& of = find_command(app, *names);
+      print_help(of, full_name(of), common);
+      return ExitCode::ok;
+    };
+  });
+}
+
+/// The command whose --help was asked for: the last one that was named.
+const CLI::App& command_of_help(const CLI::App& app) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  return chosen.empty() ? app : command_of_help(*chosen.front());
 }
 
 ExitCode report(const Error& error) {
@@ -91,6 +111,9 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   auto* quiet = app.add_flag("--quiet", common.quiet, "Print errors only");
   app.add_flag("--verbose", common.verbose, "Print more details")->excludes(quiet);
 
+  add_choice(app, "--color", common.color, {"auto", "always", "never"},
+             "Colours in messages: auto (default), always or never; NO_COLOR turns them off too");
+
   Command command;
   add_run_commands(app, common, command);
   add_compare_command(app, common, command);
@@ -101,15 +124,21 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   add_bless_command(app, common, command);
   add_study_command(app, common, command);
   add_doctor_command(app, command);
+  add_help_command(app, common, command);
+  add_examples(app);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    const CLI::App& of = command_of_help(app);
+    print_help(of, full_name(of), common);
+    return ExitCode::ok;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
-      app.exit(error);  // --help or --version: printed, and all is well
+      app.exit(error);  // --version: printed, and all is well
       return ExitCode::ok;
     }
     set_up_logging(common);
-    spdlog::error(explain(app, error));
+    spdlog::error(explain(app, error, std::span(argv, static_cast<std::size_t>(argc)).subspan(1)));
     return ExitCode::usage;
   }
 

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "cli/exit_code.hpp"
+#include "cli/terminal.hpp"
 #include "render/backend.hpp"
 
 namespace drape {
@@ -12,6 +13,7 @@ namespace drape {
 struct CommonOptions {
   bool quiet = false;
   bool verbose = false;
+  ColorMode color = ColorMode::automatic;
 };
 
 /// The work of a subcommand, done once the whole command line is read.

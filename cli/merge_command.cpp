@@ -22,9 +22,9 @@ ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
 
 void add_merge_command(CLI::App& app, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<MergeArguments>();
-  CLI::App* sub = app.add_subcommand("merge", "Put the shards of a sweep together");
+  CLI::App* sub = app.add_subcommand("merge", "Merge the shards of a sweep");
   sub->add_option("DIR", arguments->folders, "Folders of shards, or a folder with shards in it")->required();
-  sub->add_option("-o,--output", arguments->output, "Folder for the whole; default the first DIR");
+  sub->add_option("-o,--output", arguments->output, "Folder for the merged sweep; default the first DIR");
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return merge(*arguments, common); }; });
 }

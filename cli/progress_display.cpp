@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "cli/terminal.hpp"
 #include "core/console.hpp"
 
 namespace drape {
@@ -51,6 +52,8 @@ void ProgressDisplay::update() {
     print_text(stderr, text + "\n");
     return;
   }
+  const std::size_t width = terminal(stderr, ColorMode::never).width, taken = bar_width + 4;
+  if (width != unlimited_width) text.resize(std::min(text.size(), width > taken ? width - taken : 0));
   const auto filled = static_cast<std::size_t>(bar_width * done / total);
   print_text(stderr,
              fmt::format("\r\x1b[K[{}{}] {}", std::string(filled, '#'), std::string(bar_width - filled, ' '), text));

@@ -49,7 +49,8 @@ ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& com
   const std::string problem = write_report(*report, folder);
   if (!problem.empty()) spdlog::warn(problem);
   if (!common.quiet) {
-    print_text(stdout, fmt::format("{}\n{}\n", to_text(*report), (folder / report_page).string()));
+    print_text(stdout, fmt::format("{}\n{}\n", to_text(*report, terminal(stdout, common.color).width),
+                                   (folder / report_page).string()));
   }
   return ExitCode::ok;
 }

@@ -69,14 +69,14 @@ void require_same_program(const SweepOptions& options, const SweepPlan& plan) {
   const std::optional<SweepFile> before = read_sweep_file(options.folder);
   if (!before || before->plan.program == plan.program) return;
   throw UsageError(
-      fmt::format("{} was made by {}, and this is {}, whose runs may differ in their bits: go on with that program, or "
-                  "take another folder with -o",
+      fmt::format("{} was made by {}, but this is {}, whose runs may differ in their bits: continue with that program, "
+                  "or choose another folder with -o",
                   options.folder.string(), before->plan.program, plan.program));
 }
 
 ExitCode report_again(const SweepArguments& arguments, const CommonOptions& common) {
   std::optional<SweepFile> file = read_sweep_file(arguments.folder);
-  if (!file) throw UsageError(fmt::format("{}: there is no sweep in it", arguments.folder));
+  if (!file) throw UsageError(fmt::format("{}: contains no sweep", arguments.folder));
   return conclude_sweep(read_results(arguments.folder, std::move(*file)), arguments.folder, common);
 }
 
@@ -130,7 +130,7 @@ ExitCode conclude_sweep(const SweepResults& results, const std::filesystem::path
     print_text(stdout, fmt::format("{}\n{}\n", results.headline(), (folder / sweep_page_name).string()));
   }
   if (const std::size_t left = results.count("not run"); left > 0) {
-    spdlog::error("{} of {} runs were not run: --resume goes on", left, results.rows.size());
+    spdlog::error("{} of {} runs were not run: --resume continues", left, results.rows.size());
   }
   return results.exit_code();
 }
@@ -142,29 +142,29 @@ void add_sweep_command(CLI::App& app, const CommonOptions& common, Command& comm
   const auto one_each = [](CLI::Option* option) { option->allow_extra_args(false); };
   sub->add_option("SCENE", request.scenes, "Scene files (TOML), or a file whose table [sweep] says all of this");
   one_each(sub->add_option("--vary", arguments->varied,
-                           "key.path=value,value…: every run once with each of these values; FROM..TO/COUNT and "
-                           "FROM..TO/COUNTlog are ranges; repeatable. The last goes across, the one before it down"));
+                           "Run with each of these values: key.path=value,value…, or a range FROM..TO/COUNT or "
+                           "FROM..TO/COUNTlog; repeatable. The last key goes across, the one before it down"));
   sub->add_flag("--zip", request.zipped,
-                "Take the first values of all keys, the second…, instead of every combination");
-  one_each(sub->add_option("--set", request.overrides, "key.path=value: replaces a value of all scenes; repeatable"));
+                "Pair the first values of all keys, then the second, and so on, instead of combining all");
+  one_each(sub->add_option("--set", request.overrides, "Override a value of all scenes: key.path=value; repeatable"));
   sub->add_option("--steps", request.steps, "Simulate this many steps instead of the scenes' durations")
       ->check(whole_number_in({0, 1e9}));
-  one_each(sub->add_option("--film", request.films, "gif, webp, mp4…: make this of every run; repeatable"));
+  one_each(sub->add_option("--film", request.films, "Make a film of every run: gif, webp, mp4…; repeatable"));
   sub->add_flag("--motion", request.motion, "Keep every run's motion, as .drape");
   add_backend_option(*sub, request.backend);
   sub->add_option("-o,--output", arguments->folder, "Folder for the runs and the report; default out/sweep");
-  sub->add_option("--jobs", arguments->jobs, "Runs at once; default 1, which alone measures times well")
+  sub->add_option("--jobs", arguments->jobs, "Runs at once; default 1, which is the only way to measure times well")
       ->check(whole_number_in({1, 1024}));
-  sub->add_option("--shard", arguments->shard, "K/N: run only the K-th of N parts that take about as long");
-  sub->add_flag("--resume", arguments->resume, "Leave out what is complete in the folder");
+  sub->add_option("--shard", arguments->shard, "Run only the K-th of N parts of about equal length: K/N");
+  sub->add_flag("--resume", arguments->resume, "Skip runs that are complete in the folder");
   CLI::Option* slurm = sub->add_option("--slurm", arguments->tasks,
-                                       "N: run nothing, write jobs for Slurm: an array of N shards, and their merge");
+                                       "Run nothing; write jobs for Slurm: an array of N shards, and their merge");
   slurm->check(whole_number_in({1, 100'000}))->excludes("--shard");
   one_each(sub->add_option("--slurm-option", arguments->slurm_options,
-                           "--partition=short…: an option of sbatch for these jobs; repeatable"));
-  sub->add_flag("--submit", arguments->submit, "Submit them")->needs(slurm);
-  sub->add_flag("--dry-run", arguments->dry_run, "Check everything and list the runs, with how long they will take");
-  sub->add_flag("--report-only", arguments->report_only, "Run nothing: write the report again from the folder");
+                           "Option of sbatch for these jobs, such as --partition=short; repeatable"));
+  sub->add_flag("--submit", arguments->submit, "Submit these jobs")->needs(slurm);
+  sub->add_flag("--dry-run", arguments->dry_run, "Check everything and list the runs with estimated times");
+  sub->add_flag("--report-only", arguments->report_only, "Run nothing; write the report again from the folder");
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return sweep(*arguments, common); }; });
 }

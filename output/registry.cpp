@@ -81,7 +81,7 @@ std::string output_help(bool drawn) {
   std::vector<std::string> of_frames;
   for (const OutputFormat& format : output_formats()) {
     if (format.drawn() && !drawn) continue;
-    text += fmt::format("{:<6}{}\n", format.extension, format.help);
+    text += fmt::format("{:<7}{}\n", format.extension, format.help);
     if (format.file_per_frame()) of_frames.push_back(format.extension);
   }
   return text + fmt::format("With {{frame:04}} in its path, {} holds a frame each, else the last one.",

@@ -247,10 +247,11 @@ StudyReport accuracy_report(const std::vector<SceneAccuracy>& scenes, const std:
   report.sections.push_back(
       {"How it was measured",
        {describe_measuring(scenes.front().options.runs) + " Step times exclude the set-up before the first step.",
-        fmt::format("Tolerances decide when a step ends; the limit of {} iterations is not meant to. The reference is "
-                    "Newton's method, iterated until only rounding changes. Quasi-Newton does the same independently, "
-                    "and the distance between the two is the uncertainty of the reference.",
-                    most_study_iterations),
+        fmt::format(
+            "Tolerances decide when a step ends; the limit of {} iterations is only a safeguard. The reference is "
+            "Newton's method, iterated until only rounding changes. Quasi-Newton does the same independently, "
+            "and the distance between the two is the uncertainty of the reference.",
+            most_study_iterations),
         "Solve error: distance of one step's result from the exact result, starting from the same state. Motion error: "
         "what these errors have accumulated to since the start. Time-step error: distance from a motion with steps so "
         "small that their length no longer matters, each solved to 1e-9 m."},

@@ -162,7 +162,7 @@ std::vector<std::string> homework_differences() {
       "the elastic ones at the last positions, and needs more iterations. Compressed springs keep the stiffness k x̂x̂ᵀ, "
       "as in the course's notes; the report's code scales it by L/‖x‖.",
       "With the sphere the implicit method's count is sensitive: the report prints 7.07, but its own code (the "
-      "column " its code again ") gives 8.59 when run again.",
+      "column \"its code again\") gives 8.59 when run again.",
       "The report's times are from its author's machine; drape's are CPU times of one thread on the machine below."};
 }
 

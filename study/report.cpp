@@ -41,20 +41,20 @@ html::Markup to_html(const StudySection& section, std::size_t number) {
 
 }  // namespace
 
-std::string to_text(const StudyReport& report) {
+std::string to_text(const StudyReport& report, std::size_t width) {
   std::string text;
   for (const StudySection& section : report.sections) {
-    for (const ResultTable& table : section.tables) text += to_text(table) + "\n";
+    for (const ResultTable& table : section.tables) text += to_text(table, width) + "\n";
   }
-  text += report.headline + "\n";
+  text += wrapped(report.headline, width) + "\n";
   for (const StudyFinding& f : report.findings) {
-    text += fmt::format("  {}{}{}\n", f.verdict, f.verdict.empty() ? "" : ": ", f.claim);
-    if (!f.figures.empty()) text += fmt::format("      {}\n", f.figures);
+    text += wrapped(fmt::format("  {}{}{}\n", f.verdict, f.verdict.empty() ? "" : ": ", f.claim), width, 2);
+    if (!f.figures.empty()) text += wrapped(fmt::format("      {}\n", f.figures), width);
   }
   for (const StudySection& section : report.sections) {
     if (section.text.empty()) continue;
     text += fmt::format("\n{}\n", section.title);
-    for (const std::string& paragraph : section.text) text += fmt::format("  {}\n", paragraph);
+    for (const std::string& paragraph : section.text) text += wrapped(fmt::format("  {}\n", paragraph), width);
   }
   return text;
 }

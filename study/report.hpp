@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/wrap.hpp"
 #include "html/components.hpp"
 #include "study/diagram_files.hpp"
 #include "study/result_table.hpp"
@@ -49,8 +50,8 @@ struct StudyReport {
   double seconds = 0;             ///< that it took
 };
 
-/// For a terminal: the tables, and at the end what came out.
-std::string to_text(const StudyReport& report);
+/// For a terminal of this width: the tables, and at the end what came out.
+std::string to_text(const StudyReport& report, std::size_t width = unlimited_width);
 std::string to_markdown(const StudyReport& report);
 /// A self-contained page.
 std::string to_page(const StudyReport& report);

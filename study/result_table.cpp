@@ -3,17 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
+#include "core/wrap.hpp"
 #include "study/markdown.hpp"
 
 namespace drape {
 namespace {
-
-/// How many columns of a terminal the text takes: its code points.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
-}
 
 /// Whether everything in the column starts like a number, or there is nothing.
 bool is_numeric(const ResultTable& table, std::size_t column) {
@@ -36,27 +32,64 @@ std::string csv_line(const std::vector<std::string>& cells) {
   return line + "\n";
 }
 
+/// How many columns from the first on tell the rows apart: they are there in every part of a table.
+std::size_t leading_columns(const ResultTable& table) {
+  for (std::size_t count = 1; count < table.columns.size(); ++count) {
+    std::set<std::vector<std::string>> seen;
+    for (const auto& row : table.rows) seen.insert({row.begin(), row.begin() + static_cast<std::ptrdiff_t>(count)});
+    if (seen.size() == table.rows.size()) return count;
+  }
+  return 1;
+}
+
+/// The columns of a table that is too wide in parts, each of which begins with the leading ones.
+std::vector<std::vector<std::size_t>> parts_within(std::size_t width, const std::vector<std::size_t>& widths,
+                                                   std::size_t leading) {
+  std::vector<std::size_t> begin;
+  std::size_t begin_width = 0;
+  for (std::size_t c = 0; c < std::min(leading, widths.size()); ++c) {
+    begin.push_back(c);
+    begin_width += 2 + widths[c];
+  }
+  if (leading > 1 && begin_width > width / 2) return parts_within(width, widths, 1);
+  std::vector<std::vector<std::size_t>> parts{begin};
+  std::size_t used = begin_width;
+  for (std::size_t c = begin.size(); c < widths.size(); ++c) {
+    if (used + 2 + widths[c] > width && parts.back().size() > begin.size()) {
+      parts.push_back(begin);
+      used = begin_width;
+    }
+    parts.back().push_back(c);
+    used += 2 + widths[c];
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::string three_digits(double value) { return fmt::format("{:.{}f}", value, value < 10 ? 2 : value < 100 ? 1 : 0); }
 
-std::string to_text(const ResultTable& table) {
+std::string to_text(const ResultTable& table, std::size_t width) {
   std::vector<std::size_t> widths;
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    widths.push_back(width(table.columns[c]));
-    for (const auto& row : table.rows) widths[c] = std::max(widths[c], width(row[c]));
+    widths.push_back(columns_of(table.columns[c]));
+    for (const auto& row : table.rows) widths[c] = std::max(widths[c], columns_of(row[c]));
   }
-  const auto line = [&](const std::vector<std::string>& cells) {
+  const auto line = [&](const std::vector<std::string>& cells, const std::vector<std::size_t>& part) {
     std::string text;
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      const std::string space(widths[c] - width(cells[c]), ' ');
+    for (const std::size_t c : part) {
+      const std::string space(widths[c] - columns_of(cells[c]), ' ');
       text.append("  ").append(is_numeric(table, c) ? space + cells[c] : cells[c] + space);
     }
     return text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
   };
-  std::string text = table.title + "\n" + line(table.columns);
-  for (const auto& row : table.rows) text += line(row);
-  for (const std::string& note : table.notes) text += fmt::format("  {}\n", note);
+  std::string text = wrapped(table.title, width, 2) + "\n";
+  const std::vector<std::vector<std::size_t>> parts = parts_within(width, widths, leading_columns(table));
+  for (const std::vector<std::size_t>& part : parts) {
+    text += (&part == &parts.front() ? "" : "\n") + line(table.columns, part);
+    for (const auto& row : table.rows) text += line(row, part);
+  }
+  for (const std::string& note : table.notes) text += wrapped(fmt::format("  {}\n", note), width);
   return text;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/wrap.hpp"
 #include "html/components.hpp"
 
 namespace drape {
@@ -19,8 +20,9 @@ struct ResultTable {
 /// A cell with three digits, or all before the point: "2.35", "23.5", "2347".
 std::string three_digits(double value);
 
-/// For a terminal: columns in line, those that are numbers to the right.
-std::string to_text(const ResultTable& table);
+/// For a terminal: columns in line, those that are numbers to the right. A table wider than `width` comes in parts,
+/// each of which begins with the columns that tell its rows apart.
+std::string to_text(const ResultTable& table, std::size_t width = unlimited_width);
 std::string to_markdown(const ResultTable& table);
 /// RFC 4180.
 std::string to_csv(const ResultTable& table);

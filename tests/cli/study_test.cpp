@@ -99,7 +99,7 @@ TEST(Study, OfAccuracySaysWhatItCannotMeasure) {
     EXPECT_NE(finished.text.find(message), std::string::npos) << finished.text;
   };
   expect_error("a.toml --methods lui13", "did you mean 'liu13'");
-  expect_error("a.toml --times 2", "2 s is outside of the motion");
+  expect_error("a.toml --times 2", "2 s is beyond the motion");
   expect_error("a.toml --times 0.1 --steps 0.03", "does not divide");
   expect_error("b.toml", "b.toml");
   expect_error("a.toml --tolerances -1", "--tolerances");

@@ -64,7 +64,7 @@ TEST(SweepCommand, EndsInOrderOnCtrlC) {
                         " sweep a.toml --steps 1000000 -o out & p=$!; until [ -e out/sweep.json ]; do "
                         "sleep 0.01; done; sleep 0.3; kill -INT $p; wait $p; }");
   EXPECT_EQ(finished.code, 130) << finished.text;
-  EXPECT_NE(finished.text.find("--resume goes on"), std::string::npos) << finished.text;
+  EXPECT_NE(finished.text.find("--resume continues"), std::string::npos) << finished.text;
   EXPECT_EQ(rows(folder, "out").size(), 17U);
 }
 
@@ -94,7 +94,7 @@ TEST(SweepCommand, RefusesInOneMessageWithExitCode2) {
   EXPECT_NE(message("sweep a.toml --shard 3/2").find("as in 2/5"), std::string::npos);
   EXPECT_NE(message("sweep a.toml --film gfi").find("did you mean '.gif'?"), std::string::npos);
   EXPECT_NE(message("merge .").find("neither a sweep in it nor a shard"), std::string::npos);
-  EXPECT_NE(message("sweep --report-only -o none").find("there is no sweep in it"), std::string::npos);
+  EXPECT_NE(message("sweep --report-only -o none").find("contains no sweep"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder.path("out")));
 
   // A folder of another program is not gone on with, and stays as it is.

@@ -146,7 +146,7 @@ TEST(AccuracyOptions, MustFitTheMotion) {
   };
   AccuracyOptions late, uneven;
   late.times = {5};
-  EXPECT_NE(problem(late).find("5 s is outside of the motion"), std::string::npos);
+  EXPECT_NE(problem(late).find("5 s is beyond the motion"), std::string::npos);
   uneven.times = {0.1};
   uneven.steps = {0.03};
   EXPECT_NE(problem(uneven).find("0.03 s does not divide 0.1 s"), std::string::npos);

@@ -20,6 +20,24 @@ TEST(ResultTable, SetsNumbersToTheRightWhateverBytesTheyTake) {
             "  A note.\n");
 }
 
+TEST(ResultTable, ComesInPartsThatFitTheWindow) {
+  const ResultTable wide{"w",
+                         "Wide",
+                         {"method", "h", "iterations", "time", "factor"},
+                         {{"liu13", "0.1", "2", "1.5", "9"}, {"liu13", "0.2", "3", "2.5", "8"}},
+                         {}};
+  // Method and step tell the rows apart, so both are in every part.
+  EXPECT_EQ(to_text(wide, 31),
+            "Wide\n"
+            "  method    h  iterations  time\n"
+            "  liu13   0.1           2   1.5\n"
+            "  liu13   0.2           3   2.5\n"
+            "\n"
+            "  method    h  factor\n"
+            "  liu13   0.1       9\n"
+            "  liu13   0.2       8\n");
+}
+
 TEST(ResultTable, EscapesWhatMarkdownWouldSplit) {
   EXPECT_EQ(to_markdown(table),
             "### Title\n\n| method | µs |\n|---|---:|\n| a, \"b\" \\| c | 9.5 |\n| d | – |\n\nA note.\n");

@@ -62,7 +62,7 @@ TEST(SceneCaption, MistakesAreFoundWhenTheSceneIsRead) {
   EXPECT_EQ(folder.problems(with_caption("{time")), "scene.toml:7:8: text: '{time' has no '}'; write '{{' for a brace");
   EXPECT_EQ(folder.problems(least_scene + "[caption]\nplace = \"top\"\n"),
             "scene.toml:6:1: missing key 'text' in [caption]");
-  EXPECT_NE(folder.problems(with_caption("{quite something}")).find("what changes with time is 'time', 'frame'"),
+  EXPECT_NE(folder.problems(with_caption("{quite something}")).find("values that change with time are 'time', 'frame'"),
             std::string::npos);
 }
 

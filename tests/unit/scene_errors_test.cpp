@@ -93,7 +93,7 @@ TEST(SceneErrors, AMethodThatSolvesNothingHasNoErrorToStopAt) {
   const SceneFolder folder;
   const std::string problem = folder.problems(with("integrator", "method = \"semi-implicit\"\nstop = \"error\""));
   EXPECT_EQ(problem.substr(0, 39), "scene.toml:6:8: stop: semi-implicit com") << problem;
-  EXPECT_NE(problem.find("take an implicit method"), std::string::npos) << problem;
+  EXPECT_NE(problem.find("use an implicit method"), std::string::npos) << problem;
   EXPECT_EQ(folder.problems(with("integrator", "method = \"semi-implicit\"")), "(no error)");
   EXPECT_EQ(folder.problems(with("integrator", "stop = \"error\"")), "(no error)");
 }

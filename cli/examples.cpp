@@ -1,0 +1,95 @@
+#include "cli/examples.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace drape {
+namespace {
+
+struct Examples {
+  std::string_view command;  ///< "study accuracy"; empty: drape itself
+  std::string_view lines;    ///< what stands after "drape", with a line feed after each
+};
+
+constexpr std::array<Examples, 16> all_examples{{
+    {"",
+     "render scene.toml\n"
+     "render scene.toml --set cloth.stiffness=1800 -o stiff.mp4\n"
+     "help render\n"},
+    {"render",
+     "render scene.toml                                    # out/scene.gif\n"
+     "render scene.toml -o film.mp4 -o frames/{frame:04}.png\n"
+     "render scene.toml --set video.fps=50 --frames 100..120\n"
+     "render scene.toml -o film.webp --max-size 2MB --poster\n"
+     "render motion.drape --set video.speed=0.1 -o slow.mp4\n"},
+    {"simulate",
+     "simulate scene.toml --energies energies.csv --stats stats.json\n"
+     "simulate scene.toml -o meshes/{frame:04}.obj\n"
+     "simulate scene.toml -o motion.npz --every 1\n"
+     "simulate scene.toml -o motion.drape\n"
+     "simulate --resume motion.drape\n"},
+    {"compare",
+     "compare a.toml b.toml -o ab.gif\n"
+     "compare scene.toml --vary integrator.method=liu13,verlet\n"
+     "compare a.toml b.toml --difference -o ab.html\n"},
+    {"sweep",
+     "sweep scene.toml --vary cloth.stiffness=10..80/8\n"
+     "sweep scene.toml --vary integrator.method=liu13,implicit --film gif\n"},
+    {"merge", "merge out/shard-1 out/shard-2 -o out/sweep\n"},
+    {"bless",
+     "bless scenes/*.toml\n"
+     "bless scene.toml --frames 0,40,120\n"},
+    {"check",
+     "check scenes/*.toml\n"
+     "check scenes/*.toml --update none      # in continuous integration\n"
+     "check scene.toml --motion-tolerance 1e-5\n"},
+    {"accept",
+     "accept out/check\n"
+     "accept out/check flag --frames 40\n"},
+    {"study",
+     "study accuracy scene.toml\n"
+     "study homework\n"},
+    {"study accuracy",
+     "study accuracy scene.toml\n"
+     "study accuracy scene.toml --methods liu13,quasi-newton --tolerances 1e-2,1e-4\n"
+     "study accuracy scene.toml --animate methods -o out/methods\n"},
+    {"study homework", "study homework --runs 3 -o out/homework\n"},
+    {"study scaling", "study scaling --largest 40\n"},
+    {"study stability", "study stability --per-decade 2 -o out/maps\n"},
+    {"doctor",
+     "doctor\n"
+     "doctor --json\n"},
+    {"help",
+     "help render\n"
+     "help study accuracy\n"},
+}};
+
+/// The subcommand of this name, such as "study accuracy", or null.
+CLI::App* find_subcommand(CLI::App& app, std::string_view name) {
+  if (name.empty()) return &app;
+  const std::size_t end = std::min(name.find(' '), name.size());
+  const auto found = app.get_subcommands([&](const CLI::App* of) { return of->get_name() == name.substr(0, end); });
+  if (found.empty()) return nullptr;
+  return find_subcommand(*found.front(), name.substr(std::min(end + 1, name.size())));
+}
+
+}  // namespace
+
+void add_examples(CLI::App& app) {
+  for (const auto& [command, lines] : all_examples) {
+    CLI::App* const of = find_subcommand(app, command);
+    if (of == nullptr) continue;
+    std::string text = "Examples:\n";
+    for (std::size_t begin = 0; begin < lines.size();) {
+      const std::size_t end = lines.find('\n', begin) + 1;
+      text.append("  drape ").append(lines.substr(begin, end - begin));
+      begin = end;
+    }
+    text.pop_back();
+    of->footer(text);
+  }
+}
+
+}  // namespace drape

@@ -1,0 +1,80 @@
+#include "cli/terminal.hpp"
+
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+
+#include "core/console.hpp"
+
+namespace drape {
+namespace {
+
+std::string_view environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? std::string_view() : std::string_view(value);
+}
+
+std::size_t width_of(int descriptor, bool is_terminal) {
+  const std::string_view columns = environment("COLUMNS");
+  std::size_t width = 0;
+  const auto read = std::from_chars(columns.data(), columns.data() + columns.size(), width);
+  if (read.ec == std::errc() && width > 0) return width;
+  winsize size{};
+  if (is_terminal && ::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return unlimited_width;
+}
+
+/// Standard error, a message in a line of its own or in as many as its width asks for.
+class TerminalSink : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit TerminalSink(const Terminal& where) : where_(where) {}
+
+ protected:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    constexpr std::string_view prefix = "drape:";
+    const std::string_view payload(message.payload.data(), message.payload.size());
+    const std::string text = wrapped(std::string(prefix) + " " + std::string(payload), where_.width, 2);
+    std::string shown(prefix);
+    if (message.level >= spdlog::level::err) shown = inked(prefix, Ink::red, where_);
+    if (message.level == spdlog::level::warn) shown = inked(prefix, Ink::yellow, where_);
+    print_text(stderr, shown + text.substr(prefix.size()) + "\n");
+  }
+  void flush_() override {}
+
+ private:
+  Terminal where_;
+};
+
+}  // namespace
+
+Terminal terminal(std::FILE* stream, ColorMode mode) {
+  const int descriptor = ::fileno(stream);
+  const bool is_terminal = ::isatty(descriptor) != 0;
+  const bool wanted = is_terminal && environment("NO_COLOR").empty() && environment("TERM") != "dumb";
+  return {.width = width_of(descriptor, is_terminal),
+          .color = mode == ColorMode::always || (mode == ColorMode::automatic && wanted)};
+}
+
+std::string inked(std::string_view text, Ink ink, const Terminal& where) {
+  static constexpr std::array<std::string_view, 4> codes{"31", "33", "32", "1"};  // as the enumeration
+  if (!where.color) return std::string(text);
+  return std::string("\x1b[")
+      .append(codes.at(static_cast<std::size_t>(ink)))
+      .append("m")
+      .append(text)
+      .append("\x1b[0m");
+}
+
+void log_to_terminal(ColorMode mode) {
+  auto sink = std::make_shared<TerminalSink>(terminal(stderr, mode));
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>("drape", std::move(sink)));
+}
+
+}  // namespace drape

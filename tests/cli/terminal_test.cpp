@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/wrap.hpp"
+#include "tests/cli/run_drape.hpp"
+
+namespace drape::cli {
+namespace {
+
+using test::drape;
+using test::Finished;
+
+std::size_t longest_line(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t longest = 0;
+  for (std::string line; std::getline(lines, line);) longest = std::max(longest, columns_of(line));
+  return longest;
+}
+
+/// The names below "Subcommands:" of a help.
+std::vector<std::string> subcommands_of(const std::string& help) {
+  std::vector<std::string> names;
+  const std::size_t heading = help.find("Subcommands:\n");
+  if (heading == std::string::npos) return names;
+  std::istringstream lines(help.substr(heading));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line) && line.starts_with("  ")) {
+    if (line[2] != ' ') names.push_back(line.substr(2, line.find(' ', 2) - 2));
+  }
+  return names;
+}
+
+TEST(Terminal, HelpOfEveryCommandFitsTheWindowAndHasExamples) {
+  const test::SceneFolder folder;
+  std::vector<std::string> commands = subcommands_of(drape(folder, "help").text);
+  EXPECT_GE(commands.size(), 9U);
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    const Finished help = drape(folder, "help " + commands[i], "COLUMNS=80");
+    EXPECT_EQ(help.code, 0) << commands[i];
+    EXPECT_LE(longest_line(help.text.substr(0, help.text.find("Examples:"))), 80U) << help.text;
+    EXPECT_NE(help.text.find("\nExamples:\n  drape " + commands[i]), std::string::npos) << help.text;
+    EXPECT_EQ(help.text, drape(folder, commands[i] + " --help", "COLUMNS=80").text);
+    for (const std::string& name : subcommands_of(help.text)) commands.push_back(commands[i] + " " + name);
+  }
+  const Finished unknown = drape(folder, "help rendr");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_EQ(unknown.text, "drape: unknown command 'rendr'; did you mean 'render'?\n");
+}
+
+TEST(Terminal, AnswersWithWhatWasMeant) {
+  const test::SceneFolder folder;
+  folder.write("x.toml", test::swinging_scene);
+  const auto refusal = [&](const std::string& arguments) {
+    const Finished finished = drape(folder, arguments);
+    EXPECT_EQ(finished.code, 2) << finished.text;
+    return finished.text;
+  };
+  EXPECT_EQ(refusal("x.toml"), "drape: 'x.toml' is a scene, not a command; did you mean 'drape render x.toml'?\n");
+  EXPECT_EQ(refusal("m.drape"), "drape: 'm.drape' is a motion, not a command; did you mean 'drape render m.drape'?\n");
+  EXPECT_EQ(refusal("render x.toml --fps 30"),
+            "drape: '--fps' is a key of the scene, not an option; did you mean '--set video.fps=30'?\n");
+  EXPECT_EQ(refusal("simulate x.toml --max-iterations=7"),
+            "drape: '--max-iterations' is a key of the scene, not an option; did you mean '--set "
+            "integrator.max_iterations=7'?\n");
+  // Several tables have such a key, and doctor takes none.
+  EXPECT_NE(refusal("render x.toml --size 9").find("'--set video.size=9' or "), std::string::npos);
+  EXPECT_EQ(refusal("doctor --fps 30").find("key of the scene"), std::string::npos);
+}
+
+TEST(Terminal, HasColoursWhereTheyAreWanted) {
+  const test::SceneFolder folder;
+  const std::string red = "\x1b[31mdrape:\x1b[0m";
+  EXPECT_TRUE(drape(folder, "--color always render absent.toml").text.starts_with(red));
+  EXPECT_TRUE(drape(folder, "render absent.toml --color always", "NO_COLOR=1").text.starts_with(red));
+  EXPECT_TRUE(drape(folder, "render absent.toml").text.starts_with("drape: "));  // into a pipe
+  const auto at_terminal = [&](const std::string& environment, const std::string& arguments) {
+    return test::run_shell(folder, environment + " TERM=xterm script -qec '" + DRAPE_EXECUTABLE + " " + arguments +
+                                       "' /dev/null </dev/null")
+        .text;
+  };
+  EXPECT_NE(at_terminal("", "render absent.toml").find(red), std::string::npos);
+  EXPECT_EQ(at_terminal("NO_COLOR=1", "render absent.toml").find('\x1b'), std::string::npos);
+  EXPECT_EQ(at_terminal("", "--color never render absent.toml").find('\x1b'), std::string::npos);
+  EXPECT_NE(drape(folder, "--color sometimes doctor").text.find("unknown 'sometimes'"), std::string::npos);
+}
+
+TEST(Terminal, WrapsMessagesAtTheWindowsWidth) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", test::swinging_scene + "[look]\ncolour = 1\nbackgrund = 2\nsphere_colour = \"red\"\n");
+  const Finished finished = drape(folder, "simulate scene.toml --set integrator.method=leapfrog", "COLUMNS=50");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_LE(longest_line(finished.text), 50U) << finished.text;
+  EXPECT_NE(finished.text.find("\n  "), std::string::npos) << finished.text;
+}
+
+}  // namespace
+}  // namespace drape::cli
