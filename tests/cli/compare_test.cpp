@@ -75,7 +75,7 @@ TEST(Compare, TakesMotions) {
             std::string::npos);
   EXPECT_EQ(refused("a.drape a.toml --steps 11"), "drape: --steps 11: a.drape has 10\n");
   EXPECT_EQ(refused("a.toml b.drape.partial"),
-            "drape: b.drape.partial is not complete: drape simulate --resume b.drape.partial goes on with it\n");
+            "drape: b.drape.partial is not complete: drape simulate --resume b.drape.partial continues it\n");
 }
 
 TEST(Compare, RefusesInOneMessageWithExitCode2) {

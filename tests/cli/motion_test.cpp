@@ -118,7 +118,7 @@ TEST(InterruptedRun, SaysHowItGoesOn) {
   const Finished drawn = drape(folder, "render m.drape.partial -o x.gif");
   EXPECT_EQ(drawn.code, 2);
   EXPECT_EQ(drawn.text,
-            "drape: m.drape.partial is not complete: drape simulate --resume m.drape.partial goes on with it\n");
+            "drape: m.drape.partial is not complete: drape simulate --resume m.drape.partial continues it\n");
 }
 
 /// Whichever way it ended early: one command completes the motion and makes what the run was to make.
