@@ -2,7 +2,7 @@
 
 from os import PathLike
 from pathlib import Path
-from typing import Any, Mapping, Optional, Sequence, Union
+from typing import Any, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -50,8 +50,8 @@ class State:
 class Simulation:
     def __init__(
         self,
-        scene: Union[str, PathLike[str], Mapping[str, Any]],
-        set: Mapping[str, Any] = {},
+        scene: Union[str, PathLike[str], dict[str, Any]],
+        set: dict[str, Any] = {},
         folder: Union[str, PathLike[str]] = "",
     ) -> None: ...
     def step(self, count: int = 1) -> StepReport: ...
