@@ -22,9 +22,9 @@ def test_the_page_says_what_happens(tmp_path, monkeypatch, capsys):
 def test_the_first_example_works(tmp_path, monkeypatch):
     shutil.copy(SOURCE / "scenes/homework/4.toml", tmp_path / "scene.toml")
     monkeypatch.chdir(tmp_path)
-    readme = re.search(r"```python\n(.*?)```", (SOURCE / "README.md").read_text(), re.S).group(1)
+    page = re.search(r"```python\n(.*?)```", (SOURCE / "docs/usage.md").read_text(), re.S).group(1)
     module = textwrap.dedent(re.search(r"    import drape\n.*?\n\n(?=\w)", drape.__doc__, re.S).group(0))
-    for code in (readme, module):
+    for code in (page, module):
         names = {}
         exec(code, names)
         assert names["lowest"] < 0 and names["picture"].ndim == 3
