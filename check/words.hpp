@@ -55,7 +55,7 @@ class WordReader {
   double number();
   /// Looks that so many words follow, before anything is made for them.
   void need(std::uint64_t words) const {
-    if (words > words_.size() - next_) throw std::invalid_argument("is cut off");
+    if (words > words_.size() - next_) throw std::invalid_argument("is truncated");
   }
   [[nodiscard]] bool at_end() const { return next_ == words_.size(); }
 

@@ -167,7 +167,7 @@ TEST_F(DamagedMotion, IsRefusedWhicheverByteIsAnother) {
 TEST_F(DamagedMotion, SaysWhatItIs) {
   EXPECT_EQ(error_of("drape recorded motion 2\n"),
             "bad.drape: this motion has version 2, but this drape reads version 1");
-  EXPECT_EQ(error_of("solid cube\n"), "bad.drape: this is no motion of drape's");
+  EXPECT_EQ(error_of("solid cube\n"), "bad.drape: this is not a drape motion");
   EXPECT_EQ(error_of(good_.substr(0, good_.size() - 1)), "bad.drape: the file is cut short: it has no end");
   EXPECT_EQ(usage_error([] { read_all("/nowhere/m.drape"); }), "/nowhere/m.drape: no such file");
   EXPECT_EQ(folder_.without_folder(usage_error([&] { read_all(folder_.path().string()); })).substr(0, 4), "/tmp");
