@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
@@ -7,6 +8,7 @@
 #include "cli/number_option.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/studies.hpp"
+#include "core/atomic_file.hpp"
 #include "core/nearest.hpp"
 #include "core/shell.hpp"
 #include "overlay/fonts.hpp"
@@ -14,6 +16,7 @@
 #include "run/outputs.hpp"
 #include "study/accuracy_animation.hpp"
 #include "study/accuracy_report.hpp"
+#include "study/accuracy_runs.hpp"
 
 namespace drape {
 namespace {
@@ -21,9 +24,10 @@ namespace {
 struct AccuracyArguments {
   std::vector<std::string> scenes, methods;
   std::vector<std::string> animations{"tolerances"};
+  std::vector<std::string> parts;  ///< empty: all
   AccuracyOptions options;
-  GlBackend backend = GlBackend::automatic;
   std::string folder = "out/accuracy";
+  bool report_only = false;
 };
 
 std::string joined(const std::vector<std::string>& names) {
@@ -62,6 +66,19 @@ std::vector<StepMethod> parse_methods(const std::vector<std::string>& names) {
   return methods;
 }
 
+AccuracyParts parse_parts(const std::vector<std::string>& names) {
+  if (names.empty()) return {.films = true};
+  std::vector<std::string> known;
+  for (const auto& [name, part] : accuracy_parts) known.emplace_back(name);
+  AccuracyParts parts{false, false, false, false};
+  for (const std::string& name : names) {
+    parts.*accuracy_parts.at(parse_name("--parts", name, known, "the parts are")).second = true;
+  }
+  if (parts.films && !parts.asked)
+    throw UsageError("--parts: films are drawn of what 'asked' runs, so it needs that too");
+  return parts;
+}
+
 std::string numbers(const char* option, const std::vector<double>& values) {
   std::string text;
   for (const double value : values) text.append(text.empty() ? "" : ",").append(plain_number(value));
@@ -75,40 +92,64 @@ std::string command_line(const AccuracyArguments& arguments) {
   for (const std::string& value : arguments.options.overrides) text += " --set " + shell_word(value);
   if (!arguments.methods.empty()) text += " --methods " + joined(arguments.methods);
   text += numbers("--tolerances", arguments.options.tolerances) + numbers("--steps", arguments.options.steps) +
-          numbers("--times", arguments.options.times);
-  return text + fmt::format(" --runs {} --animate {}", arguments.options.runs, joined(arguments.animations));
+          numbers("--times", arguments.options.times) + numbers("--accuracies", arguments.options.accuracies);
+  if (!arguments.parts.empty()) text += " --parts " + joined(arguments.parts);
+  return text + runs_option(arguments.options.runs) + " --animate " + joined(arguments.animations);
+}
+
+/// The report of what a folder holds.
+ExitCode report_again(const AccuracyArguments& arguments, const CommonOptions& common) {
+  if (!arguments.scenes.empty())
+    throw UsageError("--report-only measures nothing: it takes no scene, but -o with the folder");
+  return run_study(arguments.folder, common, [&](const std::stop_token&, Progress&) {
+    return std::optional(accuracy_report(read_runs(arguments.folder)));
+  });
 }
 
 ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& common) {
+  if (arguments.report_only) return report_again(arguments, common);
+  if (arguments.scenes.empty()) throw UsageError("expected a scene file, or --report-only");
   const auto begin = std::chrono::steady_clock::now();
   AccuracyOptions options = arguments.options;
   options.methods = parse_methods(arguments.methods);
+  options.parts = parse_parts(arguments.parts);
   const std::vector<AnimatedBy> animations = parse_animations(arguments.animations);
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, options.overrides);
   // What is wrong is said before hours of work.
   for (const std::string& file : arguments.scenes) check_accuracy(file, options);
-  if (!animations.empty()) {
-    inspect_backend(arguments.backend);
-    const Fonts fonts;
+  if (!animations.empty() || options.parts.films) {
+    inspect_backend(options.backend);
+    if (!animations.empty()) const Fonts fonts;
     for (const Scene& scene : scenes) require_texture(scene);
   }
+  AccuracyStudy study;
+  study.command = command_line(arguments);
+  study.provenance = study_provenance();
   const std::vector<std::string> names = unique_names(scenes);
   return run_study(
       arguments.folder, common, [&](const std::stop_token& stop, Progress& progress) -> std::optional<StudyReport> {
-        std::vector<SceneAccuracy> studies;
-        std::vector<std::vector<StudyPicture>> pictures(scenes.size());
         for (std::size_t i = 0; i < scenes.size(); ++i) {
-          auto study = study_accuracy(names[i], arguments.scenes[i], options, stop, progress);
-          if (!study) return std::nullopt;
+          std::optional<SceneAccuracy> one;
+          try {
+            one = study_accuracy(names[i], arguments.scenes[i], options, stop, progress);
+          } catch (const DivergedError& error) {
+            if (i + 1 == scenes.size() && study.scenes.empty()) throw;
+            spdlog::warn("{} is left out: {}", arguments.scenes[i], error.what());
+            continue;
+          }
+          if (!one) return std::nullopt;
+          std::vector<StudyPicture>& pictures = study.pictures.emplace_back();
           for (const AnimatedBy animated : animations) {
-            auto picture = animate_accuracy(*study, animated, arguments.folder, arguments.backend, stop, progress);
-            if (picture) pictures[i].push_back(std::move(*picture));
+            auto picture = animate_accuracy(*one, animated, arguments.folder, options.backend, stop, progress);
+            if (picture) pictures.push_back(std::move(*picture));
           }
           if (stop.stop_requested()) return std::nullopt;
-          studies.push_back(std::move(*study));
+          study.scenes.push_back(std::move(*one));
+          // What was measured is not lost if it ends before the last scene.
+          study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+          write_file_atomically(std::filesystem::path(arguments.folder) / runs_name, runs_csv(study));
         }
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-        return accuracy_report(studies, command_line(arguments), pictures, took.count());
+        return accuracy_report(study);
       });
 }
 
@@ -120,7 +161,7 @@ void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& c
   CLI::App* sub = study.add_subcommand("accuracy", "Measure cost against error, by method, tolerance and time step");
   const Range positive{.minimum = 0, .minimum_excluded = true};
   const auto list = [](CLI::Option* option) { return option->delimiter(',')->allow_extra_args(false); };
-  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
+  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)");
   sub->add_option("--set", options.overrides, "Override a value of the scenes: key.path=value; repeatable")
       ->allow_extra_args(false);
   list(sub->add_option("--methods", arguments->methods, "Methods: M1,M2; default all"));
@@ -132,12 +173,19 @@ void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& c
                        "Times in s at which motions are compared: T1,T2 (time steps at T1 only); default 1/20, 1/8 and "
                        "1/4 of the scene's duration"))
       ->check(number_in(positive));
+  list(sub->add_option("--accuracies", options.accuracies, "Requested accuracies in m: A1,A2; default 1e-2,1e-3,1e-4"))
+      ->check(number_in(positive));
+  list(sub->add_option("--parts", arguments->parts,
+                       "What to measure: solve (errors by tolerance), order (by time step), asked ([time] accuracy and "
+                       "fixed steps), films (how different they look); default all"));
   list(sub->add_option(
       "--animate", arguments->animations,
       "What varies between the panels of the animations: tolerances (default), methods, steps, or none"));
-  add_backend_option(*sub, arguments->backend);
-  sub->add_option("--runs", options.runs, "Timed runs per case; default 5")->check(whole_number_in({1, 1000}));
+  add_backend_option(*sub, options.backend);
+  sub->add_option("--runs", options.runs, runs_help)->check(whole_number_in({1, 1000}));
   sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/accuracy");
+  sub->add_flag("--report-only", arguments->report_only,
+                "Measure nothing: recreate the report from the folder's runs.csv");
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_accuracy(*arguments, common); }; });
 }

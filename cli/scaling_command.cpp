@@ -25,8 +25,7 @@ void add_scaling_study(CLI::App& study, const CommonOptions& common, Command& co
   CLI::App* sub = study.add_subcommand("scaling", "Measure how time and memory grow with the cloth");
   sub->add_option("--largest", arguments->options.largest, "Cells per side of the largest grid; default 80")
       ->check(whole_number_in({10, 10000}));
-  sub->add_option("--runs", arguments->options.runs, "Timed runs per case; default 5")
-      ->check(whole_number_in({1, 1000}));
+  sub->add_option("--runs", arguments->options.runs, runs_help)->check(whole_number_in({1, 1000}));
   sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/scaling");
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_scaling(*arguments, common); }; });

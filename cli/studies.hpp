@@ -11,6 +11,10 @@
 
 namespace drape {
 
+/// Of --runs.
+inline constexpr const char* runs_help =
+    "Timed runs of every case; default: until the median is known to 5 %, at least 6 and at most 30";
+
 /// Measures while it shows the progress, and then writes the report's files and prints it.
 /// @param measure the study's report; nothing if it was stopped
 /// @throws what measure throws

@@ -16,7 +16,7 @@ namespace {
 
 struct HomeworkArguments {
   std::string folder = "out/homework";
-  int runs = 5;
+  RunCount runs;
 };
 
 ExitCode run_homework(const HomeworkArguments& arguments, const CommonOptions& common) {
@@ -30,7 +30,7 @@ void add_homework_study(CLI::App& study, const CommonOptions& common, Command& c
   CLI::App* homework =
       study.add_subcommand("homework", "Measure the homework's tables again and compare with its report");
   homework->add_option("-o,--output", arguments->folder, "Folder for the results; default out/homework");
-  homework->add_option("--runs", arguments->runs, "Timed runs per case; default 5")->check(whole_number_in({1, 1000}));
+  homework->add_option("--runs", arguments->runs, runs_help)->check(whole_number_in({1, 1000}));
   homework->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_homework(*arguments, common); }; });
 }

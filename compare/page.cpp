@@ -123,7 +123,7 @@ std::string comparison_page(const CompareResult& result, const std::vector<PageM
   page.content = films(result, moments, bar) + html::section(2, "figures", "Figures", figures_table(result)) +
                  html::section(2, "differences", "Differences", differences_table(result)) +
                  html::section(2, "curves", "Over time", curves(result));
-  page.foot = html::provenance();
+  for (const auto& [name, value] : html::provenance()) page.foot.emplace_back(name, value);
   return html::render(page);
 }
 

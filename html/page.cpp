@@ -39,7 +39,7 @@ std::string render(const Page& page) {
          "\n";
 }
 
-std::vector<std::pair<std::string, Markup>> provenance() {
+std::vector<std::pair<std::string, std::string>> provenance() {
   const BuildInfo& build = build_info();
   const MachineFacts machine = machine_facts();
   return {{"drape", fmt::format("{}, revision {}", build.version, build.revision)},

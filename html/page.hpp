@@ -22,6 +22,6 @@ struct Page {
 std::string render(const Page& page);
 
 /// The foot's lines about this build and this machine.
-std::vector<std::pair<std::string, Markup>> provenance();
+std::vector<std::pair<std::string, std::string>> provenance();
 
 }  // namespace drape::html

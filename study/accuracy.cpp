@@ -1,73 +1,23 @@
 #include "study/accuracy.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "sim/stability.hpp"
 #include "study/accuracy_cases.hpp"
+#include "study/accuracy_motions.hpp"
 #include "study/step_reference.hpp"
 
 namespace drape {
 namespace {
 
-constexpr std::int64_t states = 12;              // along the reference, from which steps are solved
-constexpr double shortest_part = 1e-9;           // of a step, that rounding may make
-constexpr std::int64_t most_small_steps = 2000;  // of the smallest default step
-constexpr int most_halvings = 6;
+constexpr std::int64_t states = 12;  // along the reference, from which steps are solved
 
-std::int64_t steps_until(double time, double h) { return std::llround(time / h); }
-
-std::vector<double> default_steps(double h, double time) {
-  std::vector<double> steps;
-  for (int i = 0; i <= most_halvings; ++i, h /= 2) {
-    if (i > 2 && steps_until(time, h) > most_small_steps) break;
-    steps.push_back(h);
-  }
-  return steps;
+void sort_without_repetition(std::vector<std::int64_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
-
-}  // namespace
-
-AccuracyOptions complete(AccuracyOptions options, const Scene& scene) {
-  const double h = scene.simulation.step, duration = scene.duration;
-  if (options.methods.empty()) {
-    options.methods = {Method::implicit,
-                       Method::liu13,
-                       Method::quasi_newton,
-                       Method::semi_implicit,
-                       Method::verlet,
-                       {Method::implicit, TimeScheme::sdirk2},
-                       {Method::liu13, TimeScheme::sdirk2},
-                       {Method::quasi_newton, TimeScheme::sdirk2}};
-  }
-  if (options.tolerances.empty()) options.tolerances = {1, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
-  if (options.times.empty()) options.times = {duration / 20, duration / 8, duration / 4};
-  for (double& time : options.times) {
-    const std::int64_t steps = steps_until(time, h);
-    if (steps < 1 || steps > scene.step_count()) {
-      throw UsageError(fmt::format("--times: {:g} s is beyond the motion of {}, which lasts {:g} s", time,
-                                   scene.file.string(), duration));
-    }
-    time = static_cast<double>(steps) * h;
-  }
-  std::sort(options.times.begin(), options.times.end());
-  options.times.erase(std::unique(options.times.begin(), options.times.end()), options.times.end());
-  if (options.steps.empty()) options.steps = default_steps(h, options.times.front());
-  std::sort(options.steps.rbegin(), options.steps.rend());
-  for (const double step : options.steps) {
-    const double count = options.times.front() / step;
-    if (!(count >= 1 - shortest_part) || std::abs(count - std::round(count)) > shortest_part * count) {
-      throw UsageError(fmt::format("--steps: {:g} s does not divide {:g} s, the first of --times, in {}", step,
-                                   options.times.front(), scene.file.string()));
-    }
-  }
-  return options;
-}
-
-namespace {
 
 /// A scene's study while it is done.
 class SceneStudy {
@@ -80,22 +30,30 @@ class SceneStudy {
     result_.options = complete(asked, scene_);
     result_.step = scene_.simulation.step;
     result_.tolerance_unit = scene_.simulation.integrator.stop == StoppingRule::gradient ? "N" : "m";
+    if (asked.methods.empty()) leave_out_methods(scene_, file, result_.options, result_.notes);
     cases_ = accuracy_cases(scene_, file, result_.options, result_.notes);
   }
 
   /// @throws UsageError if a case or a reference cannot be run
   void check() const {
     for (const ToleranceCase& one : cases_.tolerances) static_cast<void>(one.what.load());
-    for (const StepCase& one : cases_.steps) static_cast<void>(one.what.load());
+    for (const auto* list : {&cases_.steps, &cases_.asked, &cases_.fixed}) {
+      for (const StepCase& one : *list) static_cast<void>(one.what.load());
+    }
     for (const Method method : {Method::implicit, Method::quasi_newton}) {
       const Simulation reference(to_rounding(scene_.simulation, method));
     }
   }
 
   std::optional<SceneAccuracy> run(const std::stop_token& stop, Progress& progress) {
-    if (!find_references(stop, progress) || !measure_cases(stop, progress)) return std::nullopt;
-    if (!find_solve_errors(stop, progress)) return std::nullopt;
-    find_orders();
+    if (!find_references(stop, progress)) return std::nullopt;
+    std::optional<FilmJudge> films;
+    if (result_.options.parts.films) films.emplace(scene_, film_steps_, *small_steps_, result_.options.backend);
+    if (films) result_.film_unknown = films->unknown();
+    motions_.emplace(scene_, result_.options.times, small_steps_ ? &*small_steps_ : nullptr, films ? &*films : nullptr);
+    if (!measure_cases(stop, progress) || !find_solve_errors(stop, progress)) return std::nullopt;
+    if (!motions_->find_local_errors(result_.asked, result_.notes, stop, progress)) return std::nullopt;
+    find_orders(result_.steps);
     return std::move(result_);
   }
 
@@ -103,26 +61,47 @@ class SceneStudy {
   bool find_references(const std::stop_token& stop, Progress& progress) {
     const std::vector<double>& times = result_.options.times;
     const std::int64_t last = steps_until(times.back(), result_.step);
-    const std::int64_t whole = scene_.step_count();
+    const std::int64_t whole = result_.options.parts.solve ? scene_.step_count() : last;
     std::vector<std::int64_t> keep;
     for (std::int64_t i = 0; i < states; ++i) keep.push_back(i * last / states);
     for (const double time : times) keep.push_back(steps_until(time, result_.step));
-    std::sort(keep.begin(), keep.end());
-    keep.erase(std::unique(keep.begin(), keep.end()), keep.end());
+    sort_without_repetition(keep);
     reference_ = run_reference(scene_.simulation, whole, keep, stop, progress);
     if (!reference_) return false;
     result_.apart_by_step = reference_->apart;
     for (const double time : times) result_.apart.push_back(reference_->apart_after(steps_until(time, result_.step)));
-    if (const auto step = reference_->first_beyond(smallest_error)) {
-      result_.chaotic_from = static_cast<double>(*step) * result_.step;
+    const auto seconds = [this](const std::optional<std::int64_t>& step) {
+      return step ? std::optional(static_cast<double>(*step) * result_.step) : std::nullopt;
+    };
+    result_.chaotic_from = seconds(reference_->first_beyond(smallest_error));
+    result_.buckling_from = seconds(reference_->first_beyond(largest_rounding));
+    if (!cases_.asked.empty()) {
+      const std::int64_t first = steps_until(times.front(), result_.step);
+      result_.contact_from = seconds(first_contact(scene_.simulation, first, largest_rounding, stop));
     }
-    if (cases_.steps.empty()) return true;
-    const double smallest = result_.options.steps.back();
-    small_steps_ = extrapolate_step(scene_.simulation, times.front(),
-                                    reference_refinement * steps_until(times.front(), smallest), stop, progress);
+    return find_small_steps(stop, progress);
+  }
+
+  bool find_small_steps(const std::stop_token& stop, Progress& progress) {
+    if (cases_.steps.empty() && cases_.asked.empty() && cases_.fixed.empty()) return true;
+    const AccuracyOptions& options = result_.options;
+    std::vector<std::int64_t> moments;
+    for (const double time : options.times) moments.push_back(steps_until(time, result_.step));
+    if (!options.parts.asked) moments.resize(1);
+    if (options.parts.films) {
+      film_steps_ = film_steps(scene_, moments.back());
+      moments.insert(moments.end(), film_steps_.begin(), film_steps_.end());
+    }
+    sort_without_repetition(moments);
+    const auto parts = static_cast<std::int64_t>(std::ceil(result_.step / options.steps.back() - 1e-9));
+    small_steps_ = extrapolate_steps(scene_.simulation, moments,
+                                     reference_refinement * std::max<std::int64_t>(1, parts), stop, progress);
     if (!small_steps_) return false;
     result_.step_reference = small_steps_->step;
-    result_.step_gained = small_steps_->gained;
+    for (const double time : options.times) {
+      const auto place = small_steps_->place(steps_until(time, result_.step));
+      if (place) result_.step_gained.push_back(small_steps_->gained(*place));
+    }
     result_.step_apart = small_steps_->apart;
     return true;
   }
@@ -132,48 +111,71 @@ class SceneStudy {
                          [step](const State& state) { return state.step == step; });
   }
 
+  void look_at(TolerancePoint& point, const State& state) const {
+    for (const double time : result_.options.times) {
+      if (state.step != steps_until(time, result_.step)) continue;
+      point.motion.push_back(distance(state.x, reference_after(state.step).x));
+    }
+  }
+
+  void look_at(StepPoint& point, const State& state, std::int64_t last) const {
+    const auto place = small_steps_->place(steps_until(result_.options.times.front(), result_.step));
+    if (state.step == last) point.error = distance(state.x, small_steps_->x[place.value()]);
+  }
+
   bool measure_cases(const std::stop_token& stop, Progress& progress) {
     std::vector<StudyCase> all;
-    for (const ToleranceCase& one : cases_.tolerances) all.push_back(one.what);
-    for (const StepCase& one : cases_.steps) all.push_back(one.what);
-    const std::size_t tolerances = cases_.tolerances.size();
-    result_.points.resize(tolerances);
-    result_.steps.resize(cases_.steps.size());
-    const CaseWatch watch = [&](std::size_t number, const Simulation& simulation) {
-      const State& state = simulation.state();
-      if (number >= tolerances) {
-        if (state.step == all[number].steps) {
-          result_.steps[number - tolerances].error = distance(state.x, small_steps_->x);
-        }
-        return;
-      }
-      for (const double time : result_.options.times) {
-        if (state.step != steps_until(time, result_.step)) continue;
-        result_.points[number].motion.push_back(distance(state.x, reference_after(state.step).x));
-      }
+    std::vector<std::function<void(const Simulation&, const StepReport&)>> watches;
+    std::vector<CaseRuns*> kept;
+    const auto add = [&](const StudyCase& what, CaseRuns& runs, auto watch) {
+      all.push_back(what);
+      kept.push_back(&runs);
+      watches.emplace_back(std::move(watch));
     };
-    std::vector<Measured> measured = measure(all, result_.options.runs, stop, progress, watch);
-    if (measured.empty()) return false;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (i < tolerances) {
-        result_.points[i].method = cases_.tolerances[i].method;
-        result_.points[i].tolerance = cases_.tolerances[i].tolerance;
-        result_.points[i].measured = std::move(measured[i]);
-      } else {
-        StepPoint& point = result_.steps[i - tolerances];
-        point.method = cases_.steps[i - tolerances].method;
-        point.step = cases_.steps[i - tolerances].step;
-        point.measured = std::move(measured[i]);
+    result_.points.resize(cases_.tolerances.size());
+    for (std::size_t i = 0; i < result_.points.size(); ++i) {
+      TolerancePoint& point = result_.points[i];
+      point.method = cases_.tolerances[i].method;
+      point.tolerance = cases_.tolerances[i].tolerance;
+      add(cases_.tolerances[i].what, point.measured,
+          [this, &point](const Simulation& now, const StepReport&) { look_at(point, now.state()); });
+    }
+    result_.steps.resize(cases_.steps.size());
+    for (std::size_t i = 0; i < result_.steps.size(); ++i) {
+      StepPoint& point = result_.steps[i];
+      point.method = cases_.steps[i].method;
+      point.step = cases_.steps[i].setting;
+      point.error = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+      add(cases_.steps[i].what, point.measured,
+          [this, &point, last = cases_.steps[i].what.steps](const Simulation& now, const StepReport&) {
+            look_at(point, now.state(), last);
+          });
+    }
+    for (const auto& [from, points] :
+         {std::pair(&cases_.asked, &result_.asked), std::pair(&cases_.fixed, &result_.fixed)}) {
+      points->resize(from->size());
+      for (std::size_t i = 0; i < from->size(); ++i) {
+        MotionPoint& point = (*points)[i];
+        point.method = (*from)[i].method;
+        point.setting = (*from)[i].setting;
+        add((*from)[i].what, point.measured, motions_->watch(point, (*from)[i].what));
       }
     }
+    const CaseWatch watch = [&](std::size_t number, const Simulation& simulation, const StepReport& report) {
+      watches[number](simulation, report);
+    };
+    const std::vector<Measured> measured = measure(all, result_.options.runs, stop, progress, watch);
+    if (measured.empty()) return all.empty();
+    for (std::size_t i = 0; i < all.size(); ++i) *kept[i] = CaseRuns(measured[i]);
     return true;
   }
 
   bool find_solve_errors(const std::stop_token& stop, Progress& progress) {
+    if (result_.points.empty()) return true;
     progress.begin("solving single steps", "cases", static_cast<std::int64_t>(result_.points.size()));
     const ExactSteps exact(scene_.simulation, reference_->states, smallest_error);
-    result_.states = exact.count();
-    result_.left_out = exact.left_out();
+    result_.states = static_cast<std::int64_t>(exact.count());
+    result_.left_out = static_cast<std::int64_t>(exact.left_out());
     result_.solve_apart = exact.apart();
     for (TolerancePoint& point : result_.points) {
       if (stop.stop_requested()) return false;
@@ -183,24 +185,36 @@ class SceneStudy {
     return true;
   }
 
-  void find_orders() {
-    for (std::size_t i = 0; i < result_.steps.size(); ++i) {
-      StepPoint& point = result_.steps[i];
-      const bool first = i == 0 || result_.steps[i - 1].method != point.method;
-      const StepPoint& larger = result_.steps[first ? i : i - 1];
-      point.order = first ? std::numeric_limits<double>::quiet_NaN()
-                          : std::log(larger.error.max / point.error.max) / std::log(larger.step / point.step);
-    }
-  }
-
   Scene scene_;
   SceneAccuracy result_;
   AccuracyCases cases_;
+  std::vector<std::int64_t> film_steps_;
   std::optional<ReferenceMotion> reference_;
   std::optional<StepReference> small_steps_;
+  std::optional<MotionWatch> motions_;
 };
 
 }  // namespace
+
+CaseRuns::CaseRuns(const Measured& measured)
+    : what(measured.what),
+      step(measured.step),
+      iterations(measured.mean_iterations()),
+      capped(measured.capped),
+      flipped_pairs(measured.flipped_pairs),
+      microseconds(measured.microseconds),
+      setup(measured.setup),
+      failure(measured.failure) {}
+
+void find_orders(std::vector<StepPoint>& steps) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    StepPoint& point = steps[i];
+    const bool first = i == 0 || steps[i - 1].method != point.method;
+    const StepPoint& larger = steps[first ? i : i - 1];
+    point.order = first ? std::numeric_limits<double>::quiet_NaN()
+                        : std::log(larger.error.max / point.error.max) / std::log(larger.step / point.step);
+  }
+}
 
 void check_accuracy(const std::string& file, const AccuracyOptions& options) { SceneStudy({}, file, options).check(); }
 

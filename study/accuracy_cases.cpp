@@ -13,6 +13,9 @@ namespace {
 // Of the cases that differ in their step: so small that the error of the solve is not seen beside that of the step.
 constexpr double small_tolerance = 1e-9;
 
+// After which a motion is given up: it is a miss in the performance profile.
+constexpr double most_seconds = 20;
+
 StudyCase make_case(const std::string& file, const AccuracyOptions& options, StepMethod method, std::string label) {
   StudyCase what;
   what.label = std::move(label);
@@ -37,21 +40,86 @@ bool is_stable(SimulationSettings settings, StepMethod method, double step) {
   return !stability_problem(settings, make_system(settings));
 }
 
+/// With the default tolerance, whatever the scene says: its table is replaced.
+StudyCase by_default(const std::string& file, const AccuracyOptions& options, StepMethod method, std::string label) {
+  StudyCase what;
+  what.label = std::move(label);
+  what.scene = file;
+  what.folder = std::filesystem::current_path();
+  what.overrides = options.overrides;
+  const std::string scheme =
+      is_explicit(method.method) ? "" : fmt::format(",scheme=\"{}\"", scheme_name(method.scheme));
+  what.overrides.push_back(fmt::format("integrator={{method=\"{}\"{}}}", method_name(method.method), scheme));
+  what.patience = most_seconds;
+  return what;
+}
+
+void add_tolerance_cases(AccuracyCases& cases, const Scene& scene, const std::string& file,
+                         const AccuracyOptions& options, StepMethod method) {
+  for (const double tolerance : options.tolerances) {
+    StudyCase what = make_case(file, options, method, fmt::format("{}, ε = {:g}", step_method_name(method), tolerance));
+    add_tolerance(what, tolerance);
+    what.steps = steps_until(options.times.back(), scene.simulation.step);
+    what.watched_steps = scene.step_count();
+    cases.tolerances.push_back({method, tolerance, std::move(what)});
+  }
+}
+
+void add_step_case(AccuracyCases& cases, const std::string& file, const AccuracyOptions& options, StepMethod method,
+                   double step) {
+  StudyCase what = make_case(file, options, method, fmt::format("{}, h = {:g} s", step_method_name(method), step));
+  what.overrides.push_back("time.step=" + plain_number(step));
+  if (!is_explicit(method.method)) {
+    what.overrides.emplace_back("integrator.stop=change");
+    add_tolerance(what, small_tolerance);
+  }
+  what.steps = steps_until(options.times.front(), step);
+  cases.steps.push_back({method, step, std::move(what)});
+}
+
+void add_fixed_case(AccuracyCases& cases, const std::string& file, const AccuracyOptions& options, StepMethod method,
+                    double step) {
+  StudyCase what = by_default(file, options, method, fmt::format("{}, h = {:g} s", step_method_name(method), step));
+  what.overrides.push_back("time.step=" + plain_number(step));
+  what.steps = steps_until(options.times.front(), step);
+  what.watched_steps = steps_until(options.times.back(), step);
+  cases.fixed.push_back({method, step, std::move(what)});
+}
+
+void add_asked_case(AccuracyCases& cases, const Scene& scene, const std::string& file, const AccuracyOptions& options,
+                    StepMethod method, double accuracy) {
+  StudyCase what =
+      by_default(file, options, method, fmt::format("{}, accuracy = {:g} m", step_method_name(method), accuracy));
+  what.overrides.push_back("time.accuracy=" + plain_number(accuracy));
+  what.steps = steps_until(options.times.front(), scene.simulation.step);
+  what.watched_steps = steps_until(options.times.back(), scene.simulation.step);
+  cases.asked.push_back({method, accuracy, std::move(what)});
+}
+
 }  // namespace
+
+void leave_out_methods(const Scene& scene, const std::string& file, AccuracyOptions& options,
+                       std::vector<std::string>& notes) {
+  std::erase_if(options.methods, [&](StepMethod method) {
+    StudyCase what = by_default(file, options, method, "");
+    what.overrides.emplace_back("time.accuracy=1");  // so no step is refused for its length
+    try {
+      static_cast<void>(what.load());
+      return false;
+    } catch (const UsageError& error) {
+      notes.push_back(
+          fmt::format("{} cannot compute {}: {}", step_method_name(method), scene.file.string(), error.what()));
+      return true;
+    }
+  });
+}
 
 AccuracyCases accuracy_cases(const Scene& scene, const std::string& file, const AccuracyOptions& options,
                              std::vector<std::string>& notes) {
   AccuracyCases cases;
   for (const StepMethod method : options.methods) {
-    if (!is_explicit(method.method) && method.scheme == TimeScheme::backward_euler) {
-      for (const double tolerance : options.tolerances) {
-        StudyCase what =
-            make_case(file, options, method, fmt::format("{}, ε = {:g}", step_method_name(method), tolerance));
-        add_tolerance(what, tolerance);
-        what.steps = std::llround(options.times.back() / scene.simulation.step);
-        what.watched_steps = scene.step_count();
-        cases.tolerances.push_back({method, tolerance, std::move(what)});
-      }
+    if (options.parts.solve && !is_explicit(method.method) && method.scheme == TimeScheme::backward_euler) {
+      add_tolerance_cases(cases, scene, file, options, method);
     }
     std::string unstable;
     for (const double step : options.steps) {
@@ -59,19 +127,15 @@ AccuracyCases accuracy_cases(const Scene& scene, const std::string& file, const 
         unstable += fmt::format("{}{:g}", unstable.empty() ? "" : ", ", step);
         continue;
       }
-      StudyCase what = make_case(file, options, method, fmt::format("{}, h = {:g} s", step_method_name(method), step));
-      what.overrides.push_back("time.step=" + plain_number(step));
-      if (!is_explicit(method.method)) {
-        what.overrides.emplace_back("integrator.stop=change");
-        add_tolerance(what, small_tolerance);
-      }
-      what.steps = std::llround(options.times.front() / step);
-      cases.steps.push_back({method, step, std::move(what)});
+      if (options.parts.order) add_step_case(cases, file, options, method, step);
+      if (options.parts.asked) add_fixed_case(cases, file, options, method, step);
     }
-    if (!unstable.empty()) {
+    if (!unstable.empty() && (options.parts.order || options.parts.asked)) {
       notes.push_back(fmt::format("{} is unstable with h = {} s in {} and was not run there.", step_method_name(method),
                                   unstable, file));
     }
+    if (!options.parts.asked) continue;
+    for (const double accuracy : options.accuracies) add_asked_case(cases, scene, file, options, method, accuracy);
   }
   return cases;
 }

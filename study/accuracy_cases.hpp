@@ -9,15 +9,23 @@ struct ToleranceCase {
   double tolerance;
   StudyCase what;
 };
+/// With a time step [s], or an accuracy [m].
 struct StepCase {
   StepMethod method;
-  double step;
+  double setting;
   StudyCase what;
 };
 struct AccuracyCases {
   std::vector<ToleranceCase> tolerances;
-  std::vector<StepCase> steps;
+  std::vector<StepCase> steps;  ///< each solved to the end
+  std::vector<StepCase> asked;  ///< with an accuracy
+  std::vector<StepCase> fixed;  ///< with a time step and the default tolerance
 };
+
+/// Takes out of the options the methods that cannot compute the scene whatever the step.
+/// @param notes gets a sentence about each
+void leave_out_methods(const Scene& scene, const std::string& file, AccuracyOptions& options,
+                       std::vector<std::string>& notes);
 
 /// What is measured in a scene.
 /// @param file    the scene's, as a command names it

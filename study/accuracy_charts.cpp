@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/shell.hpp"
@@ -15,12 +16,23 @@ std::string list(const std::vector<double>& values) {
   return text;
 }
 
-std::string command_of(const SceneAccuracy& scene, const std::string& methods, const std::vector<double>& tolerances,
-                       const std::vector<double>& steps) {
+/// What of a scene's study is to be measured again.
+struct Again {
+  std::string methods, parts;
+  std::vector<double> tolerances, steps, accuracies;
+};
+
+std::string command_of(const SceneAccuracy& scene, const Again& again) {
   std::string text = "drape study accuracy " + shell_word(scene.scene);
   for (const std::string& value : scene.options.overrides) text += " --set " + shell_word(value);
-  return text + fmt::format(" --methods {} --tolerances {} --steps {} --times {} --runs {}", methods, list(tolerances),
-                            list(steps), list(scene.options.times), scene.options.runs);
+  text += fmt::format(" --parts {} --methods {} --times {}", again.parts, again.methods, list(scene.options.times));
+  const auto add = [&text](const char* option, const std::vector<double>& values) {
+    if (!values.empty()) text += fmt::format(" {} {}", option, list(values));
+  };
+  add("--tolerances", again.tolerances);
+  add("--steps", again.steps);
+  add("--accuracies", again.accuracies);
+  return text + runs_option(scene.options.runs);
 }
 
 std::string film(const SceneAccuracy& scene, StepMethod method, const char* key, double value) {
@@ -28,25 +40,21 @@ std::string film(const SceneAccuracy& scene, StepMethod method, const char* key,
 }
 
 std::string commands(const SceneAccuracy& scene, const TolerancePoint& point) {
-  return fmt::format(
-      "{}\n{}", command_of(scene, step_method_name(point.method), {point.tolerance}, {scene.options.steps.front()}),
-      point.measured.what.film_command(film(scene, point.method, "tolerance", point.tolerance)));
+  return fmt::format("{}\n{}", command_of(scene, {step_method_name(point.method), "solve", {point.tolerance}, {}, {}}),
+                     point.measured.what.film_command(film(scene, point.method, "tolerance", point.tolerance)));
 }
 
 std::string commands(const SceneAccuracy& scene, const StepPoint& point) {
-  return fmt::format(
-      "{}\n{}",
-      command_of(scene, step_method_name(point.method), {scene.options.tolerances.front()}, scene.options.steps),
-      point.measured.what.film_command(film(scene, point.method, "step", point.step)));
+  return fmt::format("{}\n{}",
+                     command_of(scene, {step_method_name(point.method), "order", {}, scene.options.steps, {}}),
+                     point.measured.what.film_command(film(scene, point.method, "step", point.step)));
 }
-
-std::array<double, 2> spread(const Quartiles& time) { return {time.lower, time.upper}; }
 
 /// A series for each method, of the error that `error` takes from a point.
 template <class Error>
 html::Chart by_time(const SceneAccuracy& scene, const std::string& title, const std::string& y_title, Error error) {
   html::Chart chart{title,
-                    "time per step [µs], median and quartiles",
+                    "time per step [µs], median and its 95 % interval",
                     y_title,
                     html::Scale::logarithmic,
                     html::Scale::logarithmic,
@@ -56,11 +64,12 @@ html::Chart by_time(const SceneAccuracy& scene, const std::string& title, const 
     html::ChartSeries series = method_series(step_method_name(method));
     for (const TolerancePoint& p : scene.points) {
       if (p.method != method) continue;
-      const Quartiles time = p.measured.time();
-      series.points.push_back({time.median, error(p),
-                               fmt::format("ε = {:g} {}: {:.1f} µs per step ({:.1f} to {:.1f}), {:.3g} m", p.tolerance,
-                                           scene.tolerance_unit, time.median, time.lower, time.upper, error(p)),
-                               commands(scene, p), spread(time)});
+      const MedianInterval time = p.measured.time();
+      series.points.push_back(
+          {time.median, error(p),
+           fmt::format("ε = {:g} {}: {:.1f} µs per step ({} to {}), {:.3g} m", p.tolerance, scene.tolerance_unit,
+                       time.median, three_digits(time.lower), three_digits(time.upper), error(p)),
+           commands(scene, p), spread_of(time)});
     }
     if (!series.points.empty()) chart.series.push_back(std::move(series));
   }
@@ -90,17 +99,18 @@ html::Chart by_step(const SceneAccuracy& scene, const std::string& title, const 
     html::ChartSeries series = method_series(step_method_name(method));
     for (const StepPoint& p : scene.steps) {
       if (p.method != method) continue;
-      const Quartiles cost = cost_of_motion(p);
+      const MedianInterval cost = p.measured.cost();
       std::string label =
           fmt::format("h = {:g} s: {:.3g} m, {:.3g} ms per second of motion", p.step, p.error.max, cost.median);
       if (std::isfinite(p.order)) label += fmt::format(", order {:.2f} from the step before", p.order);
       html::ChartPoint point{across(p), p.error.max, std::move(label), commands(scene, p), {}};
-      if (with_spread) point.spread = spread(cost);
+      if (with_spread) point.spread = spread_of(cost);
       series.points.push_back(std::move(point));
     }
     if (!series.points.empty()) chart.series.push_back(std::move(series));
   }
-  if (scene.step_gained > 0) chart.levels.push_back({scene.step_gained, "uncertainty of the reference"});
+  if (scene.step_gained.front() > 0)
+    chart.levels.push_back({scene.step_gained.front(), "uncertainty of the reference"});
   return chart;
 }
 
@@ -125,16 +135,25 @@ NamedChart apart_chart(const SceneAccuracy& scene) {
 }  // namespace
 
 std::string study_command(const SceneAccuracy& scene) {
+  const AccuracyOptions& options = scene.options;
   std::string methods;
-  for (const StepMethod method : scene.options.methods)
+  for (const StepMethod method : options.methods)
     methods.append(methods.empty() ? "" : ",").append(step_method_name(method));
-  return command_of(scene, methods, scene.options.tolerances, scene.options.steps);
+  return command_of(scene, {methods, names_of(options.parts), options.tolerances, options.steps, options.accuracies});
 }
 
-Quartiles cost_of_motion(const StepPoint& point) {
-  const double scale = 1e-3 / point.step;
-  const Quartiles time = point.measured.time();
-  return {scale * time.lower, scale * time.median, scale * time.upper};
+std::string motion_commands(const SceneAccuracy& scene, const MotionPoint& point) {
+  const bool asked = std::ranges::any_of(scene.asked, [&](const MotionPoint& p) { return &p == &point; });
+  const std::vector<double> steps = asked ? scene.options.steps : std::vector{point.setting};
+  const std::vector<double> accuracies = asked ? std::vector{point.setting} : scene.options.accuracies;
+  const char* const parts = scene.options.parts.films ? "asked,films" : "asked";
+  return fmt::format(
+      "{}\n{}", command_of(scene, {step_method_name(point.method), parts, {}, steps, accuracies}),
+      point.measured.what.film_command(film(scene, point.method, asked ? "accuracy" : "h", point.setting)));
+}
+
+std::optional<std::array<double, 2>> spread_of(const MedianInterval& time) {
+  return time.known() ? std::optional(std::array{time.lower, time.upper}) : std::nullopt;
 }
 
 std::vector<NamedChart> accuracy_charts(const SceneAccuracy& scene) {
@@ -155,9 +174,8 @@ std::vector<NamedChart> accuracy_charts(const SceneAccuracy& scene) {
                                                 "h [s]", [](const StepPoint& p) { return p.step; }, false)});
     charts.push_back(
         {scene.name + "-step-cost", by_step(
-                                        scene, fmt::format("Time-step error at {:g} s, by cost.", time),
-                                        "CPU time per second of motion [ms], median and quartiles",
-                                        [](const StepPoint& p) { return cost_of_motion(p).median; }, true)});
+                                        scene, fmt::format("Time-step error at {:g} s, by cost.", time), cost_title,
+                                        [](const StepPoint& p) { return p.measured.cost().median; }, true)});
   }
   if (!scene.points.empty()) charts.push_back(apart_chart(scene));
   return charts;

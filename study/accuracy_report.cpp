@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "core/text.hpp"
+#include "study/accuracy_asked.hpp"
 #include "study/accuracy_charts.hpp"
+#include "study/profile.hpp"
 
 namespace drape {
 namespace {
@@ -19,7 +21,7 @@ ResultTable tolerance_table(const SceneAccuracy& scene) {
   ResultTable table{scene.name + "-tolerances",
                     fmt::format("{}: methods and tolerances, h = {:g} s", scene.scene, scene.step),
                     {"method", fmt::format("ε [{}]", scene.tolerance_unit), "iterations", "capped steps", "µs per step",
-                     "lower quartile", "upper quartile", "set-up [µs]", "solve: max [m]", "RMS [m]", "‖∇g‖, relative"},
+                     "from", "to", "runs", "set-up [µs]", "solve: max [m]", "RMS [m]", "‖∇g‖, relative"},
                     {},
                     {"Set-up is the work before the first step, mainly the factorisation of the constant matrix."}};
   for (const double time : scene.options.times) table.columns.push_back(fmt::format("motion at {:g} s [m]", time));
@@ -27,13 +29,14 @@ ResultTable tolerance_table(const SceneAccuracy& scene) {
   table.notes.emplace_back(
       "Flipped pairs: neighbouring triangles whose normals are more than 150° apart, averaged over all steps. Times "
       "and iterations are averages up to the last compared time.");
+  table.notes.emplace_back(interval_note);
   for (const TolerancePoint& p : scene.points) {
-    const Quartiles time = p.measured.time();
+    const MedianInterval time = p.measured.time();
     table.rows.push_back({step_method_name(p.method), plain_number(p.tolerance),
-                          fmt::format("{:.2f}", p.measured.mean_iterations()), fmt::format("{}", p.measured.capped),
+                          fmt::format("{:.2f}", p.measured.iterations), fmt::format("{}", p.measured.capped),
                           three_digits(time.median), three_digits(time.lower), three_digits(time.upper),
-                          three_digits(quartiles(p.measured.setup).median), figure(p.solve.max), figure(p.solve.rms),
-                          figure(p.solve.gradient)});
+                          fmt::format("{}", time.count), three_digits(median_interval(p.measured.setup).median),
+                          figure(p.solve.max), figure(p.solve.rms), figure(p.solve.gradient)});
     for (const Distance& d : p.motion) table.rows.back().push_back(figure(d.max));
     table.rows.back().push_back(fmt::format("{:.2f}", p.measured.flipped_pairs));
   }
@@ -44,20 +47,22 @@ ResultTable step_table(const SceneAccuracy& scene) {
   ResultTable table{
       scene.name + "-steps",
       fmt::format("{}: time steps, error at {:g} s", scene.scene, scene.options.times.front()),
-      {"method", "h [s]", "iterations", "µs per step", "ms per second of motion", "lower quartile", "upper quartile",
+      {"method", "h [s]", "iterations", "µs per step", "ms per second of motion", "from", "to", "runs",
        "error: max [m]", "RMS [m]", "order"},
       {},
       {fmt::format("Order: relative to the preceding step length. The reference is extrapolated from h = {:g} s and "
                    "twice that, which changes it by {:.2g} m; its two solvers differ by {:.2g} m.",
-                   scene.step_reference, scene.step_gained, scene.step_apart)}};
+                   scene.step_reference, scene.step_gained.front(), scene.step_apart),
+       interval_note}};
   for (const StepPoint& p : scene.steps) {
-    const Quartiles motion = cost_of_motion(p);
+    const MedianInterval motion = p.measured.cost();
     const bool iterates = !is_explicit(p.method.method);
     table.rows.push_back({step_method_name(p.method), plain_number(p.step),
-                          iterates ? fmt::format("{:.2f}", p.measured.mean_iterations()) : "–",
+                          iterates ? fmt::format("{:.2f}", p.measured.iterations) : "–",
                           three_digits(p.measured.time().median), three_digits(motion.median),
-                          three_digits(motion.lower), three_digits(motion.upper), figure(p.error.max),
-                          figure(p.error.rms), std::isfinite(p.order) ? fmt::format("{:.2f}", p.order) : "–"});
+                          three_digits(motion.lower), three_digits(motion.upper), fmt::format("{}", motion.count),
+                          figure(p.error.max), figure(p.error.rms),
+                          std::isfinite(p.order) ? fmt::format("{:.2f}", p.order) : "–"});
   }
   return table;
 }
@@ -89,7 +94,7 @@ std::vector<Kind> kinds_of(const SceneAccuracy& scene) {
   Kind steps{fmt::format("time step at {:g} s", scene.options.times.front()), "ms per second of motion", {}};
   for (const StepPoint& p : scene.steps) {
     steps.offers.push_back(
-        {step_method_name(p.method), fmt::format("h = {:g} s", p.step), p.error.max, cost_of_motion(p)});
+        {step_method_name(p.method), fmt::format("h = {:g} s", p.step), p.error.max, p.measured.cost()});
   }
   kinds.push_back(std::move(steps));
   return kinds;
@@ -102,7 +107,7 @@ std::string why_unknown(const SceneAccuracy& scene, std::size_t kind, double lim
   if (kind <= motions && motions > 0) {
     return scene.apart[kind - 1] < limit ? std::string() : "unknown: the motion is chaotic";
   }
-  return scene.step_gained < limit ? std::string() : "unknown: the reference is not accurate enough";
+  return scene.step_gained.front() < limit ? std::string() : "unknown: the reference is not accurate enough";
 }
 
 ResultTable cheapest_table(const SceneAccuracy& scene) {
@@ -154,7 +159,7 @@ std::string describe_orders(const SceneAccuracy& scene) {
     const auto last = std::find_if(scene.steps.rbegin(), scene.steps.rend(),
                                    [method](const StepPoint& p) { return p.method == method; });
     if (last == scene.steps.rend() || !std::isfinite(last->order)) continue;
-    if (last->error.max < scene.step_gained) {
+    if (last->error.max < scene.step_gained.front()) {
       unknown += fmt::format(" The errors of {} are below the uncertainty of the reference.", step_method_name(method));
       continue;
     }
@@ -224,24 +229,31 @@ Cheapest find_cheapest(const std::vector<Offer>& offers, double limit) {
   return found;
 }
 
-StudyReport accuracy_report(const std::vector<SceneAccuracy>& scenes, const std::string& command,
-                            const std::vector<std::vector<StudyPicture>>& pictures, double seconds) {
+StudyReport accuracy_report(const AccuracyStudy& study) {
+  const std::vector<SceneAccuracy>& scenes = study.scenes;
   StudyReport report;
   report.kind = "drape study accuracy";
   report.title = "What accuracy costs in time";
   report.headline = headline(scenes);
   report.introduction =
       "Error against computing time: of a step relative to the exact minimiser, and of a motion relative to the "
-      "reference motion. Each point is a method with a tolerance or a time step. Lower and further left is better.";
-  report.command = command;
-  report.seconds = seconds;
+      "reference motion. Each point is a method with a tolerance, a time step or a requested accuracy. Lower and "
+      "further "
+      "left is better.";
+  report.command = study.command;
+  report.seconds = study.seconds;
+  report.provenance = study.provenance;
+  if (auto profile = profile_section(scenes)) report.sections.push_back(std::move(*profile));
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const SceneAccuracy& scene = scenes[i];
     add_findings(report, scene);
-    StudySection section{scene.scene, scene.notes, {}, accuracy_charts(scene), pictures[i]};
+    add_asked_findings(report, scene);
+    StudySection section{scene.scene, scene.notes, {}, accuracy_charts(scene), study.pictures[i]};
+    for (NamedChart& chart : asked_charts(scene)) section.charts.push_back(std::move(chart));
     if (!scene.points.empty()) section.tables.push_back(tolerance_table(scene));
     if (!scene.steps.empty()) section.tables.push_back(step_table(scene));
-    section.tables.push_back(cheapest_table(scene));
+    if (!scene.points.empty() || !scene.steps.empty()) section.tables.push_back(cheapest_table(scene));
+    for (ResultTable& table : asked_tables(scene)) section.tables.push_back(std::move(table));
     report.sections.push_back(std::move(section));
   }
   report.sections.push_back(

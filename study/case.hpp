@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct StudyCase {
   std::int64_t steps = 0;
   std::int64_t watched_steps = 0;     ///< of a run that is not timed, if they are more than `steps`
   std::filesystem::path folder = {};  ///< empty: the data folder
+  /// Computing time of a run of `steps` from which on it is given up [s]; absent: never, and it must not diverge
+  /// either.
+  std::optional<double> patience = {};
 
   /// @throws UsageError
   [[nodiscard]] Scene load() const;

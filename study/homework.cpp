@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 
 #include "run/run_steps.hpp"
 #include "sim/simulation.hpp"
@@ -18,28 +19,31 @@ constexpr std::array<const char*, 3> titles{"Table 1: no sphere, k = 18 N/m", "T
 
 std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : "–"; }
 
-std::string microseconds(double value) { return fmt::format("{:.{}f}", value, value < 100 ? 2 : 0); }
+std::string microseconds(double value) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, value < 100 ? 2 : 0) : "–";
+}
 
 ResultTable make_table(int table, const std::vector<HomeworkRow>& rows, const std::vector<Measured>& measured) {
   ResultTable result{fmt::format("table{}", table),
                      titles[static_cast<std::size_t>(table - 1)],
                      {"method", "h [s]", "ε [m]", "iterations: report", "its code again", "drape", "capped steps",
-                      "µs per step: report", "drape", "lower quartile", "upper quartile", "times faster"},
+                      "µs per step: report", "drape", "from", "to", "runs", "times faster"},
                      {},
                      {}};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const HomeworkRow& r = rows[i];
     if (r.table != table) continue;
-    const Quartiles time = measured[i].time();
+    const MedianInterval time = measured[i].time();
     const bool iterates = r.reported.iterations.has_value();
-    result.rows.push_back({r.method, fmt::format("{:g}", r.step), r.tolerance.empty() ? "–" : r.tolerance,
-                           number(r.reported.iterations), number(r.reported.again),
-                           iterates ? fmt::format("{:.4f}", measured[i].mean_iterations()) : "–",
-                           iterates ? fmt::format("{}", measured[i].capped) : "–", number(r.reported.microseconds),
-                           microseconds(time.median), microseconds(time.lower), microseconds(time.upper),
-                           fmt::format("{:.1f}", r.reported.microseconds / time.median)});
+    result.rows.push_back(
+        {r.method, fmt::format("{:g}", r.step), r.tolerance.empty() ? "–" : r.tolerance, number(r.reported.iterations),
+         number(r.reported.again), iterates ? fmt::format("{:.4f}", measured[i].mean_iterations()) : "–",
+         iterates ? fmt::format("{}", measured[i].capped) : "–", number(r.reported.microseconds),
+         microseconds(time.median), microseconds(time.lower), microseconds(time.upper), fmt::format("{}", time.count),
+         fmt::format("{:.1f}", r.reported.microseconds / time.median)});
   }
   if (table == 2) result.notes.push_back("The implicit method is measured over its first 167 steps, as in the report.");
+  result.notes.emplace_back(interval_note);
   return result;
 }
 
@@ -166,7 +170,7 @@ void add_charts(HomeworkStudy& study, const std::vector<HomeworkRow>& rows, cons
 
 }  // namespace
 
-std::optional<HomeworkStudy> study_homework(int runs, const std::stop_token& stop, Progress& progress) {
+std::optional<HomeworkStudy> study_homework(RunCount runs, const std::stop_token& stop, Progress& progress) {
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<HomeworkRow> rows = homework_rows();
   std::vector<StudyCase> cases;

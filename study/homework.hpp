@@ -23,12 +23,12 @@ struct HomeworkStudy {
   std::vector<NamedChart> charts;
   std::vector<Conclusion> conclusions;
   std::vector<std::string> differences;  ///< from the report on purpose, a sentence each
-  int runs = 0;
+  RunCount runs;
   double seconds = 0;
 };
 
 /// @param runs  timed runs of every case
 /// @returns nothing if it was stopped
-std::optional<HomeworkStudy> study_homework(int runs, const std::stop_token& stop, Progress& progress);
+std::optional<HomeworkStudy> study_homework(RunCount runs, const std::stop_token& stop, Progress& progress);
 
 }  // namespace drape

@@ -22,7 +22,7 @@ constexpr std::int64_t turns = 24;  // that a run of a case is cut into
 class CaseRun {
  public:
   /// @param watch called after every step; a run that is watched is not timed
-  CaseRun(const Scene& scene, Measured& measured, std::function<void(const Simulation&)> watch)
+  CaseRun(const Scene& scene, Measured& measured, std::function<void(const Simulation&, const StepReport&)> watch)
       : pairs_(scene.simulation.cloth.triangles), measured_(measured), watch_(std::move(watch)) {
     const double begin = thread_seconds();
     simulation_.emplace(scene.simulation);
@@ -30,26 +30,48 @@ class CaseRun {
   }
 
   void turn() {
+    if (given_up_) return;
     const std::int64_t steps = step_count();
     const std::int64_t end = std::min(steps, simulation_->state().step + (steps + turns - 1) / turns);
-    if (watch_) return run_steps(*simulation_, end, {}, [this](const StepReport& report) { observe(report); });
+    if (watch_) return watched_turn(end);
     const double begin = thread_seconds();
     run_steps(*simulation_, end, {});
     seconds_ += thread_seconds() - begin;
   }
 
   void finish() {
-    const auto steps = static_cast<double>(step_count());
     if (watch_) {
-      measured_.flipped_pairs /= steps;
+      measured_.flipped_pairs /= static_cast<double>(std::max<std::int64_t>(1, simulation_->state().step));
     } else {
-      measured_.microseconds.push_back(1e6 * seconds_ / steps);
+      measured_.microseconds.push_back(1e6 * seconds_ / static_cast<double>(step_count()));
     }
   }
 
  private:
   [[nodiscard]] std::int64_t step_count() const {
     return watch_ ? std::max(measured_.what.steps, measured_.what.watched_steps) : measured_.what.steps;
+  }
+
+  void watched_turn(std::int64_t end) {
+    const std::optional<double>& patience = measured_.what.patience;
+    try {
+      while (simulation_->state().step < end) {
+        const double begin = thread_seconds();
+        const StepReport report = simulation_->step();
+        seconds_ += thread_seconds() - begin;
+        observe(report);
+        if (patience && seconds_ > *patience) return give_up(fmt::format("it takes more than {:g} s", *patience));
+      }
+    } catch (const DivergedError& error) {
+      if (!patience) throw;
+      give_up(error.what());
+    }
+  }
+
+  /// What comes after what.steps is watched, but nothing that a case has to reach.
+  void give_up(const std::string& why) {
+    given_up_ = true;
+    if (simulation_->state().step < measured_.what.steps) measured_.failure = why;
   }
 
   void observe(const StepReport& report) {
@@ -59,14 +81,15 @@ class CaseRun {
     if (state.step <= measured_.what.steps) measured_.capped += report.converged ? 0 : 1;
     measured_.height.push_back(m.dot(state.x.col(2)) / m.sum());
     measured_.flipped_pairs += pairs_.count(state.x);
-    watch_(*simulation_);
+    watch_(*simulation_, report);
   }
 
   std::optional<Simulation> simulation_;
   FlippedPairs pairs_;
   Measured& measured_;
-  std::function<void(const Simulation&)> watch_;
+  std::function<void(const Simulation&, const StepReport&)> watch_;
   double seconds_ = 0;
+  bool given_up_ = false;
 };
 
 }  // namespace
@@ -90,18 +113,9 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Quartiles quartiles(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double fraction) {
-    const double place = fraction * static_cast<double>(values.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, values.size() - 1);
-    return std::lerp(values[below], values[above], place - static_cast<double>(below));
-  };
-  return {at(0.25), at(0.5), at(0.75)};
+double Measured::mean_iterations() const {
+  return mean_iterations(0, std::min(iterations.size(), static_cast<std::size_t>(what.steps)));
 }
-
-double Measured::mean_iterations() const { return mean_iterations(0, static_cast<std::size_t>(what.steps)); }
 
 double Measured::mean_iterations(std::size_t first, std::size_t last) const {
   const auto from = iterations.begin() + static_cast<std::ptrdiff_t>(first);
@@ -109,7 +123,7 @@ double Measured::mean_iterations(std::size_t first, std::size_t last) const {
   return static_cast<double>(std::accumulate(from, to, std::int64_t{0})) / static_cast<double>(last - first);
 }
 
-std::vector<Measured> measure(const std::vector<StudyCase>& cases, int runs, const std::stop_token& stop,
+std::vector<Measured> measure(const std::vector<StudyCase>& cases, RunCount runs, const std::stop_token& stop,
                               Progress& progress, const CaseWatch& watch) {
   const PinnedThread pinned;
   std::vector<Scene> scenes;
@@ -119,18 +133,20 @@ std::vector<Measured> measure(const std::vector<StudyCase>& cases, int runs, con
     results.emplace_back().what = one;
     results.back().step = scenes.back().simulation.step;
   }
-  progress.begin("measuring", "turns", (runs + 1) * turns);
-  for (int run = 0; run <= runs; ++run) {
+  progress.begin("measuring", "turns", (runs_at_most(runs) + 1) * turns);
+  for (int run = 0; run <= runs_at_most(runs); ++run) {
     std::vector<std::unique_ptr<CaseRun>> running;
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      std::function<void(const Simulation&)> first;
+      if (!results[i].failure.empty() || is_enough(results[i].microseconds, runs)) continue;
+      std::function<void(const Simulation&, const StepReport&)> first;
       if (run == 0) {
-        first = [&watch, i](const Simulation& simulation) {
-          if (watch) watch(i, simulation);
+        first = [&watch, i](const Simulation& simulation, const StepReport& report) {
+          if (watch) watch(i, simulation, report);
         };
       }
       running.push_back(std::make_unique<CaseRun>(scenes[i], results[i], std::move(first)));
     }
+    if (running.empty()) break;
     for (std::int64_t turn = 0; turn < turns; ++turn) {
       for (const auto& one : running) {
         if (stop.stop_requested()) return {};
@@ -143,13 +159,12 @@ std::vector<Measured> measure(const std::vector<StudyCase>& cases, int runs, con
   return results;
 }
 
-std::string count_of_runs(int runs) { return fmt::format("{} run{}", runs, runs == 1 ? "" : "s"); }
-
-std::string describe_measuring(int runs) {
+std::string describe_measuring(RunCount runs) {
   return fmt::format(
-      "Times are CPU times of one thread pinned to one core, averaged over the steps of a run: the median and the "
-      "quartiles of {}, in which the cases take turns. A first run is not timed.",
-      count_of_runs(runs));
+      "Times are CPU times of one thread pinned to one core, averaged over the steps of a run: {}. The cases take "
+      "turns in "
+      "each run. A first run is not timed.",
+      describe_runs(runs));
 }
 
 }  // namespace drape

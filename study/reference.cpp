@@ -1,10 +1,16 @@
 #include "study/reference.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "run/run_steps.hpp"
+#include "sim/effects/ground.hpp"
+#include "sim/effects/self_collision.hpp"
+#include "sim/effects/sphere.hpp"
+#include "sim/effects/strain_limit.hpp"
 #include "sim/make_system.hpp"
 
 namespace drape {
@@ -12,6 +18,9 @@ namespace {
 
 // Where the cloth is about to buckle, Newton's matrix is nearly singular and even Newton's method needs thousands.
 constexpr int most_iterations = 5000;
+
+constexpr std::array<std::string_view, 4> sudden_effects{Sphere::name, Ground::name, SelfCollision::name,
+                                                         StrainLimit::name};
 
 }  // namespace
 
@@ -66,6 +75,23 @@ std::optional<ReferenceMotion> run_reference(const SimulationSettings& settings,
   });
   if (stop.stop_requested()) return std::nullopt;
   return motion;
+}
+
+std::optional<std::int64_t> first_contact(const SimulationSettings& settings, std::int64_t steps, double limit,
+                                          const std::stop_token& stop) {
+  SimulationSettings untouched = settings;
+  untouched.effects = {};
+  for (const Effect& effect : settings.effects) {
+    if (std::ranges::find(sudden_effects, effect.name()) == sudden_effects.end()) untouched.effects.add(effect);
+  }
+  if (untouched.effects.size() == settings.effects.size()) return std::nullopt;
+  Simulation with(to_rounding(settings, Method::implicit)), without(to_rounding(untouched, Method::implicit));
+  while (with.state().step < steps && !stop.stop_requested()) {
+    with.step();
+    without.step();
+    if (distance(with.state().x, without.state().x).max > limit) return with.state().step;
+  }
+  return std::nullopt;
 }
 
 }  // namespace drape

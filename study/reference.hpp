@@ -40,4 +40,11 @@ std::optional<ReferenceMotion> run_reference(const SimulationSettings& settings,
                                              const std::vector<std::int64_t>& keep, const std::stop_token& stop,
                                              Progress& progress);
 
+/// The first step after which a motion is further than a limit [m] from what it would be if spheres, grounds, itself
+/// and a limit of strain did nothing to the cloth: when it has begun to touch something. Nothing: not within so many
+/// steps.
+/// @throws DivergedError
+std::optional<std::int64_t> first_contact(const SimulationSettings& settings, std::int64_t steps, double limit,
+                                          const std::stop_token& stop);
+
 }  // namespace drape

@@ -41,6 +41,12 @@ html::Markup to_html(const StudySection& section, std::size_t number) {
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::string>> study_provenance() {
+  std::vector<std::pair<std::string, std::string>> facts = html::provenance();
+  facts.emplace_back("Instruction set", std::string(kernels().name));
+  return facts;
+}
+
 std::string to_text(const StudyReport& report, std::size_t width) {
   std::string text;
   for (const StudySection& section : report.sections) {
@@ -92,8 +98,9 @@ std::string to_page(const StudyReport& report) {
   page.introduction = html::paragraph(report.introduction) + html::command("Reproduce this study", report.command);
   page.content = html::findings(findings);
   for (std::size_t i = 0; i < report.sections.size(); ++i) page.content += to_html(report.sections[i], i + 1);
-  page.foot = html::provenance();
-  page.foot.emplace_back("Instruction set", std::string(kernels().name));
+  for (const auto& [name, value] : report.provenance.empty() ? study_provenance() : report.provenance) {
+    page.foot.emplace_back(name, value);
+  }
   page.foot.emplace_back("Duration", fmt::format("{:.0f} s", report.seconds));
   return html::render(page);
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/wrap.hpp"
@@ -46,9 +47,13 @@ struct StudyReport {
   std::string command;  ///< that makes it again
   std::vector<StudyFinding> findings;
   std::vector<StudySection> sections;
-  std::vector<ResultTable> data;  ///< tables that are written as CSV and not shown
-  double seconds = 0;             ///< that it took
+  std::vector<ResultTable> data;                                     ///< tables that are written as CSV and not shown
+  double seconds = 0;                                                ///< that it took
+  std::vector<std::pair<std::string, std::string>> provenance = {};  ///< empty: study_provenance()
 };
+
+/// What a study that runs now is made by and measured on: names and values.
+std::vector<std::pair<std::string, std::string>> study_provenance();
 
 /// For a terminal of this width: the tables, and at the end what came out.
 std::string to_text(const StudyReport& report, std::size_t width = unlimited_width);

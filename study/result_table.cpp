@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/wrap.hpp"
@@ -24,12 +25,6 @@ std::string quoted(const std::string& cell) {
   std::string text = "\"";
   for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
   return text + "\"";
-}
-
-std::string csv_line(const std::vector<std::string>& cells) {
-  std::string line;
-  for (std::size_t c = 0; c < cells.size(); ++c) line.append(c == 0 ? "" : ",").append(quoted(cells[c]));
-  return line + "\n";
 }
 
 /// How many columns from the first on tell the rows apart: they are there in every part of a table.
@@ -67,7 +62,15 @@ std::vector<std::vector<std::size_t>> parts_within(std::size_t width, const std:
 
 }  // namespace
 
-std::string three_digits(double value) { return fmt::format("{:.{}f}", value, value < 10 ? 2 : value < 100 ? 1 : 0); }
+std::string three_digits(double value) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, value < 10 ? 2 : value < 100 ? 1 : 0) : "–";
+}
+
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  for (std::size_t c = 0; c < cells.size(); ++c) line.append(c == 0 ? "" : ",").append(quoted(cells[c]));
+  return line + "\n";
+}
 
 std::string to_text(const ResultTable& table, std::size_t width) {
   std::vector<std::size_t> widths;

@@ -17,8 +17,11 @@ struct ResultTable {
   std::vector<std::string> notes;  ///< sentences below it
 };
 
-/// A cell with three digits, or all before the point: "2.35", "23.5", "2347".
+/// A cell with three digits, or all before the point: "2.35", "23.5", "2347"; "–" for what is no number.
 std::string three_digits(double value);
+
+/// Cells as a line of RFC 4180, quoted where they have to be.
+std::string csv_line(const std::vector<std::string>& cells);
 
 /// For a terminal: columns in line, those that are numbers to the right. A table wider than `width` comes in parts,
 /// each of which begins with the columns that tell its rows apart.

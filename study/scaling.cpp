@@ -90,10 +90,12 @@ class MethodOnGrid {
     simulation_.reset();
   }
 
+  [[nodiscard]] bool done(RunCount runs) const { return is_enough(time_, runs); }
+
   ScalingPoint finish() {
-    point_.time = quartiles(time_);
-    point_.setup = quartiles(setup_);
-    if (!factor_.empty()) point_.factor = quartiles(factor_).median;
+    point_.time = median_interval(time_);
+    point_.setup = median_interval(setup_);
+    if (!factor_.empty()) point_.factor = median_interval(factor_).median;
     return std::move(point_);
   }
 
@@ -174,10 +176,10 @@ bool measure_grid(int cells, const std::stop_token& stop, Progress& progress, Sc
     study.notes.push_back(fmt::format("{}×{}: {}", cells, cells, error.what()));
   }
   ++progress.done;
-  for (int run = 0; run < study.options.runs; ++run) {
+  for (int run = 0; run < runs_at_most(study.options.runs); ++run) {
     for (const auto& one : methods) {
       if (stop.stop_requested()) return false;
-      one->measure();
+      if (!one->done(study.options.runs)) one->measure();
     }
     ++progress.done;
   }
@@ -195,7 +197,7 @@ std::optional<ScalingStudy> study_scaling(const ScalingOptions& options, const s
   study.options = options;
   std::vector<int> grids;
   for (int cells = smallest_grid; cells <= options.largest; cells *= 2) grids.push_back(cells);
-  progress.begin("measuring grids", "runs", static_cast<std::int64_t>(grids.size()) * (options.runs + 1));
+  progress.begin("measuring grids", "runs", static_cast<std::int64_t>(grids.size()) * (runs_at_most(options.runs) + 1));
   for (const int cells : grids) {
     if (!measure_grid(cells, stop, progress, study)) return std::nullopt;
   }

@@ -13,7 +13,7 @@ namespace drape {
 
 struct ScalingOptions {
   int largest = 80;  ///< cells along a side of the largest grid
-  int runs = 5;
+  RunCount runs = {};
 };
 
 /// Where the time of a step goes, as shares of it that sum to 1.
@@ -35,8 +35,8 @@ struct ScalingPoint {
   StudyCase what;
   double step = 0;        ///< h [s]
   double iterations = 0;  ///< mean of a step; 0 for a method that has none
-  Quartiles time;         ///< of a step [µs]
-  Quartiles setup;        ///< before the first step, with the factor of the constant matrix [µs]
+  MedianInterval time;    ///< of a step [µs]
+  MedianInterval setup;   ///< before the first step, with the factor of the constant matrix [µs]
   double factor = 0;      ///< of that, the constant matrix alone: assembled, analysed, factored [µs]
   double memory = 0;      ///< of the simulation, after steps [bytes]
   TimeShares shares;

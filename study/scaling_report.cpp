@@ -54,15 +54,15 @@ ResultTable time_table(const ScalingStudy& study) {
   ResultTable table{
       "scaling-times",
       "Time and memory",
-      {"method", "grid", "vertices", "h [s]", "iterations", "µs per step", "lower quartile", "upper quartile",
-       "µs per iteration", "set-up [µs]", "of which factor", "memory [MB]"},
+      {"method", "grid", "vertices", "h [s]", "iterations", "µs per step", "from", "to", "runs", "µs per iteration",
+       "set-up [µs]", "of which factor", "memory [MB]"},
       {},
       {"Semi-implicit steps are just below the stability limit; set-up is then the search for that limit."}};
   for (const ScalingPoint& p : study.points) {
     table.rows.push_back({p.method, fmt::format("{0}×{0}", p.cells), fmt::format("{}", p.vertices),
                           fmt::format("{:g}", p.step), p.iterations > 0 ? fmt::format("{:.1f}", p.iterations) : "–",
                           three_digits(p.time.median), three_digits(p.time.lower), three_digits(p.time.upper),
-                          three_digits(per_iteration(p)), three_digits(p.setup.median),
+                          fmt::format("{}", p.time.count), three_digits(per_iteration(p)), three_digits(p.setup.median),
                           p.factor > 0 ? three_digits(p.factor) : "–", three_digits(1e-6 * p.memory)});
   }
   return table;
@@ -140,7 +140,8 @@ StudyReport scaling_report(const ScalingStudy& study) {
   StudyReport report;
   report.kind = "drape study scaling";
   report.title = "How time and memory grow with the cloth";
-  report.command = fmt::format("drape study scaling --largest {} --runs {}", study.options.largest, study.options.runs);
+  report.command =
+      fmt::format("drape study scaling --largest {}", study.options.largest) + runs_option(study.options.runs);
   report.introduction =
       "The homework's cloth on the sphere, k = 180 N/m, h = 0.02 s and ε = 1e-3 m, on ever finer grids. Every method "
       "starts from the same state, 0.5 s into the motion.";
@@ -170,11 +171,11 @@ StudyReport scaling_report(const ScalingStudy& study) {
        {}},
       {"Where the time goes", {}, {share_table(study)}, {}, {}},
       {"How it was measured",
-       {fmt::format("Five steps from the same state, as computing time of one thread that stays on one processor: the "
-                    "median and the quartiles of {}, in which the methods take turns on each grid. Every run sets "
+       {fmt::format("Five steps from the same state, as computing time of one thread that stays on one processor: "
+                    "{}. The methods take turns on each grid. Every run sets "
                     "the simulation up anew and takes a step that is not timed. Memory is what the "
                     "heap has given to the simulation.",
-                    count_of_runs(study.options.runs))},
+                    describe_runs(study.options.runs))},
        {},
        {},
        {}}};

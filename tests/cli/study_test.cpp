@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "tests/cli/run_drape.hpp"
 #include "tests/cli/without_opengl.hpp"
 #include "tests/support/files.hpp"
@@ -61,10 +63,45 @@ TEST(Study, OfAccuracyWritesEverythingForEveryScene) {
   const Finished finished =
       drape(folder,
             "study accuracy a.toml b/a.toml -o results --runs 1 --animate methods --methods liu13,implicit "
-            "--tolerances 1e-2,1e-4 --times 0.1,0.2 --steps 0.02,0.01");
+            "--tolerances 1e-2,1e-4 --times 0.1,0.2 --steps 0.02,0.01 --accuracies 1e-2,1e-3");
   EXPECT_NE(finished.text.find("what accuracy costs"), std::string::npos) << finished.text;
-  expect_results(folder, finished, {"b-a-by-methods.gif", "b-a-tolerances.csv", "b-a-steps.csv", "b-a-cheapest.csv"},
-                 {"b-a-solve", "b-a-motion-1", "b-a-motion-2", "b-a-step", "b-a-step-cost", "b-a-apart"});
+  expect_results(folder, finished,
+                 {"runs.csv", "b-a-by-methods.gif", "b-a-tolerances.csv", "b-a-steps.csv", "b-a-cheapest.csv",
+                  "b-a-asked.csv", "b-a-estimates.csv", "profiles.csv", "profile-times.csv"},
+                 {"b-a-solve", "b-a-motion-1", "b-a-motion-2", "b-a-step", "b-a-step-cost", "b-a-apart",
+                  "b-a-asked-and-got", "b-a-error-cost", "b-a-film", "profile"});
+
+  // All of it again, from the runs and the animations.
+  std::map<std::string, std::string> before;
+  for (const auto& file : std::filesystem::directory_iterator(folder.path() / "results")) {
+    const std::string name = file.path().filename().string();
+    if (file.path().extension() == ".pdf") continue;  // which say when they were made
+    before[name] = test::content(file.path());
+    if (name != "runs.csv" && file.path().extension() != ".gif") std::filesystem::remove(file.path());
+  }
+  const Finished again = drape(folder, "study accuracy --report-only -o results");
+  EXPECT_EQ(again.code, 0) << again.text;
+  EXPECT_EQ(again.text.substr(again.text.find("what accuracy costs")),
+            finished.text.substr(finished.text.find("what accuracy costs")));
+  for (const auto& [name, content] : before) {
+    EXPECT_TRUE(test::content(folder.path() / "results" / name) == content) << name;
+  }
+}
+
+TEST(Study, OfAccuracyMakesAReportOfWholeRunsOnly) {
+  const SceneFolder folder;
+  folder.write("other/runs.csv", "a,b\n");
+  folder.write("cut/runs.csv", "scene,kind,method,scheme,setting,run,quantity,value\n,study,,,,,format,1\n");
+  const auto expect_error = [&](const std::string& arguments, const std::string& message) {
+    const Finished finished = drape(folder, "study accuracy " + arguments);
+    EXPECT_EQ(finished.code, 2) << finished.text;
+    EXPECT_NE(finished.text.find(message), std::string::npos) << finished.text;
+  };
+  expect_error("--report-only -o other", "other/runs.csv:1: expected the runs of a study");
+  expect_error("--report-only -o cut", "cut/runs.csv:2: the file is cut");
+  expect_error("--report-only -o none", "none/runs.csv");
+  expect_error("a.toml --report-only -o cut", "it takes no scene");
+  expect_error("", "expected a scene file, or --report-only");
 }
 
 // What a scene is called ends up in file names, links, tables, and commands.
@@ -76,7 +113,7 @@ TEST(Study, OfAccuracyTakesScenesOfAnyName) {
   }
   const Finished finished = drape(folder,
                                   "study accuracy *.toml -o results --runs 1 --animate methods --methods "
-                                  "liu13,implicit --tolerances 1e-2 --times 0.1 --steps 0.02");
+                                  "liu13,implicit --tolerances 1e-2 --times 0.1 --steps 0.02 --parts solve,order");
   expect_results(folder, finished, {"x';system(\"touch pwned\");#-by-methods.gif", "<b>&|{frame},\"-by-methods.gif"},
                  {"x';system(\"touch pwned\");#-solve", "<b>&|{frame},\"-apart"});
   for (const auto& file : std::filesystem::recursive_directory_iterator(folder.path())) {
@@ -103,9 +140,13 @@ TEST(Study, OfAccuracySaysWhatItCannotMeasure) {
   expect_error("a.toml --times 0.1 --steps 0.03", "does not divide");
   expect_error("b.toml", "b.toml");
   expect_error("a.toml --tolerances -1", "--tolerances");
-  // Of one method only: semi-implicit Euler has nothing to solve for. Its turn would come after the reference motion.
+  expect_error("a.toml --accuracies 0", "--accuracies");
+  expect_error("a.toml --parts askd", "did you mean 'asked'");
+  expect_error("a.toml --parts films", "films are drawn of what 'asked' runs");
+  // Of one method only, which is asked for: semi-implicit Euler has nothing to solve for. Its turn would come after the
+  // reference motion.
   folder.write("a.toml", swing + "[effects.sphere]\ncenter = [0, 0, -1]\nradius = 0.1\nresponse = \"implicit\"\n");
-  expect_error("a.toml --times 0.1 --set time.duration=1e5", "semi-implicit Euler");
+  expect_error("a.toml --times 0.1 --methods liu13,semi-implicit --set time.duration=1e5", "semi-implicit Euler");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 

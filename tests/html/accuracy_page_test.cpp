@@ -25,11 +25,13 @@ class AccuracyPage : public test::InBrowser {
     options.methods = {Method::liu13, Method::quasi_newton};
     options.tolerances = {1e-2, 1e-4, 1e-6};
     options.times = {0.1, 0.2};
-    options.runs = 3;
+    options.accuracies = {1e-2, 1e-3};
+    options.runs = 6;
     Progress progress;
     const auto study = study_accuracy("small", file, options, {}, progress);
     const StudyPicture picture{"small.gif", one_pixel(), "Side by side.", "drape study accuracy small.toml"};
-    return to_page(accuracy_report({*study}, "drape study accuracy small.toml", {{picture}}, 1));
+    return to_page(accuracy_report(
+        {.command = "drape study accuracy small.toml", .scenes = {*study}, .pictures = {{picture}}, .seconds = 1}));
   }
 };
 
@@ -37,13 +39,13 @@ TEST_F(AccuracyPage, IsSound) {
   open(page());
   expect_sound();
   EXPECT_EQ(browser_->run("return document.images.length"), 1);
-  EXPECT_EQ(browser_->run("return document.querySelectorAll('.chart').length"), 6);
+  EXPECT_EQ(browser_->run("return document.querySelectorAll('.chart').length"), 9);
   keep_screenshots("accuracy");
 }
 
 TEST_F(AccuracyPage, HoveringAPointShowsItsCommands) {
   open(page());
-  browser_->point_at(".series.s3 .point:nth-of-type(2) .sign");
+  browser_->point_at(".series.s3 [data-label^='quasi-newton, ε'] .sign");
   const std::string tip = browser_->run("return document.getElementById('tip').textContent");
   EXPECT_TRUE(tip.starts_with("quasi-newton, ε = ")) << tip;
   EXPECT_NE(tip.find("--methods quasi-newton"), std::string::npos) << tip;

@@ -4,7 +4,10 @@
 
 #include <filesystem>
 
+#include "sim/effects/ground.hpp"
 #include "study/accuracy_report.hpp"
+#include "study/film_judge.hpp"
+#include "study/local_error.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape {
@@ -106,6 +109,7 @@ TEST_F(StudyOfASmallCloth, EveryMethodHasItsOrderInTheTimeStep) {
   options.times = {0.2};
   options.steps = {0.005, 0.0025, 0.00125};
   options.runs = 1;
+  options.parts = {.solve = false, .asked = false};
   const SceneAccuracy result = study(options);
   ASSERT_EQ(result.steps.size(), 24U);
   for (const StepPoint& point : result.steps) {
@@ -122,8 +126,8 @@ TEST_F(StudyOfASmallCloth, TheErrorOfTheMotionFallsWithTheToleranceAndNothingIsC
   options.methods = {Method::quasi_newton};
   options.tolerances = {1e-1, 1e-3, 1e-6};
   options.times = {0.1, 0.4};
-  options.steps = {0.02};
   options.runs = 2;
+  options.parts = {.order = false, .asked = false};
   const SceneAccuracy result = study(options);
   ASSERT_EQ(result.points.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -134,8 +138,115 @@ TEST_F(StudyOfASmallCloth, TheErrorOfTheMotionFallsWithTheToleranceAndNothingIsC
     EXPECT_LT(result.points[i].motion[1].max, result.points[i - 1].motion[1].max);
   }
   EXPECT_FALSE(result.chaotic_from);
-  const StudyReport report = accuracy_report({result}, "drape study accuracy small.toml", {{}}, 1);
+  const StudyReport report = accuracy_report(
+      {.command = "drape study accuracy small.toml", .scenes = {result}, .pictures = {{}}, .seconds = 1});
   EXPECT_NE(to_text(report).find("quasi-newton"), std::string::npos);
+}
+
+// What is asked of a step is not what a motion gets, but a tenth of it is at most half as wrong.
+TEST_F(StudyOfASmallCloth, TheErrorOfTheMotionFallsWithTheAccuracyThatIsAskedFor) {
+  AccuracyOptions options;
+  options.methods = {Method::quasi_newton, {Method::quasi_newton, TimeScheme::sdirk2}};
+  options.accuracies = {1e-3, 1e-4};
+  options.times = {0.2, 0.4};
+  options.steps = {0.02, 0.01};
+  options.runs = 1;
+  options.parts = {.solve = false, .order = false};
+  const SceneAccuracy result = study(options);
+  ASSERT_EQ(result.asked.size(), 4U);
+  ASSERT_EQ(result.fixed.size(), 4U);
+  EXPECT_TRUE(result.points.empty() && result.steps.empty());
+  for (const std::size_t time : {0U, 1U}) {
+    EXPECT_LT(result.asked[1].errors[time].max, 0.5 * result.asked[0].errors[time].max);
+    EXPECT_NEAR(result.fixed[0].errors[time].max / result.fixed[1].errors[time].max, 2, 0.2);
+    EXPECT_GT(result.fixed[2].errors[time].max, 3 * result.fixed[3].errors[time].max);
+    EXPECT_LT(result.step_gained[time], 0.1 * result.fixed[3].errors[time].max);
+  }
+  for (const MotionPoint& p : result.asked) {
+    EXPECT_EQ(p.substeps.size(), 10U);  // of the steps up to the first time
+    EXPECT_EQ(p.local_errors.size(), 10U);
+    EXPECT_FALSE(p.flip);
+    for (std::size_t i = 0; i < p.local_errors.size(); ++i) {
+      EXPECT_LE(p.estimates[i], p.setting);
+      EXPECT_LE(p.local_errors[i], 3 * p.setting);
+      EXPECT_LE(p.local_unknown[i], 0.01 * p.setting);
+    }
+  }
+  EXPECT_FALSE(result.contact_from);
+}
+
+// Backward Euler's steps fall g·h² instead of ½·g·h² from rest, which small steps of second order do exactly.
+TEST(LocalErrors, OfABackwardEulerStepInFreeFallIsHalfOfGTimesHSquared) {
+  const SceneFolder folder;
+  Scene scene = folder.load(small_scene, {"cloth.pins=[]"});
+  const double h = scene.simulation.step;
+  for (const bool push : {false, true}) {  // with the second, Verlet cannot take the small steps
+    if (push) {
+      Ground ground;
+      ground.height = -10;
+      ground.response = Response::implicit_energy;
+      scene.simulation.effects.add(ground);
+    }
+    LocalErrors exact(scene.simulation);
+    Simulation simulation(scene.simulation);
+    const State before = simulation.state();
+    simulation.step();
+    const auto found = exact.of_step(before, simulation.state().x);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->error, 0.5 * 9.8 * h * h, 1e-9);
+    EXPECT_LT(found->unknown, 1e-9);
+  }
+}
+
+// Backward Euler is at −g·h²·n(n+1)/2 after n steps from rest. An explicit push is evaluated where a step begins.
+TEST(FirstContact, OfAFallingClothIsTheStepThatBeginsBelowTheGround) {
+  const SceneFolder folder;
+  Scene scene = folder.load(small_scene, {"cloth.pins=[]"});
+  EXPECT_FALSE(first_contact(scene.simulation, 20, 1e-8, {}));
+  const double h = scene.simulation.step, depth = 0.1;
+  Ground ground;  // which pushes in a layer above it
+  ground.height = scene.simulation.cloth.positions(0, 2) - depth - ground.thickness;
+  scene.simulation.effects.add(ground);
+  const std::int64_t step = first_contact(scene.simulation, 20, 1e-8, {}).value();
+  const auto fallen = [&](std::int64_t n) { return 9.8 * h * h * static_cast<double>(n * (n + 1)) / 2; };
+  EXPECT_GT(fallen(step - 1), depth);
+  EXPECT_LE(fallen(step - 2), depth);
+  EXPECT_FALSE(first_contact(scene.simulation, step - 1, 1e-8, {}));
+}
+
+class JudgedFilm : public ::testing::Test {
+ protected:
+  JudgedFilm() {
+    Progress progress;
+    reference_ = *extrapolate_steps(scene_.simulation, steps_, 4, {}, progress);
+  }
+
+  SceneFolder folder_;
+  Scene scene_ = folder_.load(small_scene);
+  std::vector<std::int64_t> steps_ = film_steps(scene_, 20);
+  StepReference reference_;
+};
+
+TEST_F(JudgedFilm, OfTheReferenceItselfIsNoDifferent) {
+  FilmJudge films(scene_, steps_, reference_, GlBackend::automatic);
+  EXPECT_EQ(steps_, (std::vector<std::int64_t>{5, 10, 15, 20}));
+  EXPECT_EQ(films.count(), 4U);
+  for (std::size_t i = 0; i < steps_.size(); ++i) EXPECT_EQ(films.error(steps_[i], reference_.x[i]), 0);
+  EXPECT_FALSE(films.error(7, reference_.x[0]));
+  EXPECT_LT(films.unknown(), 0.01);
+}
+
+TEST_F(JudgedFilm, LooksTheMoreDifferentTheFurtherTheClothIsAway) {
+  FilmJudge films(scene_, steps_, reference_, GlBackend::automatic);
+  double before = 0;
+  for (const double away : {0.01, 0.1, 0.5}) {
+    Vertices x = reference_.x[1];
+    x.col(2).array() += away;
+    const double error = films.error(steps_[1], x).value();
+    EXPECT_GT(error, before);
+    EXPECT_LE(error, 1);
+    before = error;
+  }
 }
 
 TEST(AccuracyOptions, MustFitTheMotion) {

@@ -8,17 +8,6 @@
 namespace drape {
 namespace {
 
-TEST(Quartiles, OfKnownValues) {
-  const Quartiles odd = quartiles({5, 1, 4, 2, 3});
-  EXPECT_EQ(odd.lower, 2);
-  EXPECT_EQ(odd.median, 3);
-  EXPECT_EQ(odd.upper, 4);
-  const Quartiles even = quartiles({1, 2, 3, 4});
-  EXPECT_EQ(even.lower, 1.75);
-  EXPECT_EQ(even.median, 2.5);
-  EXPECT_EQ(quartiles({7}).upper, 7);
-}
-
 TEST(Measure, RunsEveryStepOfEveryCaseAsOftenAsAsked) {
   const std::vector<StudyCase> cases{{"a", "scenes/homework/3.toml", {}, 31}, {"b", "scenes/homework/1.toml", {}, 100}};
   Progress progress;
@@ -32,6 +21,33 @@ TEST(Measure, RunsEveryStepOfEveryCaseAsOftenAsAsked) {
   const double time = 0.1;
   EXPECT_LT(measured[1].height.back(), -0.4 * 9.8 * time * time);
   EXPECT_GT(measured[1].height.back(), -0.51 * 9.8 * time * time);
+}
+
+TEST(Measure, RunsEachCaseUntilItsMedianIsKnownAndNoMoreThanThirtyTimes) {
+  Progress progress;
+  const std::vector<Measured> measured = measure({{"a", "scenes/homework/3.toml", {}, 5}}, {}, {}, progress);
+  const std::vector<double>& all = measured.front().microseconds;
+  EXPECT_GE(all.size(), fewest_for_interval);
+  EXPECT_LE(all.size(), 30U);
+  EXPECT_TRUE(all.size() == 30 || measured.front().time().narrow());
+  EXPECT_FALSE(is_enough({all.begin(), all.end() - 1}, {}));  // it was not enough before the last
+}
+
+TEST(Measure, GivesUpACaseThatDivergesOrTakesTooLongIfItMayFail) {
+  const std::vector<std::string> unstable{"integrator={method=\"semi-implicit\",allow_unstable=true}", "time.step=0.1"};
+  StudyCase diverges{"a", "scenes/homework/3.toml", unstable, 50}, slow{"b", "scenes/homework/3.toml", {}, 50};
+  Progress progress;
+  EXPECT_THROW(measure({diverges}, 1, {}, progress), DivergedError);
+  diverges.patience = 60;
+  slow.patience = 1e-9;
+  const std::vector<Measured> measured =
+      measure({diverges, slow, {"c", "scenes/homework/3.toml", {}, 5}}, 1, {}, progress);
+  EXPECT_NE(measured[0].failure.find("diverged"), std::string::npos) << measured[0].failure;
+  EXPECT_NE(measured[1].failure.find("more than"), std::string::npos) << measured[1].failure;
+  EXPECT_TRUE(measured[1].microseconds.empty());
+  EXPECT_EQ(measured[1].iterations.size(), 1U);
+  EXPECT_TRUE(measured[2].failure.empty());
+  EXPECT_EQ(measured[2].microseconds.size(), 1U);
 }
 
 TEST(Measure, ReturnsNothingWhenItIsStopped) {

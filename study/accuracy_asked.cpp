@@ -1,0 +1,248 @@
+#include "study/accuracy_asked.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/text.hpp"
+#include "study/accuracy_charts.hpp"
+
+namespace drape {
+namespace {
+
+constexpr double factor = 3, far_below = 0.1, known_share = 0.3, miss = 10;
+
+std::string length(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
+
+std::string median_of(std::vector<double> values) {
+  return values.empty() ? "–" : fmt::format("{:g}", median_interval(std::move(values)).median);
+}
+
+html::ChartPoint point_of(const SceneAccuracy& scene, const MotionPoint& p, double x, double y, const char* name) {
+  const MedianInterval cost = p.measured.cost();
+  return {x,
+          y,
+          fmt::format("{} = {:g}: error {:.3g} m at {:g} s, {:.3g} ms per second of motion", name, p.setting,
+                      p.errors.front().max, scene.options.times.front(), cost.median),
+          motion_commands(scene, p),
+          {}};
+}
+
+/// Cost across, and something of the motions up: with an accuracy that was asked for, and dashed with fixed steps.
+template <class Value>
+html::Chart by_cost(const SceneAccuracy& scene, const std::string& title, const std::string& y_title, Value value) {
+  html::Chart chart{title, cost_title, y_title, html::Scale::logarithmic, html::Scale::logarithmic, {}, {}};
+  for (const auto* points : {&scene.asked, &scene.fixed}) {
+    const bool fixed = points == &scene.fixed;
+    for (const StepMethod method : scene.options.methods) {
+      html::ChartSeries series = method_series(step_method_name(method));
+      if (fixed) series.name += ", fixed steps";
+      series.other = series.other || fixed;
+      for (const MotionPoint& p : *points) {
+        if (p.method != method || !p.measured.failure.empty()) continue;
+        series.points.push_back(point_of(scene, p, p.measured.cost().median, value(p), fixed ? "h" : "accuracy"));
+        series.points.back().spread = spread_of(p.measured.cost());
+      }
+      if (!series.points.empty()) chart.series.push_back(std::move(series));
+    }
+  }
+  return chart;
+}
+
+html::Chart asked_and_got(const SceneAccuracy& scene) {
+  html::Chart chart{fmt::format("Asked and got: the error at {:g} s by the accuracy that was asked for of each step.",
+                                scene.options.times.front()),
+                    "accuracy asked for [m]",
+                    "error [m]",
+                    html::Scale::logarithmic,
+                    html::Scale::logarithmic,
+                    {},
+                    {}};
+  for (const StepMethod method : scene.options.methods) {
+    html::ChartSeries series = method_series(step_method_name(method));
+    for (const MotionPoint& p : scene.asked) {
+      if (p.method != method || !p.measured.failure.empty()) continue;
+      series.points.push_back(point_of(scene, p, p.setting, p.errors.front().max, "accuracy"));
+    }
+    if (!series.points.empty()) chart.series.push_back(std::move(series));
+  }
+  html::ChartSeries same{"got = asked", {}, false};
+  same.style = 5;  // which is no method's
+  for (const double accuracy : scene.options.accuracies) {
+    same.points.push_back({accuracy, accuracy, fmt::format("{:g} m", accuracy), {}, {}});
+  }
+  chart.series.push_back(std::move(same));
+  if (scene.step_gained.front() > 0) {
+    chart.levels.push_back({scene.step_gained.front(), "uncertainty of the reference"});
+  }
+  return chart;
+}
+
+ResultTable asked_table(const SceneAccuracy& scene) {
+  ResultTable table{
+      scene.name + "-asked",
+      fmt::format("{}: accuracies asked for", scene.scene),
+      {"method", "accuracy [m]", "substeps: least", "median", "most", "not converged", "largest error of a step [m]"},
+      {},
+      {}};
+  for (const double time : scene.options.times) table.columns.push_back(fmt::format("error at {:g} s [m]", time));
+  table.columns.insert(table.columns.end(), {"ms per second of motion", "from", "to", "runs", "FLIP of the film"});
+  for (const MotionPoint& p : scene.asked) {
+    const MedianInterval cost = p.measured.microseconds.empty() ? MedianInterval{NAN, NAN, NAN, 0} : p.measured.cost();
+    const auto [least, most] = std::ranges::minmax_element(p.substeps);
+    const bool cut = !p.substeps.empty();
+    double local = 0;
+    for (const double error : p.local_errors) local = std::max(local, error);
+    table.rows.push_back({step_method_name(p.method), plain_number(p.setting), cut ? fmt::format("{:g}", *least) : "–",
+                          median_of(p.substeps), cut ? fmt::format("{:g}", *most) : "–",
+                          fmt::format("{}", std::ranges::count(p.converged, 0.0)), local > 0 ? length(local) : "–"});
+    for (const Distance& d : p.errors) table.rows.back().push_back(length(d.max));
+    table.rows.back().insert(table.rows.back().end(),
+                             {three_digits(cost.median), three_digits(cost.lower), three_digits(cost.upper),
+                              fmt::format("{}", cost.count), p.flip ? fmt::format("{:.4f}", *p.flip) : "–"});
+    if (!p.measured.failure.empty()) {
+      table.notes.push_back(fmt::format("{}, {:g} m: {}", step_method_name(p.method), p.setting, p.measured.failure));
+    }
+  }
+  table.notes.emplace_back(interval_note);
+  std::string known;
+  for (std::size_t i = 0; i < scene.step_gained.size(); ++i) {
+    known += fmt::format("{}{:.2g} m at {:g} s", i == 0 ? "" : ", ", scene.step_gained[i], scene.options.times[i]);
+  }
+  table.notes.push_back(
+      fmt::format("The reference is extrapolated from h = {:g} s and twice that, which changes it by {}.",
+                  scene.step_reference, known));
+  return table;
+}
+
+ResultTable estimate_table(const SceneAccuracy& scene) {
+  ResultTable table{
+      scene.name + "-estimates",
+      fmt::format("{}: what a step says of its error, and what that is", scene.scene),
+      {"method", "accuracy [m]", "steps judged before", "within a factor of 3", "worst: error by estimate",
+       "steps after", "worst after", "missed tenfold", "of these unreported", "not known"},
+      {},
+      {}};
+  const auto ratio = [](double value) { return value > 0 ? fmt::format("{:.2f}", value) : "–"; };
+  for (const MotionPoint& p : scene.asked) {
+    const EstimateCheck c = check_estimates(scene, p);
+    table.rows.push_back(
+        {step_method_name(p.method), plain_number(p.setting), fmt::format("{}", c.judged),
+         c.judged > 0 ? fmt::format("{:.0f} %", 100.0 * static_cast<double>(c.close) / static_cast<double>(c.judged))
+                      : "–",
+         ratio(c.worst_before), fmt::format("{}", c.after), ratio(c.worst_after), fmt::format("{}", c.missed),
+         fmt::format("{}", c.unreported), fmt::format("{}", c.unknown)});
+  }
+  const double until = smooth_until(scene);
+  table.notes.push_back(
+      std::isfinite(until)
+          ? fmt::format("Before: until {:g} s, when the cloth {}.", until,
+                        scene.contact_from && *scene.contact_from == until
+                            ? "is first where it would not be if nothing touched it or limited its strain"
+                            : "begins to buckle: two motions that differ by rounding part by more than 10 nm")
+          : fmt::format("Before: all steps up to {:g} s; nothing is touched and nothing buckles until then.",
+                        scene.options.times.front()));
+  table.notes.emplace_back(
+      "Steps whose error and estimate are both below a tenth of the accuracy are not judged. Missed tenfold: an error "
+      "above ten times the accuracy.");
+  return table;
+}
+
+}  // namespace
+
+EstimateCheck& EstimateCheck::operator+=(const EstimateCheck& other) {
+  judged += other.judged;
+  close += other.close;
+  worst_before = std::max(worst_before, other.worst_before);
+  worst_after = std::max(worst_after, other.worst_after);
+  after += other.after;
+  unknown += other.unknown;
+  missed += other.missed;
+  unreported += other.unreported;
+  return *this;
+}
+
+double smooth_until(const SceneAccuracy& scene) {
+  constexpr double always = std::numeric_limits<double>::infinity();
+  const double until = std::min(scene.contact_from.value_or(always), scene.buckling_from.value_or(always));
+  return until <= scene.options.times.front() * (1 + 1e-9) ? until : always;
+}
+
+EstimateCheck check_estimates(const SceneAccuracy& scene, const MotionPoint& asked) {
+  EstimateCheck check;
+  const double until = smooth_until(scene);
+  for (std::size_t i = 0; i < asked.local_errors.size(); ++i) {
+    const double error = asked.local_errors[i], estimate = asked.estimates[i];
+    if (std::max(error, estimate) < far_below * asked.setting) continue;
+    if (!(asked.local_unknown[i] <= known_share * error)) {
+      ++check.unknown;
+      continue;
+    }
+    if (error > miss * asked.setting) {
+      ++check.missed;
+      if (asked.converged[i] == 1) ++check.unreported;
+    }
+    const double ratio = error / estimate;
+    if (static_cast<double>(i + 1) * scene.step < until * (1 - 1e-9)) {
+      ++check.judged;
+      if (ratio <= factor && ratio >= 1 / factor) ++check.close;
+      check.worst_before = std::max(check.worst_before, ratio);
+    } else {
+      ++check.after;
+      check.worst_after = std::max(check.worst_after, ratio);
+    }
+  }
+  return check;
+}
+
+std::vector<NamedChart> asked_charts(const SceneAccuracy& scene) {
+  std::vector<NamedChart> charts;
+  if (!scene.asked.empty()) charts.push_back({scene.name + "-asked-and-got", asked_and_got(scene)});
+  if (scene.asked.empty() && scene.fixed.empty()) return charts;
+  charts.push_back({scene.name + "-error-cost",
+                    by_cost(scene,
+                            fmt::format("Error at {:g} s by what the motion costs, with an accuracy that was asked for "
+                                        "and, dashed, with fixed steps and the default tolerance.",
+                                        scene.options.times.front()),
+                            "error [m]", [](const MotionPoint& p) { return p.errors.front().max; })});
+  if (!scene.options.parts.films) return charts;
+  html::Chart films =
+      by_cost(scene,
+              fmt::format("How different the film looks: the mean FLIP error of its frames up to {:g} s, "
+                          "0 to 1, by what the motion costs.",
+                          scene.options.times.back()),
+              "FLIP error", [](const MotionPoint& p) { return p.flip.value_or(NAN); });
+  if (scene.film_unknown && *scene.film_unknown > 0) {
+    films.levels.push_back({*scene.film_unknown, "uncertainty of the reference"});
+  }
+  charts.push_back({scene.name + "-film", std::move(films)});
+  return charts;
+}
+
+std::vector<ResultTable> asked_tables(const SceneAccuracy& scene) {
+  if (scene.asked.empty()) return {};
+  return {asked_table(scene), estimate_table(scene)};
+}
+
+void add_asked_findings(StudyReport& report, const SceneAccuracy& scene) {
+  if (scene.asked.empty()) return;
+  EstimateCheck all;
+  for (const MotionPoint& p : scene.asked) all += check_estimates(scene, p);
+  const std::string before =
+      all.judged == 0 ? "No step was judged before anything is touched or buckles"
+                      : fmt::format(
+                            "Of {} steps before anything is touched or buckles, {} are within a factor of 3 of the "
+                            "true error, and the worst is {:.2g} times its estimate",
+                            all.judged, all.close, all.worst_before);
+  const std::string after =
+      all.after == 0 ? "" : fmt::format("; of {} later ones, the worst is {:.2g} times", all.after, all.worst_after);
+  const std::string missed = fmt::format(
+      ". {} are above ten times what was asked{}.", all.missed,
+      all.missed == 0 ? "" : fmt::format(", of which {} did not say that they had not converged", all.unreported));
+  report.findings.push_back({all.unreported == 0 ? html::Tone::good : html::Tone::bad, "",
+                             fmt::format("{}: what a step says of its error.", scene.scene), before + after + missed});
+}
+
+}  // namespace drape

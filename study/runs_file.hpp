@@ -1,0 +1,125 @@
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "study/case.hpp"
+
+namespace drape {
+
+/// What a row of a file of runs is about.
+struct RunsKey {
+  std::string scene, kind, method, scheme, setting;
+  bool operator==(const RunsKey&) const = default;
+};
+
+/// Writes what a study measured as one table in long form, a value a row, RFC 4180:
+///   scene,kind,method,scheme,setting,run,quantity,value
+/// `run` counts the values of a quantity that has several, from 1: runs, steps, times. Numbers are the shortest that
+/// read back as the same; what is absent has no row. The last row says how many there are before it.
+class RunsWriter {
+ public:
+  RunsWriter();
+  /// What follows is about this.
+  void begin(RunsKey key) { key_ = std::move(key); }
+
+  template <class T>
+  void operator()(const char* quantity, const T& value) {
+    put(quantity, {}, text(value));
+  }
+  template <class T>
+  void operator()(const char* quantity, const std::optional<T>& value) {
+    if (value) put(quantity, {}, text(*value));
+  }
+  template <class T>
+  void operator()(const char* quantity, const std::vector<T>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) put(quantity, std::to_string(i + 1), text(values[i]));
+  }
+
+  /// The whole file.
+  std::string finish();
+
+ private:
+  static const std::string& text(const std::string& value) { return value; }
+  static std::string text(double value) { return plain_number(value); }
+  static std::string text(std::int64_t value) { return std::to_string(value); }
+  static std::string text(int value) { return std::to_string(value); }
+  static std::string text(bool value) { return value ? "1" : "0"; }
+  void put(const char* quantity, const std::string& run, const std::string& value);
+
+  RunsKey key_;
+  std::int64_t rows_ = 0;
+  std::string text_;
+};
+
+/// A value in a file of runs, and its line.
+struct RunsCell {
+  std::string run, value;
+  std::size_t line = 0;
+};
+
+/// What a file of runs says about something. Everything is to be asked for once; see done().
+class RunsRecord {
+ public:
+  RunsRecord(std::string file, RunsKey key, std::size_t line)
+      : key(std::move(key)), file_(std::move(file)), line_(line) {}
+
+  template <class T>
+  void operator()(const char* quantity, T& value) {
+    read(one(quantity), value);
+  }
+  template <class T>
+  void operator()(const char* quantity, std::optional<T>& value) {
+    if (cells_.contains(quantity)) read(one(quantity), value.emplace());
+  }
+  template <class T>
+  void operator()(const char* quantity, std::vector<T>& values) {
+    for (const RunsCell& cell : several(quantity)) read(cell, values.emplace_back());
+  }
+
+  void add(const std::string& quantity, RunsCell cell) { cells_[quantity].push_back(std::move(cell)); }
+  /// @throws UsageError if there is something that nobody asked for
+  void done() const;
+  /// @throws UsageError "file:line: sentence"
+  [[noreturn]] void fail(std::size_t line, const std::string& sentence) const;
+  [[nodiscard]] std::size_t line() const { return line_; }
+
+  const RunsKey key;
+
+ private:
+  RunsCell one(const char* quantity);
+  /// In order.
+  std::vector<RunsCell> several(const char* quantity);
+  static void read(const RunsCell& cell, std::string& value) { value = cell.value; }
+  template <class T>
+  void read(const RunsCell& cell, T& value) const {
+    const char* const end = cell.value.data() + cell.value.size();
+    std::from_chars_result result{};
+    if constexpr (std::is_same_v<T, bool>) {
+      int number = 0;
+      result = std::from_chars(cell.value.data(), end, number);
+      value = number != 0;
+    } else {
+      result = std::from_chars(cell.value.data(), end, value);
+    }
+    if (result.ec != std::errc() || result.ptr != end || cell.value.empty()) expect_number(cell);
+  }
+  [[noreturn]] void expect_number(const RunsCell& cell) const;
+
+  std::string file_;
+  std::size_t line_;
+  std::map<std::string, std::vector<RunsCell>> cells_;
+  std::vector<std::string> asked_;
+};
+
+/// What a file of runs holds, in the order in which it is first spoken of.
+/// @param file for messages
+/// @throws UsageError "file:line: message" if it is no such file, or does not end as one
+std::vector<RunsRecord> parse_runs(const std::string& text, const std::string& file);
+
+}  // namespace drape
