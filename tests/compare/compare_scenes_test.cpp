@@ -150,12 +150,12 @@ TEST(CompareScenes, RefusesWhatCannotBeCompared) {
   const std::vector<Scene> scenes{folder.load(swinging), folder.load(swinging, {"cloth.mesh={ grid = [4, 4] }"})};
   CompareOptions options;
   options.difference = true;
-  EXPECT_NE(test::usage_error([&] { require_comparison(scenes, options); }).find("has 49 of them, "),
+  EXPECT_NE(test::usage_error([&] { require_comparison(scenes, options); }).find("has 49 vertices and "),
             std::string::npos);
   options.difference = false;
   options.columns = options.rows = 1;
   EXPECT_EQ(test::usage_error([&] { require_comparison(scenes, options); }),
-            "--grid 1x1 has 1 places, and 2 motions are compared");
+            "--grid 1x1 has 1 places, but 2 motions are compared");
   options.columns = options.rows = 0;
   options.outputs = {folder.path("a.obj")};
   EXPECT_NE(test::usage_error([&] { require_comparison(scenes, options); }).find("draws pictures"), std::string::npos);
