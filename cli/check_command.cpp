@@ -1,30 +1,27 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <new>
-#include <system_error>
+#include <thread>
 
 #include "check/check_scene.hpp"
-#include "check/html_report.hpp"
-#include "check/json_report.hpp"
-#include "check/junit_report.hpp"
 #include "check/machine.hpp"
-#include "cli/command_line.hpp"
+#include "cli/check_results.hpp"
 #include "cli/frame_list.hpp"
 #include "cli/number_option.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/watched.hpp"
 #include "core/atomic_file.hpp"
 #include "core/nearest.hpp"
+#include "core/parallel.hpp"
 #include "core/shell.hpp"
+#include "sweep/estimate.hpp"
+#include "sweep/merge.hpp"
+#include "sweep/shard.hpp"
 
 namespace drape {
 namespace {
@@ -36,7 +33,8 @@ struct CheckArguments {
   std::string update = "missing";
   GlBackend backend = GlBackend::automatic;
   bool end_to_end = false;
-  std::size_t threads = 0;
+  std::size_t threads = 0, jobs = 1;
+  std::string shard;
   std::optional<double> motion_tolerance, pixels, flip;
   std::optional<int> channel;
 };
@@ -75,144 +73,122 @@ std::string command_options(const CheckArguments& arguments) {
   return text;
 }
 
-std::string accept_command(const CheckArguments& arguments) { return "drape accept " + shell_word(arguments.report); }
-
-/// One line about a scene.
-std::string describe(const SceneResult& scene) {
-  const std::string file = scene.file.string();
-  if (scene.verdict != SceneVerdict::passed) {
-    return fmt::format("{}: {}: {}", file, verdict_name(scene.verdict), fmt::join(scene.findings, "; "));
-  }
-  std::string text =
-      fmt::format("{}: passed: motion {}, {} {}", file, verdict_name(scene.windows.motion), scene.windows.frames.size(),
-                  scene.windows.frames.size() == 1 ? "picture" : "pictures");
-  text += fmt::format(" {}", verdict_name(scene.windows.picture));
-  if (const std::string ignored = describe_ignored(scene); !ignored.empty()) text += fmt::format(" ({})", ignored);
-  if (scene.end_to_end) {
-    text += fmt::format("; end to end {}, {}", verdict_name(scene.end_to_end->motion),
-                        verdict_name(scene.end_to_end->picture));
-  }
-  return text + fmt::format(" ({:.1f} s)", scene.seconds);
-}
-
-const std::array<const char*, 3> report_files{"report.html", "report.json", "junit.xml"};
-
-void write_reports(const CheckReport& report, const std::filesystem::path& folder) {
-  const auto& [html, json, junit] = report_files;
-  write_html_report(report, folder / html);
-  write_file_atomically(folder / json, json_report(report));
-  write_file_atomically(folder / junit, junit_report(report));
-  write_frame_files(report, folder);
-}
-
-/// Prints the verdicts, and remembers if one could not be printed.
-class Verdicts {
+/// Judges the scenes of this place among all.
+class Judge {
  public:
-  void print(const std::string& line) {
-    if (std::fputs((line + "\n").c_str(), stdout) >= 0 && std::fflush(stdout) == 0) return;
-    if (reason_.empty()) reason_ = std::generic_category().message(errno);
+  Judge(const std::vector<Scene>& scenes, const CheckArguments& arguments, const CheckOptions& options)
+      : scenes_(scenes),
+        arguments_(arguments),
+        options_(options),
+        names_(unique_names(scenes, {check_report_files.begin(), check_report_files.end()})) {}
+
+  /// Whatever is wrong with the scene is in its result.
+  [[nodiscard]] SceneResult judge(std::size_t place, const std::stop_token& stop, Progress& progress) const {
+    const Scene& scene = scenes_[place];
+    const CheckSettings settings = settings_of(scene, arguments_);
+    SceneResult result;
+    try {
+      result = check_scene(scene, names_[place], settings, options_, stop, progress);
+    } catch (const Error& error) {
+      result = unjudged_scene(scene, names_[place], settings, error);
+    } catch (const std::bad_alloc&) {
+      result = unjudged_scene(scene, names_[place], settings, UsageError("there is not enough memory for this"));
+    }
+    const std::string file = shell_word(scene.file.string());
+    result.rerun_command = "drape check " + file + command_options(arguments_);
+    // What was checked with other values than the file's is not what the file gives.
+    result.has_candidate = result.has_candidate && arguments_.overrides.empty();
+    result.accept_command = result.has_candidate ? accept_command(options_.artefacts) + " " + shell_word(result.name)
+                                                 : "drape bless " + file;
+    return result;
   }
 
-  /// Why not all of them could be printed; empty: they could.
-  [[nodiscard]] const std::string& reason() const { return reason_; }
+  /// Of the report.
+  [[nodiscard]] const std::filesystem::path& folder() const { return options_.artefacts; }
 
  private:
-  std::string reason_;
+  const std::vector<Scene>& scenes_;
+  const CheckArguments& arguments_;
+  const CheckOptions& options_;
+  std::vector<std::string> names_;
 };
 
-Ink ink_of(SceneVerdict verdict) {
-  if (verdict == SceneVerdict::passed) return Ink::green;
-  return verdict == SceneVerdict::changed || verdict == SceneVerdict::error ? Ink::red : Ink::yellow;
-}
-
-/// A line for the terminal, in which the verdict has a colour.
-std::string shown(const SceneResult& result, const CommonOptions& common) {
-  const Terminal where = terminal(stdout, common.color);
-  const std::string line = wrapped(describe(result), where.width, 2), verdict = verdict_name(result.verdict);
-  const std::size_t at = line.find(": " + verdict + ":");
-  if (at == std::string::npos) return line;
-  return line.substr(0, at + 2) + inked(verdict, ink_of(result.verdict), where) + line.substr(at + 2 + verdict.size());
-}
-
-void tell(const SceneResult& result, const CommonOptions& common, Verdicts& verdicts) {
-  const bool good = result.passed();
-  if (result.verdict == SceneVerdict::error) {
-    spdlog::error(describe(result));
-  } else if (!common.quiet || !good) {
-    verdicts.print(shown(result, common));
-  }
-  for (const WindowResult& window : result.windows.windows) {
-    spdlog::debug("steps {} to {}: {}", window.first_step, window.last_step, verdict_name(window.verdict));
-  }
-  for (const FrameResult& frame : result.windows.frames) {
-    spdlog::debug("frame {}: {}, {} pixels differ, FLIP error up to {:.3f}", frame.frame,
-                  verdict_name(frame.difference.verdict), frame.difference.pixels, frame.difference.max_flip);
-  }
-  if (!result.renderer.empty()) spdlog::debug("drawn by {}", result.renderer);
-}
-
-/// Judges every scene, whatever is wrong with another one.
+/// Adds the results of the scenes at these places to the report, one after the other or several at once.
 /// @returns whether it was interrupted
-bool check_all(const std::vector<Scene>& scenes, const CheckArguments& arguments, const CheckOptions& options,
+bool check_all(const Judge& judge, const std::vector<std::size_t>& places, std::size_t jobs,
                const CommonOptions& common, Verdicts& verdicts, CheckReport& report) {
-  const std::vector<std::string> names = unique_names(scenes, {report_files.begin(), report_files.end()});
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const Scene& scene = scenes[i];
-    const CheckSettings settings = settings_of(scene, arguments);
-    SceneResult result;
-    const auto check = [&](const std::stop_token& stop, Progress& progress) {
-      try {
-        result = check_scene(scene, names[i], settings, options, stop, progress);
-      } catch (const Error& error) {
-        result = unjudged_scene(scene, names[i], settings, error);
-      } catch (const std::bad_alloc&) {
-        result = unjudged_scene(scene, names[i], settings, UsageError("there is not enough memory for this"));
-      }
-    };
-    if (run_watched(common.quiet, check)) return true;
-    const std::string file = shell_word(scene.file.string());
-    result.rerun_command = "drape check " + file + command_options(arguments);
-    // What was checked with other values than the file's is not what the file gives.
-    result.has_candidate = result.has_candidate && arguments.overrides.empty();
-    result.accept_command =
-        result.has_candidate ? accept_command(arguments) + " " + shell_word(result.name) : "drape bless " + file;
-    if (result.has_candidate) report.accept_command = accept_command(arguments);
+  const auto add = [&](SceneResult result) {
+    if (result.has_candidate) report.accept_command = accept_command(judge.folder());
     tell(result, common, verdicts);
     if (!result.renderer.empty()) report.machine.renderer = result.renderer;
     report.scenes.push_back(std::move(result));
+  };
+  if (jobs == 1) {
+    for (const std::size_t place : places) {
+      SceneResult result;
+      const auto check = [&](const std::stop_token& stop, Progress& progress) {
+        result = judge.judge(place, stop, progress);
+      };
+      if (run_watched(common.quiet, check)) return true;
+      add(std::move(result));
+    }
+    return false;
   }
+  std::vector<SceneResult> results(places.size());
+  const auto check = [&](const std::stop_token& stop, Progress& progress) {
+    progress.begin("checking", "scenes", static_cast<std::int64_t>(places.size()));
+    for_each_in_parallel(jobs, places.size(), stop, [&](std::size_t, std::size_t i) {
+      Progress unseen;
+      results[i] = judge.judge(places[i], stop, unseen);
+      ++progress.done;
+    });
+  };
+  if (run_watched(common.quiet, check)) return true;
+  for (SceneResult& result : results) add(std::move(result));
   return false;
+}
+
+/// The places of the scenes of a shard, which take about as long as those of another.
+std::vector<std::size_t> places_of(const std::vector<Scene>& scenes, const Shard& shard) {
+  std::vector<double> costs;
+  for (const Scene& scene : scenes) costs.push_back(estimated_cost(scene, {}));
+  return runs_of_shard(costs, shard);
+}
+
+/// Threads of each scene, so that the processor is busy and no more.
+std::size_t threads_of(const CheckArguments& arguments) {
+  if (arguments.threads > 0 || arguments.jobs == 1) return arguments.threads;
+  return std::max<std::size_t>(1, std::thread::hardware_concurrency() / arguments.jobs);
 }
 
 ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   const auto begin = std::chrono::steady_clock::now();
+  const Shard shard = arguments.shard.empty() ? Shard{} : parse_shard(arguments.shard);
+  const std::filesystem::path folder = shard_place(arguments.report, shard);
   const CheckOptions options{.frames = parse_frame_list(arguments.frames),
                              .backend = arguments.backend,
                              .end_to_end = arguments.end_to_end,
                              .update = parse_update(arguments.update),
-                             .threads = arguments.threads,
-                             .artefacts = arguments.report};
+                             .threads = threads_of(arguments),
+                             .artefacts = folder};
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, arguments.overrides);
-  const std::filesystem::path folder = arguments.report;
-  for (const char* file : report_files) const PartialFile writable(folder / file);  // or it throws
+  for (const char* file : check_report_files) const PartialFile writable(folder / file);  // or it throws
 
-  CheckReport report;
+  CheckShard part{.report = {}, .places = places_of(scenes, shard), .scenes = scenes.size(), .whole = shard.whole()};
+  CheckReport& report = part.report;
   report.date = utc_now();
   report.command = "drape check";
   for (const std::string& scene : arguments.scenes) report.command += " " + shell_word(scene);
   report.command += command_options(arguments);
   Verdicts verdicts;
-  if (check_all(scenes, arguments, options, common, verdicts, report)) {
+  const Judge judge(scenes, arguments, options);
+  if (check_all(judge, part.places, arguments.jobs, common, verdicts, report)) {
     spdlog::error("interrupted: no report was written");
     return ExitCode::interrupted;
   }
   report.machine = this_machine(report.machine.renderer);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_reports(report, folder);
-  if (!common.quiet) verdicts.print((folder / "report.html").string());
-  if (verdicts.reason().empty()) return exit_code(report);
-  spdlog::error("cannot write the verdicts to standard output: {}", verdicts.reason());
-  return std::max(exit_code(report), ExitCode::output);
+  return conclude_check(part, folder, common, verdicts);
 }
 
 void add_limits(CLI::App& sub, CheckArguments& arguments) {
@@ -243,6 +219,10 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
   sub->add_option("--report", arguments->report, "Folder for the report (HTML, JSON, JUnit); default out/check");
   sub->add_option("--threads", arguments->threads, "Number of windows of motion computed at once")
       ->check(whole_number_in({1, 1024}));
+  sub->add_option("--jobs", arguments->jobs, "How many scenes are checked at once; default 1")
+      ->check(whole_number_in({1, 1024}));
+  sub->add_option("--shard", arguments->shard,
+                  "K/N: check only the K-th of N parts that take about as long; drape merge puts them together");
   add_limits(*sub, *arguments);
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return check(*arguments, common); }; });

@@ -78,7 +78,7 @@ AxisMap::AxisMap(Scale scale, const std::vector<double>& values) : scale_(scale)
 
 AxisMap::AxisMap(const std::vector<std::string>& names)
     : scale_(Scale::linear), low_(-0.5), high_(static_cast<double>(names.size()) - 0.5) {
-  constexpr std::size_t room = 60;  // letters, about
+  constexpr std::size_t room = 80;  // letters, about
   std::size_t letters = 0;
   for (const std::string& name : names) letters += name.size() + 1;
   const std::size_t stride = letters / room + 1;

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "core/atomic_file.hpp"
+#include "html/markdown.hpp"
 #include "html/page.hpp"
 #include "sim/kernels/kernels.hpp"
-#include "study/markdown.hpp"
 
 namespace drape {
 namespace {

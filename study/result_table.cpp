@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/wrap.hpp"
-#include "study/markdown.hpp"
+#include "html/markdown.hpp"
 
 namespace drape {
 namespace {

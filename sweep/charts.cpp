@@ -75,6 +75,7 @@ std::vector<std::size_t> line_axes(const SweepResults& results, std::size_t over
     lines *= results.axes[a].values.size();
   }
   if (lines <= most_lines) return others;
+  std::ranges::reverse(others);  // of several with the fewest, the one that changes fastest
   const std::size_t fewest =
       *std::ranges::min_element(others, std::less(), [&](std::size_t a) { return results.axes[a].values.size(); });
   return {fewest};
@@ -118,7 +119,10 @@ html::Markup diagram(const SweepResults& results, const std::string& figure, std
   }
   for (const auto& [places, line] : lines) {
     std::vector<std::string> parts;
-    for (std::size_t i = 0; i < apart.size(); ++i) parts.push_back(results.axes[apart[i]].values[places[i]]);
+    for (std::size_t i = 0; i < apart.size(); ++i) {
+      const SweepAxis& other = results.axes[apart[i]];
+      parts.push_back(fmt::format("{} {}", other.name.substr(other.name.rfind('.') + 1), other.values[places[i]]));
+    }
     html::ChartSeries series{.name = fmt::format("{}", fmt::join(parts, ", ")), .points = {}};
     for (const auto& [x, values] : line) {
       const double y = median(values);

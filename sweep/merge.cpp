@@ -15,9 +15,9 @@ namespace {
 
 constexpr const char* shard_prefix = "shard-";
 
-bool is_part(const fs::path& folder) {
+bool is_part(const fs::path& folder, const char* mark) {
   std::error_code ignored;
-  return fs::exists(folder / "sweep.json", ignored);
+  return fs::exists(folder / mark, ignored);
 }
 
 /// @throws UsageError that says in what two plans differ
@@ -60,23 +60,18 @@ fs::path shard_place(const fs::path& folder, const Shard& shard) {
   return shard.whole() ? folder : folder / fmt::format("{}{}-of-{}", shard_prefix, shard.number, shard.count);
 }
 
-std::vector<fs::path> sweep_parts(const std::vector<std::string>& folders) {
-  std::vector<fs::path> parts;
-  for (const fs::path folder : folders) {
-    std::vector<fs::path> found;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
-      if (entry.path().filename().string().starts_with(shard_prefix) && is_part(entry.path())) found.push_back(entry);
+std::vector<fs::path> parts_in(const fs::path& folder, const char* mark) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().filename().string().starts_with(shard_prefix) && is_part(entry.path(), mark)) {
+      found.push_back(entry);
     }
-    if (error) throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
-    std::ranges::sort(found);
-    if (found.empty() && is_part(folder)) found.push_back(folder);
-    if (found.empty()) {
-      throw UsageError(fmt::format("{}: there is neither a sweep in it nor a shard of one", folder.string()));
-    }
-    parts.insert(parts.end(), found.begin(), found.end());
   }
-  return parts;
+  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  std::ranges::sort(found);
+  if (found.empty() && is_part(folder, mark)) found.push_back(folder);
+  return found;
 }
 
 SweepFile merge_sweeps(const std::vector<fs::path>& parts, const fs::path& folder) {

@@ -38,11 +38,12 @@ void flatten(const Json& json, const std::string& name, std::vector<std::pair<st
   throw OutputError(fmt::format("cannot write {}: {}", place.string(), error.message()));
 }
 
+/// @throws OutputError that names the folder of the runs: of many that fail, the message is one
 void write_small_file(const fs::path& file, const std::string& text) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   int error = descriptor < 0 ? errno : write_all(descriptor, text);
   if (descriptor >= 0 && ::close(descriptor) != 0 && error == 0) error = errno;
-  if (error != 0) fail(file, {error, std::generic_category()});
+  if (error != 0) fail(file.parent_path().parent_path(), {error, std::generic_category()});
 }
 
 }  // namespace
@@ -92,7 +93,7 @@ void RunFolder::clear() {
   std::error_code error;
   fs::remove_all(hidden_, error);
   fs::create_directories(hidden_, error);
-  if (error) fail(hidden_, error);
+  if (error) fail(hidden_.parent_path(), error);
 }
 
 void RunFolder::commit(const RunRecord& record, const std::string& stats) {

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <filesystem>
 
-#include "study/markdown.hpp"
+#include "html/markdown.hpp"
 #include "study/result_table.hpp"
 
 namespace drape {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "study/markdown.hpp"
+#include "html/markdown.hpp"
 
 namespace drape {
 namespace {

@@ -144,7 +144,7 @@ TEST_F(Sweep, OfShardsIsThatOfOneRun) {
     rows += sweep(twelve(), options).rows.size();
   }
   EXPECT_EQ(rows, 12U);
-  const std::vector<std::filesystem::path> parts = sweep_parts({folder_.path("parts")});
+  const std::vector<std::filesystem::path> parts = parts_in(folder_.path("parts"), sweep_mark);
   EXPECT_EQ(parts.size(), 3U);
   const SweepResults merged = read_results(folder_.path("merged"), merge_sweeps(parts, folder_.path("merged")));
   EXPECT_EQ(without_times(runs_csv(whole)), without_times(runs_csv(merged)));
@@ -165,7 +165,7 @@ TEST_F(Sweep, IsNotMergedWithAnother) {
               merge_sweeps({folder_.path("a"), folder_.path("b")}, folder_.path("c"));
             }).find("are not of one sweep: they differ in 'vary'"),
             std::string::npos);
-  EXPECT_NE(test::usage_error([&] { sweep_parts({folder_.path()}); }).find("neither a sweep in it"), std::string::npos);
+  EXPECT_TRUE(parts_in(folder_.path(), sweep_mark).empty());
 }
 
 TEST_F(Sweep, OfAnotherFormatIsRefused) {

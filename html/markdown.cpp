@@ -1,4 +1,4 @@
-#include "study/markdown.hpp"
+#include "html/markdown.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include "sweep/page.hpp"
+#include "tests/html/html_page.hpp"
+#include "tests/sweep/sweep_runs.hpp"
+
+namespace drape {
+namespace {
+
+class SweepPage : public test::InBrowser {
+ protected:
+  /// Of eight runs with films of eleven frames, two of which are refused.
+  std::string page() {
+    put(path("a.toml"), test::tiny_scene);
+    SweepRequest request = test::request_of(
+        path("a.toml"), {"cloth.stiffness=10,2000", "cloth.mass=1,0.1", "integrator.method=implicit,verlet"});
+    request.overrides = {"video.fps=100"};
+    request.films = {"gif"};
+    return sweep_page(test::sweep(request, {.folder = path("out"), .shard = {}}), path("out"));
+  }
+
+  /// How far each strip is moved, from left and top, in pictures.
+  nlohmann::json moved() {
+    return browser_->run(
+        "return [...document.querySelectorAll('.strip')].map((s) => { const a = s.getBoundingClientRect(), b = "
+        "s.firstElementChild.getBoundingClientRect();"
+        "return [Math.round((a.left - b.left) / a.width), Math.round((a.top - b.top) / a.height)]; })");
+  }
+
+  nlohmann::json column(int number) {
+    return browser_->run("return [...document.querySelectorAll('.sortable tbody tr')].map((r) => r.cells[" +
+                         std::to_string(number) + "].textContent)");
+  }
+};
+
+TEST_F(SweepPage, PlaysAllFilmsInStep) {
+  open(page());
+  expect_sound();
+  const std::size_t films = moved().size();
+  EXPECT_GE(films, 4U);
+  EXPECT_EQ(moved(), nlohmann::json(std::vector<std::vector<int>>(films, {0, 0})));
+  browser_->run("document.querySelector('.strips input[type=range]').focus()");
+  for (int k = 0; k < 5; ++k) browser_->press(test::Browser::arrow_right);
+  EXPECT_EQ(moved(), nlohmann::json(std::vector<std::vector<int>>(films, {1, 1}))) << "the sixth, in rows of four";
+  EXPECT_EQ(browser_->run("return document.querySelector('.strips output').textContent"), "t = 0.05 s");
+  browser_->click(".strips .as-sheets");
+  EXPECT_EQ(moved(), nlohmann::json(std::vector<std::vector<int>>(films, {0, 0}))) << "all of a sheet is seen";
+  expect_sound();
+  keep_screenshots("sweep");
+}
+
+TEST_F(SweepPage, SortsItsFigures) {
+  open(page());
+  const nlohmann::json before = column(1);
+  EXPECT_EQ(before.front(), "10");
+  browser_->click(".sortable th:nth-child(2) button");
+  EXPECT_EQ(column(1).front(), "10");
+  browser_->click(".sortable th:nth-child(2) button");
+  EXPECT_EQ(column(1).front(), "2000");
+  EXPECT_EQ(browser_->run("return document.querySelector('.sortable th:nth-child(2)').ariaSort"), "descending");
+  browser_->click(".sortable th:nth-child(1) button");
+  EXPECT_EQ(column(1), before);
+}
+
+TEST_F(SweepPage, DrawsAnyFigureOverAnyKey) {
+  open(page());
+  const char* seen =
+      "return [...document.querySelectorAll('.choice')].filter((c) => c.checkVisibility())"
+      ".map((c) => c.querySelector('figcaption').textContent)";
+  EXPECT_EQ(browser_->run(seen).size(), 1U);
+  browser_->run(
+      "const list = document.querySelectorAll('.choices select')[1]; list.value = '2';"
+      "list.dispatchEvent(new Event('change'))");
+  ASSERT_EQ(browser_->run(seen).size(), 1U);
+  EXPECT_NE(browser_->run(seen).front().get<std::string>().find("over integrator.method"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace drape
