@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <map>
+#include <regex>
+#include <set>
+
+#include "tests/html/html_page.hpp"
+#include "tests/support/files.hpp"
+
+// The site that script/docs builds: every link leads somewhere, and every page fits its window without the network.
+
+namespace drape {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Builds the site as script/docs does; skipped where mkdocs or its theme is not installed.
+class Site : public test::InBrowser {
+ protected:
+  void SetUp() override {
+    if (access("/usr/bin/mkdocs", X_OK) != 0 || !fs::exists("/usr/share/mkdocs/themes/material")) {
+      GTEST_SKIP() << "no mkdocs: apt-get install --no-install-recommends mkdocs mkdocs-material";
+    }
+    InBrowser::SetUp();
+    const std::string command = std::string(DRAPE_SOURCE_DIR "/site/collect.py '") + path("site-pages") +
+                                "' && /usr/bin/mkdocs build --quiet --strict --config-file '" +
+                                path("site-mkdocs.yml") + "' >'" + path("log") + "' 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0) << test::content(path("log"));
+    for (const auto& entry : fs::recursive_directory_iterator(path("site"))) {
+      if (entry.path().extension() == ".html" && entry.path().filename() != "404.html") pages_.push_back(entry.path());
+    }
+    ASSERT_GT(pages_.size(), 25U);
+  }
+
+  void keep_screenshot(const std::string& name) {
+    if (const char* folder = std::getenv("DRAPE_SCREENSHOTS")) {
+      browser_->save_screenshot(fs::path(folder) / (name + ".png"));
+    }
+  }
+
+  std::vector<fs::path> pages_;
+};
+
+std::string unescaped(std::string text) {
+  for (const auto& [from, to] : {std::pair("&amp;", "&"), std::pair("%20", " ")}) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; ++at) {
+      text.replace(at, std::string_view(from).size(), to);
+    }
+  }
+  return text;
+}
+
+/// What an attribute of a page holds, wherever it stands.
+std::set<std::string> attributes(const std::string& page, const std::string& names) {
+  std::set<std::string> values;
+  const std::regex pattern("\\s(?:" + names + ")=(?:\"([^\"]*)\"|([^\\s\">]+))");
+  for (auto at = std::sregex_iterator(page.begin(), page.end(), pattern); at != std::sregex_iterator(); ++at) {
+    values.insert(unescaped((*at)[1].matched ? (*at)[1].str() : (*at)[2].str()));
+  }
+  return values;
+}
+
+TEST_F(Site, HasNoLinkThatLeadsNowhere) {
+  std::map<fs::path, std::set<std::string>> anchors;
+  for (const fs::path& page : pages_) anchors[page.lexically_normal()] = attributes(test::content(page), "id|name");
+  for (const fs::path& page : pages_) {
+    for (const std::string& link : attributes(test::content(page), "href|src")) {
+      if (link.find("://") != std::string::npos || link.starts_with("data:") || link == "." || link == "..") continue;
+      const std::size_t hash = std::min(link.find('#'), link.size());
+      const std::string file = link.substr(0, hash), anchor = hash < link.size() ? link.substr(hash + 1) : "";
+      const fs::path target = (file.empty() ? page : page.parent_path() / file).lexically_normal();
+      EXPECT_TRUE(fs::exists(target)) << page << ": " << link;
+      if (anchor.empty() || target.extension() != ".html") continue;
+      EXPECT_TRUE(anchors[target].contains(anchor)) << page << ": " << link;
+    }
+  }
+}
+
+TEST_F(Site, ShowsEverySceneWithItsFile) {
+  const std::string gallery = test::content(path("site/gallery.html"));
+  int scenes = 0;
+  for (const char* group : {"homework", "showcase"}) {
+    for (const auto& entry : fs::directory_iterator(fs::path(DRAPE_SOURCE_DIR "/scenes") / group)) {
+      if (entry.path().extension() != ".toml") continue;
+      const std::string page = std::string("scenes/") + group + "/" + entry.path().stem().string();
+      EXPECT_NE(gallery.find("href=\"" + page + ".html\""), std::string::npos) << page;
+      EXPECT_EQ(test::content(path("site/" + page + ".toml")), test::content(entry.path()));
+      ++scenes;
+    }
+  }
+  EXPECT_GE(scenes, 18);
+}
+
+TEST_F(Site, FitsItsWindowWithoutTheNetwork) {
+  for (const char* name : {"index", "gallery", "docs/scene-format", "docs/stability", "scenes/showcase/air"}) {
+    for (const bool dark : {false, true}) {
+      browser_->set_theme(dark);
+      browser_->set_width(1200);
+      browser_->open(path(std::string("site/") + name + ".html"));
+      browser_->run("localStorage.clear()");  // where a theme is kept that was chosen before
+      browser_->open(path(std::string("site/") + name + ".html"));
+      for (const int width : {390, 1200}) {
+        browser_->set_width(width);
+        EXPECT_LE(browser_->run("return document.documentElement.scrollWidth").get<int>(), width) << name;
+      }
+      browser_->run("document.querySelectorAll('img').forEach((i) => { i.loading = 'eager' })");
+      EXPECT_EQ(browser_->run("return [...document.images].filter((i) => i.complete && !i.naturalWidth).length"), 0);
+      for (const std::string& address : browser_->requests()) EXPECT_TRUE(address.starts_with("file://")) << address;
+      const auto lightness = browser_->run(
+          "return Math.max(...getComputedStyle(document.body).backgroundColor.match(/\\d+/g).slice(0, 3))");
+      EXPECT_EQ(lightness.get<int>() < 128, dark) << name;
+      keep_screenshot("site-" + fs::path(name).filename().string() + (dark ? "-dark" : "-light"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace drape
