@@ -213,8 +213,8 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
   sub->add_option("--frames", arguments->frames, "Compare only these golden frames: A,B,C");
   sub->add_flag("--end-to-end", arguments->end_to_end, "Also run and draw the whole motion");
   sub->add_option("--update", arguments->update,
-                  "Which goldens to write: missing (default; such a check still fails), all or none")
-      ->type_name("WHICH");
+                  "Which goldens to write; default missing, and such a check still fails")
+      ->type_name("all|missing|none");
   add_backend_option(*sub, arguments->backend);
   sub->add_option("--report", arguments->report, "Folder for the report (HTML, JSON, JUnit); default out/check");
   sub->add_option("--threads", arguments->threads, "Number of windows of motion computed at once")

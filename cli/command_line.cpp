@@ -1,6 +1,7 @@
 #include "cli/command_line.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -39,7 +40,15 @@ void add_choice(CLI::App& app, const char* option, Enum& value, const std::vecto
            value = static_cast<Enum>(found - names.begin());
          },
          help)
-      ->type_name("WHEN");
+      ->type_name(fmt::format("{}", fmt::join(names, "|")));
+}
+
+/// What takes a key of a scene with its value is shown, and completed by shells, in one way everywhere.
+void name_values(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (option->check_lname("set") || option->check_lname("vary")) option->type_name("KEY=VALUE");
+  }
+  for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) name_values(*subcommand);
 }
 
 void print_help(const CLI::App& of, const std::string& name, const CommonOptions& common) {
@@ -98,8 +107,8 @@ void add_backend_option(CLI::App& subcommand, GlBackend& backend) {
             throw CLI::ValidationError(
                 "--backend", "unknown backend '" + given + "'" + did_you_mean(given, names, "the backends are"));
           },
-          "OpenGL library: auto (default), osmesa or egl")
-      ->type_name("NAME");
+          "OpenGL library; default auto")
+      ->type_name("auto|osmesa|egl");
 }
 
 ExitCode run_command_line(int argc, const char* const* argv) {
@@ -112,7 +121,7 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   app.add_flag("--verbose", common.verbose, "Print more details")->excludes(quiet);
 
   add_choice(app, "--color", common.color, {"auto", "always", "never"},
-             "Colours in messages: auto (default), always or never; NO_COLOR turns them off too");
+             "Colours in messages; default auto; NO_COLOR turns them off too");
 
   Command command;
   add_run_commands(app, common, command);
@@ -126,6 +135,8 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   add_doctor_command(app, command);
   add_help_command(app, common, command);
   add_examples(app);
+  add_manual_command(app, command);
+  name_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -40,6 +40,9 @@ void add_study_command(CLI::App& app, const CommonOptions& common, Command& comm
 /// Adds doctor, which says what drape finds on this machine.
 void add_doctor_command(CLI::App& app, Command& command);
 
+/// Adds manual, which is not in the help: it writes the manual's pages and the shells' completions of `app`.
+void add_manual_command(CLI::App& app, Command& command);
+
 /// Adds --backend, which every subcommand that draws has.
 void add_backend_option(CLI::App& subcommand, GlBackend& backend);
 

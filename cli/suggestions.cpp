@@ -36,7 +36,9 @@ std::vector<std::string> known_options(const CLI::App& app) {
 
 std::vector<std::string> subcommand_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* subcommand : app.get_subcommands(nullptr)) names.push_back(subcommand->get_name());
+  for (const CLI::App* subcommand : app.get_subcommands(nullptr)) {
+    if (!subcommand->get_group().empty()) names.push_back(subcommand->get_name());
+  }
   return names;
 }
 

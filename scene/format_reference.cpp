@@ -39,38 +39,67 @@ struct Form {
   }
 };
 
-std::string row(const Key& key) {
-  const std::string value = std::visit(Form{}, key.target), initial_value = value_text(key.target);
+/// What a key takes, where it takes one of a few words.
+std::vector<std::string> values_of(const Key::Target& target) {
+  if (const auto* choice = std::get_if<Choice>(&target)) return choice->names;
+  if (std::holds_alternative<bool*>(target)) return {"true", "false"};
+  return {};
+}
+
+KeyText text_of(const Key& key) {
+  const std::string value = std::visit(Form{}, key.target);
   const std::string range = Range{key.minimum, key.maximum, key.minimum_excluded}.text();
-  const std::string form = range.empty() ? value : value + ", " + range;
-  std::string initial = initial_value.empty() ? "–" : "`" + initial_value + "`";
+  return {.name = key.name,
+          .form = range.empty() ? value : value + ", " + range,
+          .values = values_of(key.target),
+          .unit = key.unit,
+          .initial = value_text(key.target),
+          .help = key.help,
+          .required = key.required,
+          .alternatives = key.alternatives};
+}
+
+TableText text_of(const TableType& table) {
+  TableText text{.name = table.name, .help = table.help, .repeatable = table.repeatable, .keys = {}};
+  for (const Key& key : table.keys.all()) text.keys.push_back(text_of(key));
+  return text;
+}
+
+std::string row(const KeyText& key) {
+  std::string initial = key.initial.empty() ? "–" : "`" + key.initial + "`";
   if (key.required) initial = "**required**";
   for (std::size_t i = 0; i < key.alternatives.size(); ++i) {
     initial += fmt::format("{} `{}`", i == 0 ? " without" : " or", key.alternatives[i]);
   }
-  return fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, form, key.unit, initial, key.help);
+  return fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, key.form, key.unit, initial, key.help);
 }
 
-std::string section(const TableType& table) {
+std::string section(const TableText& table) {
   std::string text = table.repeatable ? fmt::format("### `[{0}]` or several `[[{0}]]`\n\n", table.name)
                                       : fmt::format("### `[{}]`\n\n", table.name);
   if (!table.help.empty()) text += table.help + "\n\n";
   text += "| key | value | unit | default | meaning |\n|---|---|---|---|---|\n";
-  for (const Key& key : table.keys.all()) text += row(key);
+  for (const KeyText& key : table.keys) text += row(key);
   return text + "\n";
 }
 
 }  // namespace
 
-std::string format_reference() {
+std::vector<TableText> reference_tables() {
   ClothTable cloth;
   Scene scene;
-  std::string text;
-  for (const TableType& table : scene_tables(cloth, scene)) text += section(table);
+  std::vector<TableText> tables;
+  for (const TableType& table : scene_tables(cloth, scene)) tables.push_back(text_of(table));
   for (const EffectType& type : effect_types()) {
     Effect effect = type.make();
-    text += section(effect_table(type, effect));
+    tables.push_back(text_of(effect_table(type, effect)));
   }
+  return tables;
+}
+
+std::string format_reference() {
+  std::string text;
+  for (const TableText& table : reference_tables()) text += section(table);
   return text;
 }
 

@@ -48,6 +48,26 @@ std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene);
 /// The table of an effect of this type, whose keys write to it.
 TableType effect_table(const EffectType& type, Effect& effect);
 
+/// A key as a reference shows it.
+struct KeyText {
+  std::string name;
+  std::string form;                 ///< of its value, with its range: "number, above 0"
+  std::vector<std::string> values;  ///< all it takes, where it takes one of a few
+  std::string unit, initial, help;  ///< `initial` is what holds without the key; empty: nothing of that form
+  bool required = false;
+  std::vector<std::string> alternatives;  ///< a required key may be left out where one of these is given
+};
+
+/// A table as a reference shows it. Its help and those of its keys are one paragraph of Markdown.
+struct TableText {
+  std::string name, help;
+  bool repeatable = false;
+  std::vector<KeyText> keys;
+};
+
+/// Every table of a scene, effects last.
+std::vector<TableText> reference_tables();
+
 /// The format's reference: a heading and a table of keys for each table, in Markdown.
 std::string format_reference();
 

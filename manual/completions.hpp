@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "manual/command_text.hpp"
+#include "scene/tables.hpp"
+
+namespace drape {
+
+// Scripts that complete drape's commands, options, the values of options, the keys that --set and --vary take with
+// their values, and the names of scene files.
+
+std::string bash_completion(const CommandText& drape, const std::vector<TableText>& tables);
+std::string zsh_completion(const CommandText& drape, const std::vector<TableText>& tables);
+std::string fish_completion(const CommandText& drape, const std::vector<TableText>& tables);
+
+}  // namespace drape
