@@ -14,7 +14,7 @@ class SweepPage : public test::InBrowser {
     put(path("a.toml"), test::tiny_scene);
     SweepRequest request = test::request_of(
         path("a.toml"), {"cloth.stiffness=10,2000", "cloth.mass=1,0.1", "integrator.method=implicit,verlet"});
-    request.overrides = {"video.fps=100"};
+    request.overrides = {"video.fps=50", "video.speed=0.5"};
     request.films = {"gif"};
     return sweep_page(test::sweep(request, {.folder = path("out"), .shard = {}}), path("out"));
   }
