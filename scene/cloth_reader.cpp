@@ -176,7 +176,7 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
     const double furthest = mesh->positions.cwiseAbs().maxCoeff();
     if (furthest <= furthest_place) continue;
     problems.add(place_of(value, mesh == &*start ? "mesh" : "rest"),
-                 fmt::format("{}: a vertex is at {:g} m; distances beyond {:g} m cannot be computed with",
+                 fmt::format("{}: a vertex is at {:g} m; distances beyond {:g} m overflow double precision",
                              mesh == &*start ? "mesh" : "rest", furthest, furthest_place));
     return std::nullopt;
   }

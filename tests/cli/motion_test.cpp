@@ -132,7 +132,7 @@ TEST(InterruptedRun, GoesOnToTheSameFilms) {
     ASSERT_FALSE(is_there(folder, "m.drape")) << "it was over before: " << begun.text;
     if (signal == "INT") {
       EXPECT_EQ(begun.code, 130);
-      EXPECT_NE(begun.text.find("and drape render --resume m.drape -o film.gif goes on"), std::string::npos)
+      EXPECT_NE(begun.text.find("and drape render --resume m.drape -o film.gif continues it"), std::string::npos)
           << begun.text;
     }
     const Finished ended = drape(folder, "render --resume m.drape -o film.gif -o film.npz");
@@ -154,16 +154,16 @@ TEST(InterruptedRun, DoesNotGoOnWhereItsFilmsCannotBeMade) {
     return finished.text;
   };
   EXPECT_EQ(refused("simulate --resume m.drape -o x.gif"),
-            "drape: drape simulate draws nothing, and -o x.gif must be drawn: use drape render\n");
+            "drape: drape simulate draws nothing, but -o x.gif has to be drawn: use drape render\n");
   EXPECT_EQ(refused("render --resume m.drape -o n.drape"), "drape: -o n.drape: m.drape is already a motion file\n");
   EXPECT_EQ(refused("render --resume m.drape -o x.gif --steps 4001"), "drape: --steps 4001: m.drape has 4000\n");
   EXPECT_EQ(refused("render --resume m.drape -o x.git"), refused("render scene.toml -o x.git"));
   EXPECT_NE(
       refused("render --resume m.drape -o x.gif --set cloth.stiffness=60").find("cloth.stiffness: 50, and 60 in --set"),
       std::string::npos);
-  EXPECT_NE(refused("simulate --resume m.drape --frames 0..3").find("and no -o is there"), std::string::npos);
+  EXPECT_NE(refused("simulate --resume m.drape --frames 0..3").find("and there is no -o"), std::string::npos);
   EXPECT_EQ(refused("simulate scene.toml --resume m.drape"),
-            "drape: --resume m.drape continues it with the run of its scene, and takes no SCENE\n");
+            "drape: --resume m.drape continues the run of its own scene, and takes no SCENE\n");
 }
 
 /// The most that a process that has ended had in memory [kB].

@@ -102,7 +102,7 @@ TEST(SweepCommand, RefusesInOneMessageWithExitCode2) {
   std::string json = test::content(folder.path("out/sweep.json"));
   json.replace(json.find("revision "), 9, "revision x");
   folder.write("out/sweep.json", json);
-  EXPECT_NE(message("sweep a.toml -o out --steps 1 --resume").find("take another folder with -o"), std::string::npos);
+  EXPECT_NE(message("sweep a.toml -o out --steps 1 --resume").find("choose another folder with -o"), std::string::npos);
   EXPECT_EQ(test::content(folder.path("out/sweep.json")), json);
 }
 

@@ -95,7 +95,7 @@ TEST(Input, ThatCannotBeComputedWithIsRefused) {
             "--set effects.self_collision.thickness=0.01: thickness: expected less than the size of the whole cloth at "
             "its start, 2e-300 m, found 0.01");
   EXPECT_EQ(folder.problems(test::least_scene, {"cloth.mesh=far.obj", alone, anyway}),
-            "--set cloth.mesh=far.obj: mesh: a vertex is at 1e+308 m; distances beyond 1e+90 m cannot be computed");
+            "--set cloth.mesh=far.obj: mesh: a vertex is at 1e+308 m; distances beyond 1e+90 m overflow double precision");
 }
 
 }  // namespace
