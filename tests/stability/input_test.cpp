@@ -94,8 +94,9 @@ TEST(Input, ThatCannotBeComputedWithIsRefused) {
   EXPECT_EQ(folder.problems(test::least_scene, {"cloth.transform.scale=1e-300", alone, anyway}),
             "--set effects.self_collision.thickness=0.01: thickness: expected less than the size of the whole cloth at "
             "its start, 2e-300 m, found 0.01");
-  EXPECT_EQ(folder.problems(test::least_scene, {"cloth.mesh=far.obj", alone, anyway}),
-            "--set cloth.mesh=far.obj: mesh: a vertex is at 1e+308 m; distances beyond 1e+90 m overflow double precision");
+  EXPECT_EQ(
+      folder.problems(test::least_scene, {"cloth.mesh=far.obj", alone, anyway}),
+      "--set cloth.mesh=far.obj: mesh: a vertex is at 1e+308 m; distances beyond 1e+90 m overflow double precision");
 }
 
 }  // namespace
