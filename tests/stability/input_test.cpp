@@ -14,7 +14,7 @@ namespace {
 
 /// How a key's value looks with such a number in it; empty if it holds none.
 std::string with_number(const Key& key, const std::string& number) {
-  const std::string vector = "[0, " + number + ", 0]";
+  std::string vector = "[0, " + number + ", 0]";
   if (std::holds_alternative<double*>(key.target) || std::holds_alternative<std::optional<double>*>(key.target)) {
     return number;
   }
