@@ -60,7 +60,8 @@ ExitCode list_runs(const SweepPlan& plan, const SweepOptions& options) {
                                              : "about " + readable_time(run.cost));
   }
   const double seconds = total / static_cast<double>(options.jobs);
-  print_text(stdout, text + fmt::format("about {} in all, within a factor of three\n", readable_time(seconds)));
+  print_text(stdout, text + fmt::format("roughly {} in all; effects that collide can take many times as long\n",
+                                        readable_time(seconds)));
   return ExitCode::ok;
 }
 

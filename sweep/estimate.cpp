@@ -5,7 +5,7 @@
 namespace drape {
 namespace {
 
-// Measured on the scenes of scenes/homework and scenes/showcase.
+// Of the size of what the scenes of scenes/homework take; what effects take is not in it.
 constexpr double explicit_spring = 4e-9, iterated_spring = 80e-9, newton_spring = 400e-9;  // [s] a step
 constexpr double step = 2e-6, run = 3e-3;                                                  // [s] whatever the scene
 constexpr double pixel = 60e-9, film = 0.15;  // [s], of drawing and encoding one, and of beginning
