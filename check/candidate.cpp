@@ -12,7 +12,7 @@
 #include "check/picture.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/hash.hpp"
+#include "core/installation.hpp"
 #include "core/nearest.hpp"
 #include "core/read_file.hpp"
 
@@ -93,15 +93,6 @@ Whole accepted(const Candidate& candidate, const std::vector<int>& frames) {
 }
 
 }  // namespace
-
-std::string program_hash() {
-  static const std::string text = [] {
-    Hash hash;
-    hash.add(read_file("/proc/self/exe", UINTMAX_MAX));
-    return hash.text();
-  }();
-  return text;
-}
 
 void write_candidate(const fs::path& report, const std::string& name, const Scene& scene, const Golden& golden,
                      const std::vector<Png>& pictures) {

@@ -19,9 +19,6 @@ struct Candidate {
   std::string program;               ///< that has computed it, see program_hash()
 };
 
-/// A hash of the program that runs.
-std::string program_hash();
-
 /// Keeps what can be accepted. @throws OutputError
 void write_candidate(const std::filesystem::path& report, const std::string& name, const Scene& scene,
                      const Golden& golden, const std::vector<Png>& pictures);

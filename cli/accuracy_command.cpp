@@ -14,6 +14,7 @@
 #include "overlay/fonts.hpp"
 #include "render/gl/inspect.hpp"
 #include "run/outputs.hpp"
+#include "scene/method_names.hpp"
 #include "study/accuracy_animation.hpp"
 #include "study/accuracy_report.hpp"
 #include "study/accuracy_runs.hpp"

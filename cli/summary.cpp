@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/text.hpp"
+#include "scene/method_names.hpp"
 
 namespace drape {
 namespace {

@@ -133,7 +133,7 @@ ExitCode conclude_sweep(const SweepResults& results, const std::filesystem::path
   if (const std::size_t left = results.count("not run"); left > 0) {
     spdlog::error("{} of {} runs were not run: --resume continues", left, results.rows.size());
   }
-  return results.exit_code();
+  return exit_code(results);
 }
 
 void add_sweep_command(CLI::App& app, const CommonOptions& common, Command& command) {

@@ -29,7 +29,7 @@ set(public_headers
   sim/effects/air.hpp sim/effects/bending.hpp sim/effects/damping.hpp sim/effects/effect.hpp sim/effects/field.hpp
   sim/effects/gravity.hpp sim/effects/ground.hpp sim/effects/moving_pins.hpp sim/effects/self_collision.hpp
   sim/effects/sphere.hpp sim/effects/strain_limit.hpp sim/effects/wind.hpp
-  scene/scene.hpp
+  scene/method_names.hpp scene/scene.hpp
   render/backend.hpp render/image.hpp render/renderer.hpp render/settings.hpp render/view.hpp)
 set(included_headers
   core/keys.hpp overlay/fonts.hpp overlay/pen.hpp overlay/settings.hpp overlay/text_template.hpp scene/check_settings.hpp

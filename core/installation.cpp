@@ -2,7 +2,11 @@
 
 #include <dlfcn.h>
 
+#include <cstdint>
 #include <system_error>
+
+#include "core/hash.hpp"
+#include "core/read_file.hpp"
 
 namespace drape {
 namespace {
@@ -32,5 +36,14 @@ std::vector<std::filesystem::path> installation_roots() {
 }
 
 std::filesystem::path configured_prefix() { return DRAPE_PREFIX; }
+
+const std::string& program_hash() {
+  static const std::string text = [] {
+    Hash hash;
+    hash.add(read_file("/proc/self/exe", UINTMAX_MAX));
+    return hash.text();
+  }();
+  return text;
+}
 
 }  // namespace drape

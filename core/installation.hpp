@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace drape {
@@ -12,5 +13,9 @@ std::vector<std::filesystem::path> installation_roots();
 
 /// The folder that drape was configured to be installed into: where a program of somebody else's finds what it needs.
 std::filesystem::path configured_prefix();
+
+/// A hash of the program that runs, made once.
+/// @throws UsageError if its file cannot be read
+const std::string& program_hash();
 
 }  // namespace drape

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "python/values.hpp"
+#include "scene/method_names.hpp"
 
 namespace py = pybind11;
 

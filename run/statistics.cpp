@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "scene/method_names.hpp"
+
 namespace drape {
 
 void Statistics::begin(const Simulation& simulation) {

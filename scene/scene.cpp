@@ -11,6 +11,7 @@
 #include "scene/cloth_reader.hpp"
 #include "scene/digest.hpp"
 #include "scene/effects_reader.hpp"
+#include "scene/method_names.hpp"
 #include "scene/overrides.hpp"
 #include "scene/physics.hpp"
 #include "scene/table_reader.hpp"

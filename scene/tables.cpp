@@ -1,5 +1,7 @@
 #include "scene/tables.hpp"
 
+#include "scene/method_names.hpp"
+
 namespace drape {
 namespace {
 

@@ -6,9 +6,7 @@
 //   settings.effects.add(drape::Gravity{});
 
 #include <array>
-#include <cstddef>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "sim/cloth.hpp"
@@ -16,7 +14,7 @@
 
 namespace drape {
 
-/// How a step is computed. The order is that of the names in a scene.
+/// How a step is computed.
 enum class Method {
   semi_implicit,  ///< symplectic Euler: v += h·a(x), x += h·v
   implicit,       ///< steps minimised by Newton's method
@@ -24,12 +22,6 @@ enum class Method {
   quasi_newton,   ///< steps minimised by L-BFGS that starts from the matrix of Liu et al. 2013
   verlet          ///< velocity Verlet: x += h/2·v, v += h·a(x), x += h/2·v
 };
-
-/// The methods as scenes write them, in the order of the enumeration.
-inline constexpr std::array<std::string_view, 5> method_names{"semi-implicit", "implicit", "liu13", "quasi-newton",
-                                                              "verlet"};
-
-inline std::string method_name(Method method) { return std::string(method_names[static_cast<std::size_t>(method)]); }
 
 /// Whether a method computes a step from the forces alone: it minimises nothing, and has a largest stable step.
 inline constexpr bool is_explicit(Method method) { return method == Method::semi_implicit || method == Method::verlet; }
@@ -39,18 +31,11 @@ inline constexpr std::string_view explicit_title(Method method) {
   return method == Method::verlet ? "velocity Verlet" : "semi-implicit Euler";
 }
 
-/// How time advances with a method that is not explicit. The order is that of the names in a scene.
+/// How time advances with a method that is not explicit.
 enum class TimeScheme {
   backward_euler,  ///< of first order
   sdirk2           ///< of second order, in two stages (Alexander 1977)
 };
-
-/// The schemes as scenes write them, in the order of the enumeration.
-inline constexpr std::array<std::string_view, 2> scheme_names{"backward-euler", "sdirk2"};
-
-inline std::string scheme_name(TimeScheme scheme) {
-  return std::string(scheme_names[static_cast<std::size_t>(scheme)]);
-}
 
 /// How a motion is computed, in a name: a method and, where it is implicit, its scheme.
 struct StepMethod {
@@ -74,11 +59,6 @@ inline constexpr std::array step_methods{
     StepMethod{Method::quasi_newton, TimeScheme::sdirk2},
 };
 
-/// "verlet", "liu13", "liu13-sdirk2".
-inline std::string step_method_name(StepMethod how) {
-  return method_name(how.method) + (how.scheme == TimeScheme::sdirk2 ? "-sdirk2" : "");
-}
-
 /// The power of the step with which the error of a motion falls.
 inline constexpr int order_of(StepMethod how) {
   return how.method == Method::verlet || how.scheme == TimeScheme::sdirk2 ? 2 : 1;
@@ -91,13 +71,6 @@ enum class StoppingRule {
   gradient,  ///< ‖∇g‖, the 2-norm of the forces out of balance on all unknowns together, is below the tolerance [N]
   error      ///< the estimated distance of the worst vertex from the exact minimiser is below the tolerance [m]
 };
-
-/// The rules as scenes write them, in the order of the enumeration.
-inline constexpr std::array<std::string_view, 3> stopping_rule_names{"change", "gradient", "error"};
-
-inline std::string stopping_rule_name(StoppingRule rule) {
-  return std::string(stopping_rule_names[static_cast<std::size_t>(rule)]);
-}
 
 /// How Newton's equations are solved.
 enum class LinearSolver {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/method_names.hpp"
 #include "study/accuracy_charts.hpp"
 #include "study/animation.hpp"
 

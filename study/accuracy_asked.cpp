@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/text.hpp"
+#include "scene/method_names.hpp"
 #include "study/accuracy_charts.hpp"
 
 namespace drape {

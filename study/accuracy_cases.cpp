@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "scene/method_names.hpp"
 #include "sim/make_system.hpp"
 #include "sim/schemes/registry.hpp"
 

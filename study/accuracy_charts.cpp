@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/shell.hpp"
+#include "scene/method_names.hpp"
 
 namespace drape {
 namespace {

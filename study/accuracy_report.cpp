@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/text.hpp"
+#include "scene/method_names.hpp"
 #include "study/accuracy_asked.hpp"
 #include "study/accuracy_charts.hpp"
 #include "study/profile.hpp"

@@ -9,6 +9,7 @@
 
 #include "core/nearest.hpp"
 #include "core/read_file.hpp"
+#include "scene/method_names.hpp"
 #include "study/runs_file.hpp"
 
 namespace drape {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "run/run_steps.hpp"
+#include "scene/method_names.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/simulation.hpp"
 

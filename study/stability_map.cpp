@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "html/chart_axis.hpp"
+#include "scene/method_names.hpp"
 
 namespace drape {
 namespace {

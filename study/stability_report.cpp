@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "scene/method_names.hpp"
+
 namespace drape {
 namespace {
 

@@ -13,6 +13,7 @@
 #include "core/build_info.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/installation.hpp"
 #include "core/read_file.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
@@ -153,10 +154,7 @@ std::string program_text() {
   std::string text =
       fmt::format("drape {}, revision {}, {}, {}", build.version, build.revision, build.compiler, build.type);
   if (build.revision.ends_with("-dirty") || build.revision == "unknown") {
-    constexpr std::size_t most_bytes = std::size_t{1} << 30;
-    Hash hash;
-    hash.add(read_file("/proc/self/exe", most_bytes));
-    text += ", file " + hash.text();
+    text += ", file " + program_hash();
   }
   return text;
 }

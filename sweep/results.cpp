@@ -59,13 +59,11 @@ RunRecord record_of(const PlannedRun& run, const std::filesystem::path& folder) 
     RunRecord refused;
     refused.outcome = "refused";
     refused.reason = run.refusal;
-    refused.code = ExitCode::usage;
     return refused;
   }
   if (auto record = read_run(folder, run.key)) return *record;
   RunRecord none;
   none.outcome = "not run";
-  none.code = ExitCode::interrupted;
   return none;
 }
 
@@ -97,12 +95,6 @@ std::optional<SweepFile> read_sweep_file(const std::filesystem::path& folder) {
 std::size_t SweepResults::count(const std::string& outcome) const {
   return static_cast<std::size_t>(
       std::ranges::count_if(rows, [&](const SweepRow& row) { return row.record.outcome == outcome; }));
-}
-
-ExitCode SweepResults::exit_code() const {
-  ExitCode worst = ExitCode::ok;
-  for (const SweepRow& row : rows) worst = std::max(worst, row.record.code);
-  return worst;
 }
 
 std::string SweepResults::headline() const {

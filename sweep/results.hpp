@@ -45,8 +45,6 @@ struct SweepResults {
 
   [[nodiscard]] const PlannedRun& planned(const SweepRow& row) const { return plan.runs[row.run]; }
   [[nodiscard]] std::size_t count(const std::string& outcome) const;
-  /// That of the worst run; interrupted if one was not run.
-  [[nodiscard]] ExitCode exit_code() const;
   /// "40 runs: 38 completed, 2 diverged"
   [[nodiscard]] std::string headline() const;
   /// Why runs are not complete, a sentence for each reason: "2 runs diverged, …". Of many the first, and how many more.

@@ -64,7 +64,6 @@ std::optional<RunRecord> read_run(const fs::path& sweep, const std::string& key)
     if (json.at("format") != 1 || json.at("key") != key) return std::nullopt;
     RunRecord record{.outcome = json.at("outcome"),
                      .reason = json.at("reason"),
-                     .code = static_cast<ExitCode>(json.at("exit_code").get<int>()),
                      .timed = json.at("timed"),
                      .seconds = json.at("seconds"),
                      .files = json.at("files"),
@@ -103,7 +102,6 @@ void RunFolder::commit(const RunRecord& record, const std::string& stats) {
                   {"key", key_},
                   {"outcome", record.outcome},
                   {"reason", record.reason},
-                  {"exit_code", static_cast<int>(record.code)},
                   {"timed", record.timed},
                   {"seconds", record.seconds},
                   {"files", record.files},

@@ -6,15 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "run/exit_code.hpp"
-
 namespace drape {
 
 /// What became of a run.
 struct RunRecord {
   std::string outcome;             ///< "completed", "diverged", "refused", "failed" or "not run"
   std::string reason;              ///< why it is not complete, a sentence; empty: it is
-  ExitCode code = ExitCode::ok;    ///< that it would have had alone
   std::string timed;               ///< what else ran beside it, as far as its sweep knows: "alone", "beside 3 others"
   double seconds = 0;              ///< that it took, with drawing and encoding
   std::vector<std::string> files;  ///< in its folder, that it wrote

@@ -58,11 +58,9 @@ RunRecord record_of(const Scene& scene, const RunResult& result) {
     record.outcome = stopped;
   } else if (!result.problems.empty()) {
     record.outcome = "failed";
-    record.code = ExitCode::output;
     record.reason = fmt::format("{}", fmt::join(result.problems, "; "));
   } else if (result.outcome == Outcome::diverged) {
     record.outcome = "diverged";
-    record.code = ExitCode::diverged;
     record.reason = result.divergence;
   } else {
     record.outcome = "completed";
@@ -72,8 +70,9 @@ RunRecord record_of(const Scene& scene, const RunResult& result) {
 
 RunRecord record_of(const Error& error) {
   RunRecord record;
-  record.code = exit_code(error.kind());
-  record.outcome = error.kind() == ErrorKind::usage ? "refused" : "failed";
+  record.outcome = error.kind() == ErrorKind::usage      ? "refused"
+                   : error.kind() == ErrorKind::diverged ? "diverged"
+                                                         : "failed";
   record.reason = error.what();
   return record;
 }

@@ -163,7 +163,7 @@ std::string runs_csv(const SweepResults& results) {
   ResultTable table{"runs", {}, {"run", "scene"}, {}, {}};
   for (const Variation& variation : results.plan.request.varied) table.columns.push_back(variation.key);
   const std::vector<std::string> names = figure_names(results);
-  table.columns.insert(table.columns.end(), {"outcome", "reason", "exit_code"});
+  table.columns.insert(table.columns.end(), {"outcome", "reason"});
   table.columns.insert(table.columns.end(), names.begin(), names.end());
   table.columns.insert(table.columns.end(), {"seconds", "timed", "key"});
   for (const SweepRow& row : results.rows) {
@@ -171,7 +171,7 @@ std::string runs_csv(const SweepResults& results) {
     const RunRecord& record = row.record;
     std::vector<std::string> cells{std::to_string(row.run + 1), results.plan.names[planned.scene]};
     cells.insert(cells.end(), planned.values.begin(), planned.values.end());
-    cells.insert(cells.end(), {record.outcome, record.reason, std::to_string(static_cast<int>(record.code))});
+    cells.insert(cells.end(), {record.outcome, record.reason});
     for (const std::string& name : names) cells.push_back(record.figure(name));
     cells.insert(cells.end(),
                  {record.seconds > 0 ? fmt::format("{:.6g}", record.seconds) : "", record.timed, planned.key});

@@ -48,7 +48,7 @@ constexpr std::array methods{
     MethodType{Method::quasi_newton, make_implicit<QuasiNewton>, make_implicit_guard},
     MethodType{Method::verlet, make_explicit<Verlet>, make_safe_step_guard},
 };
-static_assert(methods.size() == method_names.size());
+static_assert(methods.size() == static_cast<std::size_t>(Method::verlet) + 1);
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "scene/method_names.hpp"
 #include "tests/motion/recorded.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/methods.hpp"

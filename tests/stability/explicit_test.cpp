@@ -7,6 +7,7 @@
 #include <cmath>
 #include <regex>
 
+#include "scene/method_names.hpp"
 #include "sim/blow_up.hpp"
 #include "sim/make_system.hpp"
 #include "sim/schemes/registry.hpp"

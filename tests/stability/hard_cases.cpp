@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "scene/method_names.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"
 

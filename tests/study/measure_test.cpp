@@ -1,4 +1,5 @@
 #include "study/measure.hpp"
+#include "scene/method_names.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cli/exit_code.hpp"
 #include "sweep/merge.hpp"
 #include "sweep/report.hpp"
 #include "tests/support/file_size_limit.hpp"
@@ -33,7 +34,7 @@ TEST_F(Sweep, MakesARowOfEveryRun) {
   ASSERT_EQ(results.rows.size(), 12U);
   EXPECT_EQ(results.count("completed") + results.count("refused"), 12U);
   EXPECT_GT(results.count("refused"), 0U);
-  EXPECT_EQ(results.exit_code(), ExitCode::usage);
+  EXPECT_EQ(exit_code(results), ExitCode::usage);
   for (const SweepRow& row : results.rows) {
     if (row.record.outcome == "refused") continue;
     EXPECT_EQ(row.record.timed, "alone");
@@ -53,7 +54,7 @@ TEST_F(Sweep, HasTheSameBitsWithManyJobs) {
   SweepOptions many = into("many");
   many.jobs = 3;
   const SweepResults alone = sweep(request, into("alone")), beside = sweep(request, many);
-  ASSERT_EQ(alone.exit_code(), ExitCode::ok);
+  ASSERT_EQ(exit_code(alone), ExitCode::ok);
   for (const SweepRow& row : alone.rows) {
     const std::string& key = alone.planned(row).key;
     for (const char* file : {"film.gif", "sheet.png"}) {
@@ -96,7 +97,7 @@ TEST_F(Sweep, LosesNothingButTheRunsUnderWayWhenItIsStopped) {
   run_sweep(plan, into("out"), stop.get_token(), progress);
   const SweepResults results = read_results(folder_.path("out"), {plan, {}});
   EXPECT_EQ(results.count("not run") + results.count("refused"), 12U);
-  EXPECT_EQ(results.exit_code(), ExitCode::interrupted);
+  EXPECT_EQ(exit_code(results), ExitCode::interrupted);
   EXPECT_EQ(folder_.file_count(), 1U) << "only the scene is there";
 }
 
@@ -108,7 +109,7 @@ TEST_F(Sweep, OfADivergedRunKeepsWhatThereIsAndTheOthersGoOn) {
   const SweepResults results = sweep(request, into("out"));
   EXPECT_EQ(results.rows[1].record.outcome, "diverged");
   EXPECT_NE(results.rows[1].record.reason, "");
-  EXPECT_EQ(results.exit_code(), ExitCode::diverged);
+  EXPECT_EQ(exit_code(results), ExitCode::diverged);
 }
 
 TEST_F(Sweep, SaysWhatCannotBeWrittenAndKeepsWhatIsThere) {
@@ -129,7 +130,7 @@ TEST_F(Sweep, SaysWhatCannotBeWrittenAndKeepsWhatIsThere) {
   const SweepResults results = read_results(folder_.path("out"), {plan, {}}, unwritten);
   EXPECT_EQ(results.count("completed"), 2U);
   EXPECT_EQ(results.count("failed"), 2U);
-  EXPECT_EQ(results.exit_code(), ExitCode::output);
+  EXPECT_EQ(exit_code(results), ExitCode::output);
   EXPECT_NE(results.rows[2].record.reason.find("File too large"), std::string::npos) << results.rows[2].record.reason;
 }
 
@@ -148,14 +149,14 @@ TEST_F(Sweep, OfShardsIsThatOfOneRun) {
   EXPECT_EQ(parts.size(), 3U);
   const SweepResults merged = read_results(folder_.path("merged"), merge_sweeps(parts, folder_.path("merged")));
   EXPECT_EQ(without_times(runs_csv(whole)), without_times(runs_csv(merged)));
-  EXPECT_EQ(whole.exit_code(), merged.exit_code());
+  EXPECT_EQ(exit_code(whole), exit_code(merged));
   EXPECT_EQ(whole.headline(), merged.headline());
 
   // Without one of them its runs are said to be missing.
   const SweepResults less =
       read_results(folder_.path("less"), merge_sweeps({parts[0], parts[2]}, folder_.path("less")));
   EXPECT_GT(less.count("not run"), 0U);
-  EXPECT_EQ(less.exit_code(), ExitCode::interrupted);
+  EXPECT_EQ(exit_code(less), ExitCode::interrupted);
 }
 
 TEST_F(Sweep, IsNotMergedWithAnother) {

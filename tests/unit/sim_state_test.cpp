@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scene/method_names.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/simulation.hpp"
 
