@@ -45,17 +45,17 @@ std::vector<std::array<bool, 3>> boundary_edges(const std::vector<Triangle>& tri
 
 }  // namespace
 
-DrawCloth::DrawCloth(const GlFunctions& gl, std::filesystem::path data_folder, const Look& look, int vertex_count,
-                     const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs)
-    : gl_(gl),
-      data_folder_(std::move(data_folder)),
+DrawCloth::DrawCloth(GlDevice& device, const Look& look, int vertex_count, const std::vector<Triangle>& triangles,
+                     const std::vector<std::array<float, 2>>& uvs)
+    : device_(device),
+      gl_(device.gl()),
       look_(look),
       vertex_count_(vertex_count),
       triangles_(triangles),
-      array_(gl),
-      static_buffer_(gl),
-      dynamic_buffer_(gl),
-      index_buffer_(gl) {
+      array_(gl_),
+      static_buffer_(gl_),
+      dynamic_buffer_(gl_),
+      index_buffer_(gl_) {
   if (!uvs.empty() && uvs.size() != 3 * triangles.size()) {
     throw std::invalid_argument("a cloth needs a texture coordinate for each corner of each triangle, or none at all");
   }
@@ -68,7 +68,7 @@ DrawCloth::DrawCloth(const GlFunctions& gl, std::filesystem::path data_folder, c
   }
   if (look.ambient_occlusion) {
     occlusion_.emplace();
-    occlusion_buffer_.emplace(gl);
+    occlusion_buffer_.emplace(gl_);
   }
   make_corners(uvs);
 }
@@ -192,15 +192,15 @@ void DrawCloth::upload_colors(std::span<const Rgb> colors) {
   gl_.VertexAttribPointer(color_attribute, 3, GL_FLOAT, GL_FALSE, 3 * sizeof(float), nullptr);
 }
 
-void DrawCloth::make_programs(std::size_t sphere_count, bool colored) {
+void DrawCloth::find_programs(std::size_t sphere_count, bool colored) {
   if (lit_program_ && sphere_count_ == sphere_count && colored_ == colored) return;
   sphere_count_ = sphere_count;
   colored_ = colored;
-  lit_program_ = make_program(false);
-  if (look_.shadows) shadowed_program_ = make_program(true);
+  lit_program_ = find_program(false);
+  if (look_.shadows) shadowed_program_ = find_program(true);
 }
 
-std::unique_ptr<Program> DrawCloth::make_program(bool shadowed) const {
+const Program* DrawCloth::find_program(bool shadowed) const {
   std::vector<std::string> defines = light_defines(look_, sphere_count_, shadowed);
   if (colored_) {
     defines.emplace_back("VERTEX_COLORS");
@@ -208,14 +208,15 @@ std::unique_ptr<Program> DrawCloth::make_program(bool shadowed) const {
     defines.emplace_back("TEXTURE");
   }
   if (look_.mesh_lines) defines.emplace_back("MESH_LINES");
-  auto program = std::make_unique<Program>(gl_, data_folder_, "cloth", defines);
-  program->use();
-  program->set("cloth_texture", 0);
-  program->set("translucency", static_cast<float>(look_.translucency));
-  program->set("cloth_color", linear_color(look_.color));
-  program->set("line_color", linear_color(look_.line_color));
-  program->set("line_width", static_cast<float>(look_.line_width));
-  return program;
+  return &device_.program("cloth", defines);
+}
+
+void DrawCloth::set_uniforms(const Program& program) const {
+  program.set("cloth_texture", 0);
+  program.set("translucency", static_cast<float>(look_.translucency));
+  program.set("cloth_color", linear_color(look_.color));
+  program.set("line_color", linear_color(look_.line_color));
+  program.set("line_width", static_cast<float>(look_.line_width));
 }
 
 // Reading the shadow map takes llvmpipe about as long as all else in a pixel.
@@ -235,7 +236,7 @@ void DrawCloth::upload_indices(const ClothShadow& shadow) {
 void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, std::span<const Rgb> colors) {
   upload_frame(shot);
   if (!colors.empty()) upload_colors(colors);
-  make_programs(shot.spheres.size(), !colors.empty());
+  find_programs(shot.spheres.size(), !colors.empty());
   lit_count_ = triangles_.size();
   if (shadow != nullptr) upload_indices(*shadow);
   if (texture_) {
@@ -246,6 +247,7 @@ void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, std::span<cons
   const auto draw_triangles = [&](const Program& program, std::size_t first, std::size_t count) {
     if (count == 0) return;
     program.use();
+    set_uniforms(program);
     shot.set_uniforms(program);
     if (shadow != nullptr) shadow->set_uniforms(program);
     gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT,

@@ -1,16 +1,14 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "render/ambient_occlusion.hpp"
 #include "render/cloth_shadow.hpp"
+#include "render/gl/device.hpp"
 #include "render/gl/objects.hpp"
-#include "render/gl/program.hpp"
 #include "render/settings.hpp"
 #include "render/shot.hpp"
 #include "sim/mesh.hpp"
@@ -21,8 +19,8 @@ namespace drape {
 class DrawCloth {
  public:
   /// Parameters and exceptions are Renderer's.
-  DrawCloth(const GlFunctions& gl, std::filesystem::path data_folder, const Look& look, int vertex_count,
-            const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs);
+  DrawCloth(GlDevice& device, const Look& look, int vertex_count, const std::vector<Triangle>& triangles,
+            const std::vector<std::array<float, 2>>& uvs);
 
   /// @param shadow of the frame, where the look has shadows
   /// @param colors of the vertices, in place of texture and colour; or none
@@ -44,11 +42,12 @@ class DrawCloth {
   void upload_occlusion(const Shot& shot, const Vertices& normals);
   void upload_colors(std::span<const Rgb> colors);
   void upload_indices(const ClothShadow& shadow);
-  void make_programs(std::size_t sphere_count, bool colored);
-  std::unique_ptr<Program> make_program(bool shadowed) const;
+  void find_programs(std::size_t sphere_count, bool colored);
+  const Program* find_program(bool shadowed) const;
+  void set_uniforms(const Program& program) const;
 
+  GlDevice& device_;
   const GlFunctions& gl_;
-  std::filesystem::path data_folder_;
   Look look_;
   int vertex_count_;
   std::vector<Triangle> triangles_;
@@ -62,7 +61,7 @@ class DrawCloth {
   std::optional<Texture> texture_;
   std::vector<unsigned> indices_;  // of the corners of all triangles
   std::size_t lit_count_ = 0;      // triangles that come first in the index buffer, without a shadow of the cloth
-  std::unique_ptr<Program> lit_program_, shadowed_program_;
+  const Program *lit_program_ = nullptr, *shadowed_program_ = nullptr;
   std::size_t sphere_count_ = 0;
   bool colored_ = false;
 };

@@ -67,14 +67,13 @@ std::array<PixelBox, 4> around(const PixelBox& box, Eigen::Vector2i picture) {
 
 }  // namespace
 
-DrawGround::DrawGround(const GlFunctions& gl, const std::filesystem::path& data_folder, const Look& look,
-                       std::size_t sphere_count)
-    : gl_(gl),
+DrawGround::DrawGround(GlDevice& device, const Look& look, std::size_t sphere_count)
+    : gl_(device.gl()),
       look_(look),
-      lit_(gl, data_folder, "ground", light_defines(look, sphere_count, false)),
-      array_(gl),
-      texture_(gl) {
-  if (look.shadows) shadowed_.emplace(gl, data_folder, "ground", light_defines(look, sphere_count, true));
+      lit_(&device.program("ground", light_defines(look, sphere_count, false))),
+      array_(gl_),
+      texture_(gl_) {
+  if (look.shadows) shadowed_ = &device.program("ground", light_defines(look, sphere_count, true));
   gl_.BindTexture(GL_TEXTURE_2D, texture_.id());
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -89,7 +88,7 @@ void DrawGround::draw(const Shot& shot, const ClothShadow* shadow, Eigen::Vector
     const PixelBox box = shadow != nullptr ? cast(shot, *shadow, ground, picture) : PixelBox{};
     if (!box.empty()) draw(*shadowed_, shot, ground, box);
     for (const PixelBox& rest : around(box, picture)) {
-      if (!rest.empty()) draw(lit_, shot, ground, rest);
+      if (!rest.empty()) draw(*lit_, shot, ground, rest);
     }
   }
   gl_.Scissor(0, 0, picture.x(), picture.y());

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
-
 #include "render/cloth_shadow.hpp"
 #include "render/covered_box.hpp"
+#include "render/gl/device.hpp"
 #include "render/gl/objects.hpp"
-#include "render/gl/program.hpp"
 #include "render/ground_shadow.hpp"
 #include "render/settings.hpp"
 #include "render/shot.hpp"
@@ -18,8 +15,7 @@ namespace drape {
 class DrawGround {
  public:
   /// @param sphere_count in every frame
-  DrawGround(const GlFunctions& gl, const std::filesystem::path& data_folder, const Look& look,
-             std::size_t sphere_count);
+  DrawGround(GlDevice& device, const Look& look, std::size_t sphere_count);
 
   /// @param shadow  of the cloth, where the look has shadows
   /// @param picture its width and height [pixels]
@@ -31,9 +27,9 @@ class DrawGround {
 
   const GlFunctions& gl_;
   Look look_;
-  Program lit_;
-  std::optional<Program> shadowed_;  // absent where the look has no shadows
-  VertexArray array_;                // without attributes: the shader knows the corners of the picture
+  const Program* lit_;
+  const Program* shadowed_ = nullptr;  // where the look has shadows
+  VertexArray array_;                  // without attributes: the shader knows the corners of the picture
   Texture texture_;
   GroundShadow shadow_;  // of the cloth, on one ground after the other
 };

@@ -58,13 +58,13 @@ std::vector<std::string> defines(const Look& look, std::size_t sphere_count, std
 
 }  // namespace
 
-DrawSphere::DrawSphere(const GlFunctions& gl, const std::filesystem::path& data_folder, const Look& look,
-                       std::size_t sphere_count, std::size_t ground_count)
-    : gl_(gl),
-      program_(gl, data_folder, "sphere", defines(look, sphere_count, ground_count)),
-      array_(gl),
-      vertex_buffer_(gl),
-      index_buffer_(gl) {
+DrawSphere::DrawSphere(GlDevice& device, const Look& look, std::size_t sphere_count, std::size_t ground_count)
+    : gl_(device.gl()),
+      program_(device.program("sphere", defines(look, sphere_count, ground_count))),
+      color_(linear_color(look.sphere_color)),
+      array_(gl_),
+      vertex_buffer_(gl_),
+      index_buffer_(gl_) {
   const std::vector<Eigen::Vector3f> vertices = cap_vertices();
   const std::vector<unsigned> indices = cap_triangles();
   index_count_ = static_cast<GLsizei>(indices.size());
@@ -78,12 +78,11 @@ DrawSphere::DrawSphere(const GlFunctions& gl, const std::filesystem::path& data_
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_.id());
   gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(unsigned)), indices.data(),
                  GL_STATIC_DRAW);
-  program_.use();
-  program_.set("sphere_color", linear_color(look.sphere_color));
 }
 
 void DrawSphere::draw(const Shot& shot, const ClothShadow* shadow) {
   program_.use();
+  program_.set("sphere_color", color_);
   shot.set_uniforms(program_);
   if (shadow != nullptr) shadow->set_uniforms(program_);
   gl_.BindVertexArray(array_.id());

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
+#include <cstddef>
 
 #include "render/cloth_shadow.hpp"
+#include "render/gl/device.hpp"
 #include "render/gl/objects.hpp"
-#include "render/gl/program.hpp"
 #include "render/settings.hpp"
 #include "render/shot.hpp"
 
@@ -17,15 +17,15 @@ class DrawSphere {
  public:
   /// @param sphere_count in every frame
   /// @param ground_count that the camera sees in every frame; what is below them is not drawn
-  DrawSphere(const GlFunctions& gl, const std::filesystem::path& data_folder, const Look& look,
-             std::size_t sphere_count, std::size_t ground_count);
+  DrawSphere(GlDevice& device, const Look& look, std::size_t sphere_count, std::size_t ground_count);
 
   /// @param shadow of the cloth, where the look has shadows
   void draw(const Shot& shot, const ClothShadow* shadow);
 
  private:
   const GlFunctions& gl_;
-  Program program_;
+  const Program& program_;
+  Eigen::Vector3f color_;  // linear
   VertexArray array_;
   Buffer vertex_buffer_, index_buffer_;
   GLsizei index_count_ = 0;

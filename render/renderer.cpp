@@ -12,44 +12,32 @@
 #include "render/draw_cloth.hpp"
 #include "render/draw_ground.hpp"
 #include "render/draw_sphere.hpp"
-#include "render/gl/context.hpp"
-#include "render/gl/functions.hpp"
+#include "render/gl/device.hpp"
 #include "render/shot.hpp"
 
 namespace drape {
-namespace {
-
-std::unique_ptr<GlContext> make_current_context(GlBackend backend) {
-  std::unique_ptr<GlContext> context = make_gl_context(backend);
-  context->make_current();
-  return context;
-}
-
-}  // namespace
 
 class Renderer::Implementation {
  public:
-  Implementation(std::filesystem::path data_folder, Eigen::Vector2i size, const View& view, const Look& look,
+  Implementation(const std::filesystem::path& data_folder, Eigen::Vector2i size, const View& view, const Look& look,
                  int vertex_count, const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs,
                  GlBackend backend)
-      : data_folder_(std::move(data_folder)),
-        size_(size),
+      : size_(size),
         view_(view),
         look_(look),
-        context_(make_current_context(backend)),
-        gl_(*context_),
-        canvas_(gl_, size, look),
-        cloth_(gl_, data_folder_, look, vertex_count, triangles, uvs) {
-    if (look.shadows) shadow_.emplace(gl_);
+        device_(borrow_device(data_folder, backend)),
+        canvas_(device_->gl(), size, look),
+        cloth_(*device_, look, vertex_count, triangles, uvs) {
+    if (look.shadows) shadow_.emplace(device_->gl());
   }
 
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
-  // The objects that are destroyed next belong to this context, and another may have been used since.
+  // The objects that are destroyed next belong to this device, and another may have been used since.
   ~Implementation() {
     try {
-      context_->make_current();
+      device_->make_current();
     } catch (const std::exception&) {
       // There is nothing to be done about it here, and Mesa frees the objects with their context.
     }
@@ -59,36 +47,34 @@ class Renderer::Implementation {
 
   /// @param colors of the vertices, or none
   Image draw(const Frame& frame, std::span<const Rgb> colors) {
-    context_->make_current();
+    device_->make_current();
     const Shot shot(frame, view_, static_cast<double>(size_.x()) / size_.y());
     canvas_.begin(covered_box(shot, size_));
     if (shadow_) shadow_->cast(shot, cloth_.triangles());
     const ClothShadow* shadow = shadow_ ? &*shadow_ : nullptr;
     if (!shot.grounds.empty()) {
-      if (!grounds_) grounds_.emplace(gl_, data_folder_, look_, shot.spheres.size());
+      if (!grounds_) grounds_.emplace(*device_, look_, shot.spheres.size());
       grounds_->draw(shot, shadow, size_);
     }
     cloth_.draw(shot, shadow, colors);
     if (!shot.spheres.empty()) {  // after the cloth that hides much of them
-      if (!spheres_) spheres_.emplace(gl_, data_folder_, look_, shot.spheres.size(), shot.grounds.size());
+      if (!spheres_) spheres_.emplace(*device_, look_, shot.spheres.size(), shot.grounds.size());
       spheres_->draw(shot, shadow);
     }
     return canvas_.finish();
   }
 
   [[nodiscard]] std::string description() const {
-    context_->make_current();
-    const auto text = [this](GLenum name) { return reinterpret_cast<const char*>(gl_.GetString(name)); };
+    device_->make_current();
+    const auto text = [this](GLenum name) { return reinterpret_cast<const char*>(device_->gl().GetString(name)); };
     return fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
   }
 
  private:
-  std::filesystem::path data_folder_;
   Eigen::Vector2i size_;
   View view_;
   Look look_;
-  std::unique_ptr<GlContext> context_;  // before all that lives in it
-  GlFunctions gl_;
+  BorrowedDevice device_;  // before all that lives in it
   Canvas canvas_;
   DrawCloth cloth_;
   std::optional<ClothShadow> shadow_;  // absent where the look has none

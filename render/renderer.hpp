@@ -21,8 +21,9 @@
 
 namespace drape {
 
-/// Draws frames without a window. Owns a GL context: make, use and destroy it on one thread. Several may live on a
-/// thread. The same frame gives the same bytes, on any number of threads inside Mesa.
+/// Draws frames without a window. Has a GL context of its own for as long as it lives: make, use and destroy it on one
+/// thread. Several may live on a thread. The context of one that has gone, with its compiled shaders, is taken by the
+/// next that is made, on whatever thread. The same frame gives the same bytes, on any number of threads inside Mesa.
 class Renderer {
  public:
   /// @param data_folder  holds shaders/

@@ -21,6 +21,8 @@ class GlContext {
   /// Directs the GL calls of the calling thread to this context.
   /// @throws OutputError if the library refuses
   virtual void make_current() = 0;
+  /// Ends that, so that another thread may have the context, which must be current.
+  virtual void release() = 0;
 
   /// A GL function by its full name ("glClear"), or null.
   [[nodiscard]] virtual Function get_proc_address(const char* name) const = 0;

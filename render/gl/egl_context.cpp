@@ -62,9 +62,7 @@ class EglContext final : public GlContext {
   }
 
   ~EglContext() override {
-    if (egl_.current_context() == context_) {
-      egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    }
+    if (egl_.current_context() == context_) release();
     egl_.destroy_context(display_, context_);
   }
 
@@ -75,6 +73,9 @@ class EglContext final : public GlContext {
       egl_.fail("make its context current");
     }
   }
+
+  // A method that destruction calls cannot be overridden.
+  void release() final { egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
 
   [[nodiscard]] Function get_proc_address(const char* name) const override { return egl_.get_proc_address(name); }
 

@@ -51,6 +51,8 @@ class OsMesaContext final : public GlContext {
     }
   }
 
+  void release() override { mesa_.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+
   [[nodiscard]] Function get_proc_address(const char* name) const override { return mesa_.get_proc_address(name); }
 
  private:

@@ -3,26 +3,13 @@
 
 #include "core/error.hpp"
 #include "render/gl/context.hpp"
-#include "render/gl/inspect.hpp"
 #include "scene/scene.hpp"
 #include "sim/simulation.hpp"
+#include "tests/render/backends.hpp"
 #include "tests/render/drawing.hpp"
 
 namespace drape::test {
 namespace {
-
-/// Why a backend is not there; empty if it is.
-std::string problem(GlBackend backend) {
-  try {
-    inspect_backend(backend);
-    return {};
-  } catch (const OutputError& error) {
-    return error.what();
-  }
-}
-
-#define SKIP_WITHOUT(backend) \
-  if (const std::string why = problem(backend); !why.empty()) GTEST_SKIP() << why
 
 /// Whether a library whose file name contains `part` is loaded.
 bool is_loaded(std::string_view part) {

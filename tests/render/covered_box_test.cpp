@@ -1,7 +1,11 @@
 #include "render/covered_box.hpp"
 
-#include <gtest/gtest.h>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
+#include "tests/render/backends.hpp"
 #include "tests/render/drawing.hpp"
 #include "tests/support/random.hpp"
 
@@ -34,26 +38,58 @@ std::vector<Collider> with_specks(std::vector<Collider> colliders, const View& v
   return colliders;
 }
 
-TEST(CoveredBox, HoldsAllThatIsDrawn) {
-  const Eigen::Vector2d middles[] = {{0, 0}, {1.1, 0.4}, {-0.8, 1.3}, {0.9, -2.2}, {7, 0}};
-  const int samples[] = {1, 2, 4};
+/// Draws a ball and a crumpled cloth, and the cloth alone, with only their part of the picture cleared and with all.
+void expect_all_is_drawn(const Eigen::Vector2i& size, int samples, const Eigen::Vector2d& middle, std::uint64_t seed,
+                         GlBackend backend) {
+  SCOPED_TRACE(::testing::Message() << size.transpose() << " pixels, " << samples << " samples, looking at "
+                                    << middle.transpose());
+  const View view = looking_at(middle.x(), middle.y());
+  Look look;
+  look.samples = samples;
+  look.background = Rgb{0.2, 0.5, 0.9};
+  look.background_top = Rgb{1, 1, 1};
+  look.mesh_lines = seed % 2 == 0;
+  const Mesh mesh = crumpled(seed);
+  for (const auto& colliders : {std::vector<Collider>{}, {SphereShape{{0.7, -0.6, 0.1}, 0.5}}}) {
+    const Image in_the_box = draw(mesh, view, look, size, colliders, backend);
+    // Not EXPECT_EQ, which would print their bytes.
+    EXPECT_TRUE(in_the_box == draw(mesh, view, look, size, with_specks(colliders, view), backend));
+  }
+}
+
+constexpr std::array<int, 3> sample_counts{1, 2, 4};
+
+/// Where the cloth is whole, cut by an edge of the picture, by a corner, and where there is nothing of it.
+const std::array<Eigen::Vector2d, 5> middles{{{0, 0}, {1.1, 0.4}, {-0.8, 1.3}, {0.9, -2.2}, {7, 0}}};
+
+class CoveredBoxOf : public WithBackend {};
+
+TEST_P(CoveredBoxOf, HoldsAllThatIsDrawn) {
   std::uint64_t seed = 0;
-  for (const Eigen::Vector2i& size : {Eigen::Vector2i(16, 16), {97, 131}, {301, 40}}) {
-    for (const Eigen::Vector2d& middle : middles) {
-      const View view = looking_at(middle.x(), middle.y());
-      Look look;
-      look.samples = samples[++seed % 3];
-      look.background = Rgb{0.2, 0.5, 0.9};
-      look.background_top = Rgb{1, 1, 1};
-      look.mesh_lines = seed % 2 == 0;
-      const Mesh mesh = crumpled(seed);
-      const std::vector<Collider> ball{SphereShape{{0.7, -0.6, 0.1}, 0.5}};
-      EXPECT_EQ(draw(mesh, view, look, size, ball), draw(mesh, view, look, size, with_specks(ball, view)))
-          << size.transpose() << ", " << look.samples << " samples, " << middle.transpose();
-      EXPECT_EQ(draw(mesh, view, look, size), draw(mesh, view, look, size, with_specks({}, view)));
+  for (const Eigen::Vector2i& size : {Eigen::Vector2i(16, 16), {97, 131}, {301, 40}, {1024, 576}}) {
+    for (const int samples : sample_counts) {
+      for (int k = 0; k < 2; ++k, ++seed) expect_all_is_drawn(size, samples, middles[seed % 5], seed, GetParam());
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Backends, CoveredBoxOf, both_backends, name_of_backend);
+
+class CoveredBoxOfAnySize : public WithBackend {};
+
+TEST_P(CoveredBoxOfAnySize, HoldsAllThatIsDrawn) {
+  std::uint64_t seed = 0;
+  for (const Eigen::Vector2i& size : {Eigen::Vector2i(16, 16), {17, 4096}, {4095, 31}, {480, 400}, {1920, 1080}}) {
+    for (const int samples : sample_counts) {
+      for (const Eigen::Vector2d& middle : middles) expect_all_is_drawn(size, samples, middle, ++seed, GetParam());
+    }
+  }
+  for (const int samples : sample_counts) {
+    for (std::size_t k = 0; k < 2; ++k) expect_all_is_drawn({4096, 4096}, samples, middles[k], k, GetParam());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Nightly, CoveredBoxOfAnySize, both_backends, name_of_backend);
 
 TEST(CoveredBox, ForgetsTheFrameBefore) {
   const Mesh mesh = crumpled(5);

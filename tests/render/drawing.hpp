@@ -14,8 +14,9 @@ inline std::filesystem::path data_folder() { return DRAPE_SOURCE_DIR; }
 
 /// Draws one frame of a mesh.
 inline Image draw(const Mesh& mesh, const View& view, const Look& look, Eigen::Vector2i size = {120, 100},
-                  const std::vector<Collider>& colliders = {}) {
-  Renderer renderer(data_folder(), size, view, look, static_cast<int>(mesh.positions.rows()), mesh.triangles, mesh.uvs);
+                  const std::vector<Collider>& colliders = {}, GlBackend backend = GlBackend::automatic) {
+  Renderer renderer(data_folder(), size, view, look, static_cast<int>(mesh.positions.rows()), mesh.triangles, mesh.uvs,
+                    backend);
   Frame frame;
   frame.positions = mesh.positions;
   frame.colliders = colliders;

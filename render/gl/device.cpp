@@ -1,0 +1,82 @@
+#include "render/gl/device.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <iterator>
+#include <mutex>
+#include <tuple>
+
+namespace drape {
+namespace {
+
+/// The devices that nobody uses. They are never destroyed: when the process ends, the libraries that are behind them
+/// may already be gone.
+struct IdleDevices {
+  std::mutex mutex;
+  std::vector<std::unique_ptr<GlDevice>> devices;
+
+  /// The one of these that was used last; null if there is none.
+  std::unique_ptr<GlDevice> take(const std::filesystem::path& data_folder, GlBackend backend) {
+    const std::scoped_lock lock(mutex);
+    const auto found = std::find_if(devices.rbegin(), devices.rend(),
+                                    [&](const auto& device) { return device->is_of(data_folder, backend); });
+    if (found == devices.rend()) return nullptr;
+    std::unique_ptr<GlDevice> device = std::move(*found);
+    devices.erase(std::next(found).base());
+    return device;
+  }
+
+  void give(std::unique_ptr<GlDevice> device) {
+    const std::scoped_lock lock(mutex);
+    devices.push_back(std::move(device));
+  }
+};
+
+IdleDevices& idle() {
+  static auto* const all = new IdleDevices;
+  return *all;
+}
+
+std::unique_ptr<GlContext> make_current_context(GlBackend backend) {
+  std::unique_ptr<GlContext> context = make_gl_context(backend);
+  context->make_current();
+  return context;
+}
+
+}  // namespace
+
+GlDevice::GlDevice(std::filesystem::path data_folder, GlBackend backend)
+    : data_folder_(std::move(data_folder)),
+      backend_(backend),
+      context_(make_current_context(backend)),
+      gl_(*context_) {}
+
+const Program& GlDevice::program(const std::string& name, const std::vector<std::string>& defines) {
+  const auto found = programs_.find({name, defines});
+  if (found != programs_.end()) return found->second;
+  return programs_
+      .emplace(std::piecewise_construct, std::forward_as_tuple(name, defines),
+               std::forward_as_tuple(gl_, data_folder_, name, defines))
+      .first->second;
+}
+
+void GiveBack::operator()(GlDevice* device) const noexcept {
+  std::unique_ptr<GlDevice> given(device);
+  try {
+    given->make_current();
+    if (given->gl().GetError() != GL_NO_ERROR) return;
+    given->release();
+    idle().give(std::move(given));
+  } catch (const std::exception&) {
+    // The next one makes a device of its own.
+  }
+}
+
+BorrowedDevice borrow_device(const std::filesystem::path& data_folder, GlBackend backend) {
+  BorrowedDevice device(idle().take(data_folder, backend).release());
+  if (!device) return BorrowedDevice(std::make_unique<GlDevice>(data_folder, backend).release());
+  device->make_current();
+  return device;
+}
+
+}  // namespace drape
