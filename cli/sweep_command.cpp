@@ -60,8 +60,7 @@ ExitCode list_runs(const SweepPlan& plan, const SweepOptions& options) {
                                              : "about " + readable_time(run.cost));
   }
   const double seconds = total / static_cast<double>(options.jobs);
-  print_text(stdout, text + fmt::format("roughly {} in all; effects that collide can take many times as long\n",
-                                        readable_time(seconds)));
+  print_text(stdout, text + fmt::format("roughly {} in all\n", readable_time(seconds)));
   return ExitCode::ok;
 }
 
@@ -126,7 +125,7 @@ ExitCode sweep(const SweepArguments& arguments, const CommonOptions& common) {
 
 ExitCode conclude_sweep(const SweepResults& results, const std::filesystem::path& folder, const CommonOptions& common) {
   for (const std::string& trouble : results.troubles()) spdlog::error(trouble);
-  write_sweep_report(results, folder);
+  if (const std::string problem = write_sweep_report(results, folder); !problem.empty()) spdlog::warn(problem);
   if (!common.quiet) {
     print_text(stdout, fmt::format("{}\n{}\n", results.headline(), (folder / sweep_page_name).string()));
   }

@@ -55,7 +55,7 @@ Markup choices(const std::string& id, const Choices& choices) {
     for (const std::size_t place : piece.chosen) chosen += fmt::format("{}{}", chosen.empty() ? "" : " ", place);
     pieces += element("div", {{"class", "choice"}, {"data-chosen", chosen}}, piece.content);
   }
-  return element("div", {{"class", "choices"}, {"id", id}}, element("p", {{"class", "choice-lists"}}, lists) + pieces);
+  return element("div", {{"class", "chooser"}, {"id", id}}, element("p", {{"class", "choice-lists"}}, lists) + pieces);
 }
 
 }  // namespace drape::html

@@ -70,7 +70,7 @@
     });
   }
 
-  for (const root of all(".choices")) {
+  for (const root of all(".chooser")) {
     const lists = all("select", root);
     const show = () => {
       const chosen = lists.map((list) => list.value).join(" ");

@@ -4,13 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
-
-#include "html/chart.hpp"
 
 namespace drape {
 namespace {
@@ -87,7 +86,14 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-html::Markup diagram(const SweepResults& results, const std::string& figure, std::size_t over) {
+/// A name that needs no quotes anywhere.
+std::string file_name(std::string text) {
+  const auto strange = [](unsigned char c) { return std::isalnum(c) == 0 && c != '_' && c != '-' && c != '.'; };
+  std::ranges::replace_if(text, strange, '-');
+  return text;
+}
+
+NamedChart diagram(const SweepResults& results, const std::string& figure, std::size_t over) {
   using Line = std::map<double, std::vector<double>>;  // the figure's values by place
   const SweepAxis& axis = results.axes[over];
   const std::vector<double> numbers = numbers_of(axis);
@@ -132,7 +138,7 @@ html::Markup diagram(const SweepResults& results, const std::string& figure, std
     series.other = chart.series.size() >= 6;  // there are six colours
     chart.series.push_back(std::move(series));
   }
-  return html::chart(chart);
+  return {file_name(fmt::format("{}-over-{}", figure, axis.name)), std::move(chart)};
 }
 
 }  // namespace
@@ -153,15 +159,23 @@ std::string figure_title(const std::string& name) {
   return found == titles.end() ? name : found->second;
 }
 
-html::Choices figure_diagrams(const SweepResults& results) {
+SweepDiagrams figure_diagrams(const SweepResults& results) {
+  SweepDiagrams diagrams{.figures = changing_figures(results), .axes = {}, .charts = {}};
+  for (const SweepAxis& axis : results.axes) diagrams.axes.push_back(axis.name);
+  for (const std::string& figure : diagrams.figures) {
+    for (std::size_t a = 0; a < diagrams.axes.size(); ++a) diagrams.charts.push_back(diagram(results, figure, a));
+  }
+  return diagrams;
+}
+
+html::Choices choices_of(const SweepDiagrams& diagrams) {
   html::Choices choices;
-  const std::vector<std::string> figures = changing_figures(results);
-  std::vector<std::string> titles, axes;
-  for (const std::string& figure : figures) titles.push_back(figure_title(figure));
-  for (const SweepAxis& axis : results.axes) axes.push_back(axis.name);
-  choices.lists = {{"Figure", titles}, {"over", axes}};
-  for (std::size_t f = 0; f < figures.size(); ++f) {
-    for (std::size_t a = 0; a < axes.size(); ++a) choices.pieces.push_back({{f, a}, diagram(results, figures[f], a)});
+  std::vector<std::string> titles;
+  for (const std::string& figure : diagrams.figures) titles.push_back(figure_title(figure));
+  choices.lists = {{"Figure", titles}, {"over", diagrams.axes}};
+  for (std::size_t i = 0; i < diagrams.charts.size(); ++i) {
+    choices.pieces.push_back(
+        {{i / diagrams.axes.size(), i % diagrams.axes.size()}, html::chart(diagrams.charts[i].chart)});
   }
   return choices;
 }

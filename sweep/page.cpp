@@ -182,8 +182,12 @@ std::string sweep_page(const SweepResults& results, const std::filesystem::path&
   if (!results.shard.whole()) page.heading += fmt::format(" (shard {})", results.shard.text());
   page.introduction = findings(results) + html::command("Make it again", command_of(results.plan.request));
   page.content = Films(results, folder).section();
-  if (const html::Choices diagrams = figure_diagrams(results); !diagrams.pieces.empty()) {
-    page.content += html::section(2, "diagrams", "Diagrams", html::choices("figure-diagrams", diagrams));
+  if (const SweepDiagrams diagrams = figure_diagrams(results); !diagrams.charts.empty()) {
+    page.content +=
+        html::section(2, "diagrams", "Diagrams",
+                      html::choices("figure-diagrams", choices_of(diagrams)) +
+                          html::note(fmt::format("Each is a file, too: {}/ has all of them as SVG, PDF, PNG and CSV.",
+                                                 diagrams_place)));
   }
   page.content += html::section(
       2, "figures", "Figures",

@@ -20,6 +20,7 @@
 #include "run/annotations.hpp"
 #include "run/outputs.hpp"
 #include "scene/problems.hpp"
+#include "sweep/common_side.hpp"
 #include "sweep/estimate.hpp"
 
 namespace drape {
@@ -173,9 +174,16 @@ std::string run_key(const Scene& scene, const SweepRequest& request, const std::
   return hash.text();
 }
 
+std::string run_key(const Scene& scene, const SweepPlan& plan) {
+  const std::string key = run_key(scene, plan.request, plan.program);
+  if (!plan.side || !chooses_side(plan.request, scene.camera)) return key;
+  return key_seen_from(key, plan.runs[*plan.side].key);
+}
+
 SweepPlan make_plan(const SweepRequest& request) {
   require_sense(request);
-  SweepPlan plan{.request = request, .program = program_text(), .names = names_of(request.scenes), .runs = {}};
+  SweepPlan plan{
+      .request = request, .program = program_text(), .names = names_of(request.scenes), .runs = {}, .side = {}};
   const std::vector<std::vector<std::string>> all = combinations(request.varied, request.zipped);
   const TrialFolder trial;
   const RunOptions options = run_options(request, trial.place());
@@ -187,7 +195,8 @@ SweepPlan make_plan(const SweepRequest& request) {
       try {
         const Scene scene = load_scene(request.scenes[i], overrides_of(plan, run));
         require_run(scene, options, largest_texture);
-        run.key = run_key(scene, request, plan.program);
+        run.key = run_key(scene, plan);
+        if (!plan.side && chooses_side(request, scene.camera)) plan.side = plan.runs.size();
         run.cost = estimated_cost(scene, options);
       } catch (const SceneConflict& error) {
         run.refusal = error.what();
@@ -231,6 +240,7 @@ Json plan_json(const SweepPlan& plan) {
           {"motion", request.motion},
           {"steps", request.steps ? Json(*request.steps) : Json()},
           {"backend", static_cast<int>(request.backend)},
+          {"side", plan.side ? Json(*plan.side) : Json()},
           {"runs", runs}};
 }
 
@@ -260,6 +270,9 @@ SweepPlan plan_of(const Json& json) {
     }
     plan.runs.push_back(std::move(run));
   }
+  if (!json.at("side").is_null()) plan.side = json.at("side").get<std::size_t>();
+  if (plan.side && *plan.side >= plan.runs.size())
+    throw std::out_of_range("its films are seen as a run that is not there");
   return plan;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,8 @@ namespace drape {
 struct PlannedRun {
   std::size_t scene = 0;            ///< its place in the request
   std::vector<std::string> values;  ///< of the keys that vary, in their order
-  /// A hash of the resolved scene with the files it names, of the program and of what is asked of it: 16 hexadecimal
-  /// digits. The name of its folder.
+  /// A hash of the resolved scene with the files it names, of the program and of what is asked of it, and of the run
+  /// that says from which side it is seen: 16 hexadecimal digits. The name of its folder.
   std::string key;
   std::string refusal;  ///< why it cannot be run, see SceneConflict; empty: it can be run
   double cost = 0;      ///< how long it will take, see estimated_cost() [s]
@@ -28,6 +29,7 @@ struct SweepPlan {
   std::string program;             ///< that made it, with its revision and compiler
   std::vector<std::string> names;  ///< of the scenes, which tell them apart
   std::vector<PlannedRun> runs;
+  std::optional<std::size_t> side;  ///< the first run whose film has a side chosen, for all: see chooses_side()
 };
 
 /// The overrides of a run.
@@ -40,8 +42,10 @@ std::string label_of(const SweepPlan& plan, const PlannedRun& run);
 /// revision, also what the program's file is.
 std::string program_text();
 
-/// The hash of a scene and what is asked of it, see PlannedRun::key.
+/// The hash of a scene and what is asked of it, whatever the other runs are.
 std::string run_key(const Scene& scene, const SweepRequest& request, const std::string& program);
+/// The key of a run of a plan, of which the runs before it are known.
+std::string run_key(const Scene& scene, const SweepPlan& plan);
 
 /// Resolves every run's scene and looks for all that is wrong before the first one runs: unknown keys, values out of
 /// range, films that cannot be made. Values that are valid, but not together, are no mistake, as where a step is too

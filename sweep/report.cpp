@@ -1,16 +1,24 @@
 #include "sweep/report.hpp"
 
 #include "core/atomic_file.hpp"
+#include "sweep/charts.hpp"
 #include "sweep/page.hpp"
 #include "sweep/tables.hpp"
 
 namespace drape {
 
-void write_sweep_report(const SweepResults& results, const std::filesystem::path& folder) {
+std::string write_sweep_report(const SweepResults& results, const std::filesystem::path& folder) {
   write_file_atomically(folder / "runs.csv", runs_csv(results));
   write_file_atomically(folder / "report.md", sweep_markdown(results));
   write_file_atomically(folder / "table.tex", sweep_latex(results));
+  std::string problem;
+  for (const NamedChart& chart : figure_diagrams(results).charts) {
+    const std::filesystem::path place = folder / diagrams_place;
+    write_file_atomically(place / (chart.name + ".csv"), to_csv(points_table(chart)));
+    problem = write_diagram(html::still_chart(chart.chart), place, chart.name);
+  }
   write_file_atomically(folder / sweep_page_name, sweep_page(results, folder));
+  return problem;
 }
 
 }  // namespace drape

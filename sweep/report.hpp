@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "sweep/results.hpp"
 
@@ -9,8 +10,10 @@ namespace drape {
 /// The name of the page's file.
 inline constexpr const char* sweep_page_name = "report.html";
 
-/// Writes what a sweep has to say into its folder: runs.csv, report.md, table.tex and the page.
+/// Writes what a sweep has to say into its folder: runs.csv, report.md, table.tex, the page, and every diagram as CSV,
+/// SVG, PDF and PNG.
+/// @returns what could not be done, as a sentence; empty if all is there
 /// @throws OutputError
-void write_sweep_report(const SweepResults& results, const std::filesystem::path& folder);
+std::string write_sweep_report(const SweepResults& results, const std::filesystem::path& folder);
 
 }  // namespace drape

@@ -13,7 +13,7 @@ namespace drape {
 using Json = nlohmann::ordered_json;
 namespace {
 
-constexpr int format_number = 1;
+constexpr int format_number = 2;
 constexpr const char* sweep_name = "sweep.json";
 constexpr std::size_t most_sweep_bytes = std::size_t{1} << 30;
 

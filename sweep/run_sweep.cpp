@@ -16,6 +16,7 @@
 #include "core/parallel.hpp"
 #include "output/contact_sheet.hpp"
 #include "run/run_scene.hpp"
+#include "sweep/common_side.hpp"
 
 namespace drape {
 namespace {
@@ -131,14 +132,20 @@ class Sweep {
     }
   }
 
-  [[nodiscard]] RunRecord compute(const PlannedRun& run, const std::filesystem::path& folder,
-                                  std::string& stats) const {
+  /// Threads that need it wait for the one that finds it.
+  const Camera& side() {
+    std::call_once(side_is_found_, [&] { side_ = side_of_films(plan_, stop_); });
+    return side_;
+  }
+
+  [[nodiscard]] RunRecord compute(const PlannedRun& run, const std::filesystem::path& folder, std::string& stats) {
     try {
-      const Scene scene = load_scene(plan_.request.scenes[run.scene], overrides_of(plan_, run));
-      if (run_key(scene, plan_.request, plan_.program) != run.key) {
+      Scene scene = load_scene(plan_.request.scenes[run.scene], overrides_of(plan_, run));
+      if (run_key(scene, plan_) != run.key) {
         throw UsageError(
             fmt::format("{}: it, or a file that it names, has changed since the sweep began", scene.file.string()));
       }
+      if (chooses_side(plan_.request, scene.camera)) look_from(side(), scene.camera);
       Progress unseen;
       const RunResult result = run_scene(scene, run_options(plan_.request, folder), stop_, unseen);
       if (result.statistics.steps() > 0) stats = result.statistics.to_json(outcome_name(result.outcome));
@@ -156,6 +163,8 @@ class Sweep {
   const SweepOptions& options_;
   const std::stop_token& stop_;
   Progress& progress_;
+  std::once_flag side_is_found_;
+  Camera side_;
   std::mutex mutex_;
   std::map<std::size_t, RunRecord> unwritten_;
 };

@@ -30,6 +30,8 @@ class InBrowser : public InScratchFolder {
     EXPECT_EQ(browser_->console_problems(), std::vector<std::string>());
     EXPECT_EQ(browser_->requests(), std::vector<std::string>());
     EXPECT_EQ(browser_->run("return [...document.images].filter((i) => !i.complete || !i.naturalWidth).length"), 0);
+    EXPECT_EQ(browser_->run("return [...document.images].filter((i) => i.decoding === 'async').length"), 0)
+        << "a picture that is decoded later is white on a page that is looked at at once";
     EXPECT_EQ(browser_->run("return [...document.images].filter((i) => !i.alt).length"), 0);
     EXPECT_EQ(browser_->run("return [...document.querySelectorAll('input, button')].filter((i) => "
                             "!i.closest('label') && !i.ariaLabel && !i.textContent).length"),

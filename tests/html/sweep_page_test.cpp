@@ -68,8 +68,12 @@ TEST_F(SweepPage, DrawsAnyFigureOverAnyKey) {
       "return [...document.querySelectorAll('.choice')].filter((c) => c.checkVisibility())"
       ".map((c) => c.querySelector('figcaption').textContent)";
   EXPECT_EQ(browser_->run(seen).size(), 1U);
+  EXPECT_TRUE(
+      browser_->run("const at = (s) => document.querySelector(s).getBoundingClientRect();"
+                    "return at('.choice-lists').bottom <= at('.choice figure').top"))
+      << "the diagram is below what chooses it";
   browser_->run(
-      "const list = document.querySelectorAll('.choices select')[1]; list.value = '2';"
+      "const list = document.querySelectorAll('.chooser select')[1]; list.value = '2';"
       "list.dispatchEvent(new Event('change'))");
   ASSERT_EQ(browser_->run(seen).size(), 1U);
   EXPECT_NE(browser_->run(seen).front().get<std::string>().find("over integrator.method"), std::string::npos);

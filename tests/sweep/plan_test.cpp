@@ -84,6 +84,23 @@ TEST_F(Plan, KnowsTheFilesThatASceneNames) {
   EXPECT_NE(key_with("0"), key_with("0.5"));
 }
 
+TEST_F(Plan, EstimatesThatEffectsTakeTime) {
+  const std::vector<std::string> effects{"effects.self_collision={}", "effects.strain_limit={max_stretch=1.1}"};
+  const std::string scene = folder_.write("large.toml",
+                                          "[cloth]\nmesh = { grid = [30, 30] }\nstiffness = 10\n[time]\n"
+                                          "step = 0.01\n[integrator]\nmethod = \"liu13\"\n");
+  SweepRequest request;
+  request.scenes = {scene};
+  const double bare = make_plan(request).runs.front().cost;
+  for (const std::string& effect : effects) {
+    request.overrides = {effect};
+    const double cost = make_plan(request).runs.front().cost;
+    EXPECT_GT(cost, 5 * bare) << effect << ": it looks at every vertex many times in a step";
+    request.overrides.push_back("time.duration=50");  // ten times as long
+    EXPECT_NEAR(make_plan(request).runs.front().cost / cost, 10, 0.5);
+  }
+}
+
 TEST_F(Plan, IsReadFromTheTableSweepOfAFile) {
   const std::filesystem::path file = folder_.write(
       "plan.toml",

@@ -172,7 +172,7 @@ TEST_F(Sweep, IsNotMergedWithAnother) {
 TEST_F(Sweep, OfAnotherFormatIsRefused) {
   folder_.write("out/sweep.json", "{\"format\": 99}");
   EXPECT_NE(test::usage_error([&] { read_sweep_file(folder_.path("out")); }).find("format 99"), std::string::npos);
-  folder_.write("out/sweep.json", "{\"format\": 1}");
+  folder_.write("out/sweep.json", "{\"format\": 2}");
   EXPECT_NE(test::usage_error([&] { read_sweep_file(folder_.path("out")); }).find("damaged"), std::string::npos);
 }
 
@@ -180,7 +180,7 @@ TEST_F(Sweep, WritesWhatAReportNeeds) {
   SweepRequest request = request_of(scene_, {"cloth.stiffness=10,20", "integrator.method=liu13,implicit"});
   request.films = {"gif"};
   const SweepResults results = sweep(request, into("out"));
-  write_sweep_report(results, folder_.path("out"));
+  EXPECT_EQ(write_sweep_report(results, folder_.path("out")), "");
   const std::string text = test::content(folder_.path("out/report.md"));
   for (const SweepRow& row : results.rows) {
     EXPECT_NE(text.find("](runs/" + results.planned(row).key + "/film.gif)"), std::string::npos) << text;
@@ -190,6 +190,11 @@ TEST_F(Sweep, WritesWhatAReportNeeds) {
   EXPECT_NE(latex.find("\\begin{tabular}{l|rr|rr}"), std::string::npos) << latex;
   EXPECT_NE(latex.find("integrator.method = implicit"), std::string::npos) << latex;
   EXPECT_NE(test::content(folder_.path("out/report.html")).find("films-in-step"), std::string::npos);
+  const std::string diagram = folder_.path("out/diagrams/step_us.median-over-integrator.method");
+  EXPECT_EQ(test::content(diagram + ".csv").find("series,integrator.method,µs a step (median)\n"), 0U);
+  EXPECT_NE(test::content(diagram + ".svg").find("<svg"), std::string::npos);
+  EXPECT_TRUE(test::content(diagram + ".pdf").starts_with("%PDF"));
+  EXPECT_TRUE(test::content(diagram + ".png").starts_with("\x89PNG"));
 }
 
 }  // namespace

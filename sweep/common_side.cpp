@@ -1,0 +1,49 @@
+#include "sweep/common_side.hpp"
+
+#include <new>
+
+#include "core/hash.hpp"
+#include "run/frame_source.hpp"
+#include "run/known_film.hpp"
+#include "run/outputs.hpp"
+
+namespace drape {
+
+bool chooses_side(const SweepRequest& request, const Camera& camera) {
+  return !request.films.empty() && !camera.position && !(camera.azimuth && camera.elevation);
+}
+
+std::string key_seen_from(const std::string& key, const std::string& side) {
+  if (side.empty() || side == key) return key;
+  Hash hash;
+  hash.add(key + ", seen as " + side);
+  return hash.text();
+}
+
+Camera side_of_films(const SweepPlan& plan, const std::stop_token& stop) {
+  struct Stopped {};
+  const Camera usual{.azimuth = Camera::usual_azimuth, .elevation = Camera::usual_elevation};
+  const PlannedRun& run = plan.runs.at(plan.side.value());
+  try {
+    const Scene scene = load_scene(plan.request.scenes[run.scene], overrides_of(plan, run));
+    const FilmExtent extent = film_extent(scene, run_options(plan.request, {}));
+    FrameSource motion(scene, nullptr, extent, std::nullopt);  // well_placed() goes through it once
+    return well_placed(scene.camera, known_film(scene, scene.video.size, extent.frames.count(), [&](const auto& visit) {
+                         motion.pass(visit, stop);
+                         if (stop.stop_requested()) throw Stopped();
+                       }));
+  } catch (const Stopped&) {
+    return usual;  // nothing is drawn any more
+  } catch (const Error&) {
+    return usual;  // that run's own row says why
+  } catch (const std::bad_alloc&) {
+    return usual;
+  }
+}
+
+void look_from(const Camera& side, Camera& camera) {
+  if (!camera.azimuth) camera.azimuth = side.azimuth;
+  if (!camera.elevation) camera.elevation = side.elevation;
+}
+
+}  // namespace drape
