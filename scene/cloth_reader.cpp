@@ -6,9 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/error.hpp"
-#include "core/nearest.hpp"
-#include "scene/mesh_file.hpp"
+#include "scene/mesh_value.hpp"
 #include "scene/pins.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/values.hpp"
@@ -16,59 +14,8 @@
 namespace drape {
 namespace {
 
-/// A cloth of four million cells takes about 1 GB before the first step; beyond that a typing error is more likely.
-constexpr std::int64_t most_grid_cells = 4'000'000;
-
 /// Energies and volumes are products of up to three lengths, a stiffness and the number of vertices [m].
 constexpr double furthest_place = 1e90;
-
-std::optional<Mesh> read_grid(const TomlValue& value, const std::string& name, Problems& problems) {
-  const TomlTable& table = *value.as<TomlTable>();
-  static const std::vector<std::string> keys = {"grid"};
-  bool good = true;
-  for (const TomlEntry& entry : table.entries) {
-    if (entry.name == keys.front()) continue;
-    problems.add(entry.place, fmt::format("{}: unknown key '{}'{}", name, entry.name,
-                                          did_you_mean(entry.name, keys, "the only key is")));
-    good = false;
-  }
-  const TomlValue* grid = table.find(keys.front());
-  if (grid == nullptr) {
-    if (good) problems.add(value.place, name + ": missing key 'grid'");
-    return std::nullopt;
-  }
-  const auto cells = read_int_pair(*grid, name + ".grid", {.minimum = 1}, problems);
-  if (!cells || !good) return std::nullopt;
-  const int columns = (*cells)[0], rows = (*cells)[1];
-  if (std::int64_t{columns} * rows > most_grid_cells) {
-    problems.add(grid->place, fmt::format("{}.grid: a grid has at most {} cells, found {}×{}", name, most_grid_cells,
-                                          columns, rows));
-    return std::nullopt;
-  }
-  return make_grid(columns, rows);
-}
-
-std::optional<Mesh> read_file(const TomlValue& value, const std::string& name, const std::filesystem::path& folder,
-                              Problems& problems) {
-  const std::string& file = *value.as<std::string>();
-  try {
-    Mesh mesh = read_mesh(folder / file);
-    if (!mesh.triangles.empty()) return mesh;
-    problems.add(value.place, fmt::format("{}: '{}' has no triangles", name, file));
-  } catch (const UsageError& error) {
-    problems.add(value.place, fmt::format("{}: '{}' cannot be read:\n{}", name, file, error.what()));
-  }
-  return std::nullopt;
-}
-
-std::optional<Mesh> read_mesh_value(const TomlValue& value, const std::string& name,
-                                    const std::filesystem::path& folder, Problems& problems) {
-  if (value.as<TomlTable>() != nullptr) return read_grid(value, name, problems);
-  if (value.as<std::string>() != nullptr) return read_file(value, name, folder, problems);
-  problems.add(value.place, fmt::format("{}: expected the name of a file or {{ grid = [columns, rows] }}, found {}",
-                                        name, value.kind()));
-  return std::nullopt;
-}
 
 std::optional<Eigen::Vector3d> read_scale(const TomlValue* value, Problems& problems) {
   constexpr const char* name = "scale";
@@ -148,8 +95,9 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
                                       const std::filesystem::path& folder, Problems& problems) {
   const std::size_t problems_before = problems.count();
   std::optional<Mesh> start, rest;
-  if (table.mesh != nullptr) start = read_mesh_value(*table.mesh, "mesh", folder, problems);
-  if (table.rest != nullptr) rest = read_mesh_value(*table.rest, "rest", folder, problems);
+  std::vector<std::filesystem::path> inputs;
+  if (table.mesh != nullptr) start = read_mesh_value(*table.mesh, "mesh", folder, inputs, problems);
+  if (table.rest != nullptr) rest = read_mesh_value(*table.rest, "rest", folder, inputs, problems);
   if (start && rest) {
     const std::string differs = difference(*rest, *start);
     if (!differs.empty()) {
@@ -182,7 +130,7 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
   }
 
   ClothAndUvs result{make_cloth(*start, *rest, table.mass, table.stiffness.value_or(1), std::move(pins)),
-                     std::move(start->uvs), std::move(unplaced)};
+                     std::move(start->uvs), std::move(unplaced), std::move(inputs)};
   if (!give_material(table, value, result.cloth, problems)) return std::nullopt;
   result.cloth.velocities.rowwise() = table.velocity.transpose();
   for (const int pin : result.cloth.pins) result.cloth.velocities.row(pin).setZero();

@@ -14,8 +14,9 @@ namespace drape {
 /// A cloth and how a picture is laid on it.
 struct ClothAndUvs {
   Cloth cloth;
-  std::vector<std::array<float, 2>> uvs;  ///< see Mesh::uvs
-  Vertices unplaced;                      ///< where its vertices were before [cloth.transform] [m]
+  std::vector<std::array<float, 2>> uvs;      ///< see Mesh::uvs
+  Vertices unplaced;                          ///< where its vertices were before [cloth.transform] [m]
+  std::vector<std::filesystem::path> inputs;  ///< the files that it was read from
 };
 
 /// Makes the cloth that a [cloth] table describes.

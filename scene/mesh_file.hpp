@@ -1,14 +1,27 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
+#include "scene/mesh/options.hpp"
 #include "sim/mesh.hpp"
+#include "sim/mesh_motion.hpp"
 
 namespace drape {
 
 /// Reads a mesh from a Wavefront OBJ (.obj) or an ASCII USD file (.usda, or .usd with such content), in metres with z
 /// up. What is read of each format: see read_obj_mesh and read_usd_mesh.
+/// @param inputs where not null, every file that is read for it is added: also those that a USD file refers to
 /// @throws UsageError "file:line:column: message", or "file: message" where no place is at fault
-Mesh read_mesh(const std::filesystem::path& file);
+Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options = {},
+               std::vector<std::filesystem::path>* inputs = nullptr);
+
+/// Reads a mesh that may move: that of a USD file (see read_usd_mesh_motion), or an OBJ sequence,
+/// "body/{frame:04}.obj": files with the same triangles, the first at 0 s and one every 1/frames_per_second. Any other
+/// mesh stands still.
+/// @param inputs as above
+/// @throws UsageError as above, also where the frames of a sequence do not have the same triangles
+MeshMotion read_mesh_motion(const std::filesystem::path& file, const MeshOptions& options = {},
+                            std::vector<std::filesystem::path>* inputs = nullptr);
 
 }  // namespace drape

@@ -172,22 +172,20 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   reader.read_all(document, scene_tables(cloth_table, scene));
   bool cloth_good = false;
   Vertices unplaced;
+  std::vector<std::filesystem::path> cloth_inputs;
   if (const TomlValue* value = find_path(document, "cloth")) {
     if (auto cloth = read_cloth(cloth_table, *value, folder, problems)) {
       scene.simulation.cloth = std::move(cloth->cloth);
       scene.uvs = std::move(cloth->uvs);
       unplaced = std::move(cloth->unplaced);
+      cloth_inputs = std::move(cloth->inputs);
       reader.set_vertices(&unplaced);
       cloth_good = reader.good("cloth") && reader.good("cloth.transform");
     }
   }
   const std::vector<ReadEffect> effects = read_effects(document, reader, problems);
   scene.inputs = reader.files();
-  for (const TomlValue* mesh : {cloth_table.mesh, cloth_table.rest}) {
-    if (mesh != nullptr && mesh->as<std::string>() != nullptr) {
-      scene.inputs.push_back(folder / *mesh->as<std::string>());
-    }
-  }
+  scene.inputs.insert(scene.inputs.end(), cloth_inputs.begin(), cloth_inputs.end());
   if (const TomlValue* look = find_path(document, "look")) {
     scene.texture_place = problems.text(place_of(*look, "texture"));
   }

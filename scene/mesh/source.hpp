@@ -35,6 +35,15 @@ class SourceText {
   std::string text_;
 };
 
+/// A place in a file, for a message about what stands there.
+struct SourcePlace {
+  const SourceText* source = nullptr;  ///< outlives this
+  std::size_t offset = 0;
+
+  /// @throws UsageError, as SourceText::fail
+  [[noreturn]] void fail(const std::string& message) const { source->fail(offset, message); }
+};
+
 /// A piece of a file between single quotes, for a message: cut where it is long or ends its line, without control
 /// characters.
 std::string in_quotes(std::string_view piece);

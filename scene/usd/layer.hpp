@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scene/mesh/source.hpp"
@@ -12,7 +13,7 @@ namespace drape {
 
 /// The value of an attribute: its numbers, with tuples and matrices laid out flat, or its strings.
 struct UsdValue {
-  std::size_t offset = 0;  ///< where it begins in the file
+  SourcePlace place;  ///< where it begins
   std::vector<double> numbers;
   std::vector<std::string> strings;
 };
@@ -29,8 +30,9 @@ struct UsdAttribute {
   std::string type;            ///< "point3f", without the brackets of an array
   std::size_t components = 0;  ///< numbers per element: 3 for point3f, 16 for matrix4d, 0 for strings and tokens
   bool is_array = false;
-  std::size_t offset = 0;  ///< where it is declared
+  SourcePlace place;  ///< where it is declared
   std::string interpolation;
+  std::size_t element_size = 1;    ///< how many elements belong to each point, face, …
   std::optional<UsdValue> value;   ///< the one outside of time
   std::vector<UsdSample> samples;  ///< by increasing time
 
@@ -40,16 +42,43 @@ struct UsdAttribute {
   }
 };
 
-/// A prim of the scene tree.
-struct UsdPrim {
+/// A relationship of a prim to others.
+struct UsdRelationship {
+  std::string name;                  ///< "skel:skeleton"
+  std::vector<std::string> targets;  ///< paths: "/Model/Skel"
+};
+
+/// What a prim, or a whole file, is made of beside what it says itself.
+struct UsdArc {
+  enum class Kind { inherits, reference, payload, specializes, sublayer };
+  Kind kind = Kind::reference;
+  std::string file;   ///< as the file has it; empty: the prim stands in the same file
+  std::string path;   ///< of a prim; empty: the file's defaultPrim
+  double offset = 0;  ///< added to its times, which are stretched before [time codes]
+  double scale = 1;   ///< by which its times are stretched
+  SourcePlace place;
+};
+
+struct UsdVariantSet;
+
+/// What one file says about a prim: its own statements, and where others are to be found.
+struct UsdSpec {
   bool is_defined = false;  ///< by `def`; an `over` or a `class` is not part of the scene by itself
   std::string type;         ///< "Mesh"
   std::string name;
-  std::size_t offset = 0;
+  SourcePlace place;
   std::vector<UsdAttribute> attributes;  ///< those that say how a mesh looks and moves, see parse_usd
-  std::vector<UsdPrim> children;
+  std::vector<UsdRelationship> relationships;
+  std::vector<UsdArc> arcs;                                     ///< the strongest of each kind first
+  std::vector<std::pair<std::string, std::string>> selections;  ///< variant set and variant
+  std::vector<UsdVariantSet> variant_sets;
+  std::vector<UsdSpec> children;
+};
 
-  [[nodiscard]] const UsdAttribute* find(std::string_view attribute) const;
+/// What is said about a prim if a variant is selected: each is a UsdSpec with the variant's name.
+struct UsdVariantSet {
+  std::string name;
+  std::vector<UsdSpec> variants;
 };
 
 /// A usda file. The defaults are those the USD schema gives a file that does not say.
@@ -58,17 +87,25 @@ struct UsdLayer {
   double metres_per_unit = 0.01;
   double time_codes_per_second = 24;
   double start_time_code = 0;
-  std::vector<UsdPrim> prims;
-  std::optional<std::size_t> mesh_in_variant;  ///< where the first Mesh within a variant set is, which is passed over
+  std::string default_prim;       ///< what a reference to the file means that names no prim
+  std::vector<UsdArc> sublayers;  ///< the strongest first
+  std::vector<UsdSpec> prims;
 };
 
-/// Parses an ASCII USD file. The syntax of all of it is checked, but only what a mesh and its motion need is kept: the
-/// attributes points, faceVertexCounts, faceVertexIndices, orientation, radius, xformOpOrder, xformOp:* and the texture
-/// coordinates among primvars:*. References to other files, variants and payloads are passed over.
+/// What to keep of a file, which may be hundreds of megabytes.
+struct UsdReading {
+  bool moving_points = false;  ///< every sample of every attribute; otherwise only transforms have more than the first
+  std::string primvar = {};    ///< one to keep beside the texture coordinates and the skin, without "primvars:"
+};
+
+/// Parses an ASCII USD file. The syntax of all of it is checked, but only what a mesh and its motion need is kept:
+/// points, faceVertexCounts, faceVertexIndices, orientation, radius, xformOpOrder, xformOp:*, the texture coordinates
+/// and the skin among primvars:*, what a Skeleton and a SkelAnimation have, and where other specs of a prim stand.
+/// @param source must outlive the layer
 /// @throws UsageError "file:line:column: message", also for the binary form of USD, which is not read
-UsdLayer parse_usd(const SourceText& source);
+UsdLayer parse_usd(const SourceText& source, const UsdReading& reading);
 
 /// The place of the `index`-th number or string of a value, for a message.
-std::size_t usd_value_offset(const SourceText& source, const UsdValue& value, std::size_t index);
+SourcePlace usd_value_place(const UsdValue& value, std::size_t index);
 
 }  // namespace drape

@@ -6,27 +6,27 @@
 
 #include <fmt/format.h>
 
-#include "scene/usd/layer.hpp"
+#include "scene/usd/stage.hpp"
 #include "scene/usd/xform.hpp"
 
 namespace drape {
 namespace {
 
-UsdPath moving_prim(const SourceText& source, const UsdLayer& layer) {
-  const std::vector<UsdPath> shapes = find_prims(layer, {"Mesh", "Sphere"});
+UsdPath moving_prim(const UsdStage& stage) {
+  const std::vector<UsdPath> shapes = find_prims(stage, {"Mesh", "Sphere"});
   for (const UsdPath& path : shapes) {
     if (!transform_times(path).empty()) return path;
   }
   if (!shapes.empty()) return shapes.front();
-  for (const UsdPath& path : find_prims(layer, {})) {
+  for (const UsdPath& path : find_prims(stage, {})) {
     if (!transform_times(path).empty()) return path;
   }
-  source.fail("there is neither a Mesh nor a Sphere nor a moving prim in the file");
+  stage.source().fail("there is neither a Mesh nor a Sphere nor a moving prim in the file");
 }
 
-void bound_points(const SourceText& source, const UsdAttribute& points, TransformTrack& track) {
+void bound_points(const UsdAttribute& points, TransformTrack& track) {
   if (points.components != 3 || !points.is_array || points.first() == nullptr) {
-    source.fail(points.offset, "points: expected an array of point3f, found " + points.type);
+    points.place.fail("points: expected an array of point3f, found " + points.type);
   }
   const std::vector<double>& numbers = points.first()->numbers;
   if (numbers.empty()) return;
@@ -36,13 +36,13 @@ void bound_points(const SourceText& source, const UsdAttribute& points, Transfor
   track.radius = (positions.colwise() - track.center).colwise().stableNorm().maxCoeff();
 }
 
-void bound_sphere(const SourceText& source, const UsdPrim& prim, TransformTrack& track) {
+void bound_sphere(const UsdPrim& prim, TransformTrack& track) {
   track.radius = 1;  // what the USD schema gives a Sphere that does not say
   const UsdAttribute* radius = prim.find("radius");
   if (radius == nullptr || radius->first() == nullptr) return;
-  if (radius->components != 1 || radius->is_array) source.fail(radius->offset, "radius: expected one number");
+  if (radius->components != 1 || radius->is_array) radius->place.fail("radius: expected one number");
   track.radius = radius->first()->numbers[0];
-  if (track.radius <= 0) source.fail(radius->first()->offset, "radius: expected a positive number");
+  if (track.radius <= 0) radius->first()->place.fail("radius: expected a positive number");
 }
 
 class UsdSphereTrack final : public SphereTrack {
@@ -74,8 +74,9 @@ SphereShape TransformTrack::sphere_at(double time) const {
 }
 
 TransformTrack read_usd_motion(const SourceText& source) {
-  const UsdLayer layer = parse_usd(source);
-  const UsdPath path = moving_prim(source, layer);
+  const UsdStage stage(source);
+  const UsdLayer& layer = stage.layer();
+  const UsdPath path = moving_prim(stage);
   const UsdPrim& prim = *path.back();
 
   TransformTrack track;
@@ -83,11 +84,11 @@ TransformTrack read_usd_motion(const SourceText& source) {
   if (time_codes.empty()) time_codes.push_back(layer.start_time_code);
   for (const double code : time_codes) {
     track.times.push_back((code - layer.start_time_code) / layer.time_codes_per_second);
-    if (!std::isfinite(track.times.back())) source.fail(prim.offset, "the times of its samples overflow in seconds");
-    track.transforms.push_back(world_transform(source, layer, path, code));
+    if (!std::isfinite(track.times.back())) prim.place.fail("the times of its samples overflow in seconds");
+    track.transforms.push_back(world_transform(stage, path, code));
   }
-  if (prim.type == "Mesh" && prim.find("points") != nullptr) bound_points(source, *prim.find("points"), track);
-  if (prim.type == "Sphere") bound_sphere(source, prim, track);
+  if (prim.type == "Mesh" && prim.find("points") != nullptr) bound_points(*prim.find("points"), track);
+  if (prim.type == "Sphere") bound_sphere(prim, track);
   return track;
 }
 

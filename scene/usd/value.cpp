@@ -77,13 +77,14 @@ UsdType usd_type(std::string_view name) {
   return {};
 }
 
-std::optional<UsdValue> parse_usd_value(UsdLexer& lexer, const UsdAttribute& attribute, const UsdType& type) {
+std::optional<UsdValue> parse_usd_value(const SourceText& source, UsdLexer& lexer, const UsdAttribute& attribute,
+                                        const UsdType& type) {
   if (lexer.at_word("None")) {
     lexer.take();
     return std::nullopt;
   }
   UsdValue value;
-  value.offset = lexer.token().offset;
+  value.place = {&source, lexer.token().offset};
   if (!attribute.is_array) {
     parse_element(lexer, value, type, attribute.name);
     return value;
@@ -97,12 +98,43 @@ std::optional<UsdValue> parse_usd_value(UsdLexer& lexer, const UsdAttribute& att
   return value;
 }
 
-std::size_t usd_value_offset(const SourceText& source, const UsdValue& value, std::size_t index) {
-  UsdLexer lexer(source, value.offset);
+Eigen::Quaterniond usd_quaternion(const double* wxyz) {
+  const Eigen::Quaterniond q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  // Normalised through the largest component: the squares of huge or tiny ones would leave the range of a double.
+  const double largest = q.coeffs().cwiseAbs().maxCoeff();
+  return largest == 0 ? Eigen::Quaterniond::Identity() : Eigen::Quaterniond(q.coeffs() / largest).normalized();
+}
+
+std::vector<double> usd_numbers_at(const UsdAttribute& attribute, double time) {
+  const std::vector<UsdSample>& samples = attribute.samples;
+  if (samples.empty()) return attribute.value ? attribute.value->numbers : std::vector<double>{};
+  const auto next = std::upper_bound(samples.begin(), samples.end(), time,
+                                     [](double t, const UsdSample& sample) { return t < sample.time; });
+  if (next == samples.begin()) return samples.front().value.numbers;
+  if (next == samples.end()) return samples.back().value.numbers;
+  const UsdSample& before = *std::prev(next);
+  const double weight = (time - before.time) / (next->time - before.time);
+  std::vector<double> result = before.value.numbers;
+  const std::vector<double>& after = next->value.numbers;
+  if (weight == 0 || after.size() != result.size()) return result;
+  if (attribute.type.starts_with("quat")) {
+    for (std::size_t i = 0; i + 4 <= result.size(); i += 4) {
+      const Eigen::Quaterniond q = usd_quaternion(&result[i]).slerp(weight, usd_quaternion(&after[i]));
+      result[i] = q.w();
+      std::copy_n(q.vec().data(), 3, &result[i + 1]);
+    }
+    return result;
+  }
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] += weight * (after[i] - result[i]);
+  return result;
+}
+
+SourcePlace usd_value_place(const UsdValue& value, std::size_t index) {
+  UsdLexer lexer(*value.place.source, value.place.offset);
   while (true) {
     const UsdToken token = lexer.take();
     const bool counts = token.kind == Kind::number || token.kind == Kind::string;
-    if (token.kind == Kind::end || (counts && index-- == 0)) return token.offset;
+    if (token.kind == Kind::end || (counts && index-- == 0)) return {value.place.source, token.offset};
   }
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "scene/usd/layer.hpp"
 #include "scene/usd/lexer.hpp"
@@ -25,6 +27,15 @@ UsdType usd_type(std::string_view name);
 /// Parses a value of an attribute at the lexer's token, up to behind it; nothing for None.
 /// @param type the attribute's, of numbers or text
 /// @throws UsageError unless all of it has the attribute's shape, and its numbers are finite
-std::optional<UsdValue> parse_usd_value(UsdLexer& lexer, const UsdAttribute& attribute, const UsdType& type);
+std::optional<UsdValue> parse_usd_value(const SourceText& source, UsdLexer& lexer, const UsdAttribute& attribute,
+                                        const UsdType& type);
+
+/// Real and imaginary parts as a rotation; that of zeros is none.
+Eigen::Quaterniond usd_quaternion(const double* wxyz);
+
+/// The numbers of an attribute at a time [time codes]; empty if it has no value. Between its samples they are
+/// interpolated linearly, quaternions along the shortest arc, and samples of different lengths not at all: the one
+/// before holds. Outside of them the nearest holds.
+std::vector<double> usd_numbers_at(const UsdAttribute& attribute, double time);
 
 }  // namespace drape

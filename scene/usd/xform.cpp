@@ -7,49 +7,14 @@
 
 #include <fmt/format.h>
 
+#include "scene/usd/value.hpp"
+
 namespace drape {
 namespace {
 
 constexpr std::string_view kReset = "!resetXformStack!";
 constexpr std::string_view kInvert = "!invert!";
 constexpr std::string_view kPrefix = "xformOp:";
-
-void collect(const std::vector<UsdPrim>& prims, std::initializer_list<std::string_view> types, UsdPath& path,
-             std::vector<UsdPath>& found) {
-  for (const UsdPrim& prim : prims) {
-    if (!prim.is_defined) continue;
-    path.push_back(&prim);
-    if (types.size() == 0 || std::find(types.begin(), types.end(), prim.type) != types.end()) found.push_back(path);
-    collect(prim.children, types, path, found);
-    path.pop_back();
-  }
-}
-
-Eigen::Quaterniond quaternion(const std::vector<double>& wxyz) {
-  const Eigen::Quaterniond q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
-  // Normalised through the largest component: the squares of huge or tiny ones would leave the range of a double.
-  const double largest = q.coeffs().cwiseAbs().maxCoeff();
-  return largest == 0 ? Eigen::Quaterniond::Identity() : Eigen::Quaterniond(q.coeffs() / largest).normalized();
-}
-
-/// The numbers of an operation at a time; empty if it has no value.
-std::vector<double> value_at(const UsdAttribute& attribute, double time) {
-  const std::vector<UsdSample>& samples = attribute.samples;
-  if (samples.empty()) return attribute.value ? attribute.value->numbers : std::vector<double>{};
-  const auto next = std::upper_bound(samples.begin(), samples.end(), time,
-                                     [](double t, const UsdSample& sample) { return t < sample.time; });
-  if (next == samples.begin()) return samples.front().value.numbers;
-  if (next == samples.end()) return samples.back().value.numbers;
-  const UsdSample& before = *std::prev(next);
-  const double weight = (time - before.time) / (next->time - before.time);
-  std::vector<double> result = before.value.numbers;
-  if (attribute.type.starts_with("quat")) {
-    const Eigen::Quaterniond q = quaternion(result).slerp(weight, quaternion(next->value.numbers));
-    return {q.w(), q.x(), q.y(), q.z()};
-  }
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] += weight * (next->value.numbers[i] - result[i]);
-  return result;
-}
 
 Eigen::Affine3d rotation(std::string_view axes, const std::vector<double>& degrees) {
   Eigen::Affine3d result = Eigen::Affine3d::Identity();
@@ -63,17 +28,6 @@ Eigen::Affine3d rotation(std::string_view axes, const std::vector<double>& degre
   return result;
 }
 
-/// USD's matrices act on row vectors, p′ = p·M: ours is the transpose.
-Eigen::Affine3d affine(const std::vector<double>& m) {
-  Eigen::Affine3d result;
-  for (Eigen::Index row = 0; row < 4; ++row) {
-    for (Eigen::Index column = 0; column < 4; ++column) {
-      result.matrix()(column, row) = m[static_cast<std::size_t>(4 * row + column)];
-    }
-  }
-  return result;
-}
-
 const UsdValue* operation_order(const UsdPrim& prim) {
   const UsdAttribute* order = prim.find("xformOpOrder");
   return order == nullptr || !order->value ? nullptr : &*order->value;
@@ -83,43 +37,38 @@ const UsdValue* operation_order(const UsdPrim& prim) {
 class Operation {
  public:
   /// @param name the `index`-th of xformOpOrder, without !invert!
-  Operation(const SourceText& source, const UsdPrim& prim, std::string_view name, std::size_t index)
-      : source_(source), attribute_(prim.find(name)) {
+  Operation(const UsdPrim& prim, std::string_view name, std::size_t index) : attribute_(prim.find(name)) {
     const std::string_view after = name.substr(std::min(name.size(), kPrefix.size()));
     kind_ = after.substr(0, after.find(':'));
     if (!name.starts_with(kPrefix) || attribute_ == nullptr) {
-      source.fail(usd_value_offset(source, *operation_order(prim), index),
-                  fmt::format("the prim {} has no operation {}", in_quotes(prim.name), in_quotes(name)));
+      usd_value_place(*operation_order(prim), index)
+          .fail(fmt::format("the prim {} has no operation {}", in_quotes(prim.name), in_quotes(name)));
     }
     const std::size_t components = expected_components();
     if (components == 0) {
-      source.fail(attribute_->offset,
-                  fmt::format("unknown operation {}: expected xformOp:translate, scale, rotateX, rotateY, rotateZ, "
-                              "rotateXYZ or another order of these, orient or transform",
-                              in_quotes(name)));
+      attribute_->place.fail(
+          fmt::format("unknown operation {}: expected xformOp:translate, scale, rotateX, rotateY, rotateZ, "
+                      "rotateXYZ or another order of these, orient or transform",
+                      in_quotes(name)));
     }
     if (attribute_->is_array || attribute_->components != components) {
-      source.fail(attribute_->offset, fmt::format("{}: expected a type of {} numbers, found {}{}", name, components,
-                                                  attribute_->type, attribute_->is_array ? "[]" : ""));
+      attribute_->place.fail(fmt::format("{}: expected a type of {} numbers, found {}{}", name, components,
+                                         attribute_->type, attribute_->is_array ? "[]" : ""));
     }
   }
 
   [[nodiscard]] Eigen::Affine3d at(double time) const {
-    const std::vector<double> v = value_at(*attribute_, time);
+    const std::vector<double> v = usd_numbers_at(*attribute_, time);
     if (v.empty()) return Eigen::Affine3d::Identity();
     if (kind_ == "translate") return Eigen::Affine3d(Eigen::Translation3d(v[0], v[1], v[2]));
     if (kind_ == "scale") return Eigen::Affine3d(Eigen::Scaling(v[0], v[1], v[2]));
-    if (kind_ == "orient") return Eigen::Affine3d(quaternion(v));
+    if (kind_ == "orient") return Eigen::Affine3d(usd_quaternion(v.data()));
     if (kind_ != "transform") return rotation(kind_.substr(6), v);
-    const Eigen::Affine3d matrix = affine(v);
-    if (matrix.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
-      source_.fail(offset(), "the matrix is not affine: its last column must be 0, 0, 0, 1");
-    }
-    return matrix;
+    return usd_affine(v.data(), place());
   }
 
-  [[nodiscard]] std::size_t offset() const {
-    return attribute_->first() != nullptr ? attribute_->first()->offset : attribute_->offset;
+  [[nodiscard]] SourcePlace place() const {
+    return attribute_->first() != nullptr ? attribute_->first()->place : attribute_->place;
   }
 
  private:
@@ -134,7 +83,6 @@ class Operation {
     return axes == "XYZ" ? 3 : 0;
   }
 
-  const SourceText& source_;
   const UsdAttribute* attribute_;
   std::string_view kind_;
 };
@@ -145,7 +93,7 @@ bool resets_stack(const UsdPrim& prim) {
 }
 
 /// From a prim's coordinates to its parent's. The last operation of the order acts first.
-Eigen::Affine3d local_transform(const SourceText& source, const UsdPrim& prim, double time) {
+Eigen::Affine3d local_transform(const UsdPrim& prim, double time) {
   Eigen::Affine3d result = Eigen::Affine3d::Identity();
   const UsdValue* order = operation_order(prim);
   if (order == nullptr) return result;
@@ -154,10 +102,10 @@ Eigen::Affine3d local_transform(const SourceText& source, const UsdPrim& prim, d
     if (name == kReset) continue;
     const bool inverted = name.starts_with(kInvert);
     if (inverted) name.remove_prefix(kInvert.size());
-    const Operation operation(source, prim, name, i);
+    const Operation operation(prim, name, i);
     const Eigen::Affine3d matrix = operation.at(time);
     if (inverted && !(std::abs(matrix.linear().determinant()) > 0)) {
-      source.fail(operation.offset(), fmt::format("{} cannot be inverted", name));
+      operation.place().fail(fmt::format("{} cannot be inverted", name));
     }
     result = result * (inverted ? matrix.inverse() : matrix);
   }
@@ -166,34 +114,30 @@ Eigen::Affine3d local_transform(const SourceText& source, const UsdPrim& prim, d
 
 }  // namespace
 
-std::vector<UsdPath> find_prims(const UsdLayer& layer, std::initializer_list<std::string_view> types) {
-  std::vector<UsdPath> found;
-  UsdPath path;
-  collect(layer.prims, types, path, found);
-  return found;
+Eigen::Affine3d usd_affine(const double* m, const SourcePlace& place) {
+  Eigen::Affine3d result;
+  result.matrix() = Eigen::Map<const Eigen::Matrix4d>(m);  // the rows of the one are the columns of the other
+  if (result.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
+    place.fail("the matrix is not affine: its last column must be 0, 0, 0, 1");
+  }
+  return result;
 }
 
-std::string path_text(const UsdPath& path) {
-  std::string text;
-  for (const UsdPrim* prim : path) text += '/' + prim->name;
-  return text;
-}
-
-Eigen::Affine3d world_transform(const SourceText& source, const UsdLayer& layer, const UsdPath& path, double time) {
+Eigen::Affine3d world_transform(const UsdStage& stage, const UsdPath& path, double time) {
   Eigen::Affine3d result = Eigen::Affine3d::Identity();
   for (auto prim = path.rbegin(); prim != path.rend(); ++prim) {
-    result = local_transform(source, **prim, time) * result;
+    result = local_transform(**prim, time) * result;
     if (resets_stack(**prim)) break;
   }
-  if (!layer.z_up) {
+  if (!stage.layer().z_up) {
     // Exactly (x, y, z) → (x, −z, y): a rotation by π/2 would leave rounding in every coordinate.
     Eigen::Matrix3d to_z_up;
     to_z_up << 1, 0, 0, 0, 0, -1, 0, 1, 0;
     result = Eigen::Affine3d(to_z_up) * result;
   }
-  result = Eigen::Scaling(layer.metres_per_unit) * result;
+  result = Eigen::Scaling(stage.layer().metres_per_unit) * result;
   if (!result.matrix().allFinite()) {
-    source.fail(path.back()->offset, fmt::format("the transform of {} overflows", in_quotes(path.back()->name)));
+    path.back()->place.fail(fmt::format("the transform of {} overflows", in_quotes(path.back()->name)));
   }
   return result;
 }

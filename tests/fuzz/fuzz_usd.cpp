@@ -1,18 +1,33 @@
-// ASCII USD, as a mesh and as a motion.
+// ASCII USD, as a mesh, as a mesh that moves and as a motion.
 
 #include "scene/usd/mesh.hpp"
 #include "scene/usd/motion.hpp"
 #include "tests/fuzz/accepts_or_refuses.hpp"
 
+namespace {
+
+void check_triangles(const drape::Mesh& mesh) {
+  if (!mesh.positions.allFinite()) std::abort();
+  for (const drape::Triangle& triangle : mesh.triangles) {
+    for (const int vertex : triangle) {
+      if (vertex < 0 || vertex >= mesh.positions.rows()) std::abort();
+    }
+  }
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const drape::SourceText source("mesh.usda", std::string(data, data + size));
+  drape::accepts_or_refuses([&] { check_triangles(drape::read_usd_mesh(source)); });
   drape::accepts_or_refuses([&] {
-    const drape::Mesh mesh = drape::read_usd_mesh(source);
-    if (!mesh.positions.allFinite()) std::abort();
-    for (const drape::Triangle& triangle : mesh.triangles) {
-      for (const int vertex : triangle) {
-        if (vertex < 0 || vertex >= mesh.positions.rows()) std::abort();
-      }
+    const drape::MeshMotion motion = drape::read_usd_mesh_motion(source);
+    check_triangles(motion.mesh);
+    if (motion.samples.size() != motion.times.size()) std::abort();
+    drape::Vertices x;
+    for (const double time : {-1.0, 0.0, 0.3, 1e9}) {
+      motion.place(time, x);
+      if (x.rows() != motion.mesh.positions.rows() || !x.allFinite()) std::abort();
     }
   });
   drape::accepts_or_refuses([&] {

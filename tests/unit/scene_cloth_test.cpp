@@ -52,14 +52,35 @@ TEST(SceneMesh, AFaultyFileIsNamedUnderItsPlaceInTheScene) {
   EXPECT_NE(problem.find("\nscene.toml:3:13: stiffness must be above 0, found 0"), std::string::npos) << problem;
 }
 
+TEST(SceneMesh, IsChosenByItsNameAndTurnedByItsUpAxis) {
+  const SceneFolder folder;
+  folder.write(
+      "two.usda",
+      "#usda 1.0\n(\nupAxis = \"Z\"\nmetersPerUnit = 1\n)\ndef Mesh \"a\" {}\ndef Xform \"b\" {\ndef Mesh \"c\" "
+      "{\nint[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\npoint3f[] points = [(0, 0, 0), (1, 0, "
+      "0), (0, 1, 0)]\n}\n}\n");
+  folder.write("lying.obj", "v 0 0 0\nv 1 0 0\nv 0 1 2\nf 1 2 3\n");
+  const Scene chosen = folder.load("[cloth]\nmesh = { file = \"two.usda\", prim = \"/b/c\" }\nstiffness = 7\n");
+  EXPECT_EQ(chosen.simulation.cloth.vertex_count(), 3);
+  ASSERT_EQ(chosen.inputs.size(), 2U);
+  EXPECT_EQ(chosen.inputs[0].filename(), "two.usda") << chosen.inputs[0];
+  const Scene turned = folder.load("[cloth]\nmesh = { file = \"lying.obj\", up = \"y\" }\nstiffness = 7\n");
+  EXPECT_EQ(turned.simulation.cloth.positions.row(2), Eigen::RowVector3d(0, -2, 1));
+}
+
 TEST(SceneMesh, EveryOtherFormIsAnError) {
   const SceneFolder folder;
   const auto problem = [&](const std::string& mesh) {
     return folder.problems("[cloth]\nmesh = " + mesh + "\nstiffness = 1\n");
   };
   EXPECT_EQ(problem("20"),
-            "scene.toml:2:8: mesh: expected the name of a file or { grid = [columns, rows] }, found a whole number");
-  EXPECT_EQ(problem("{}"), "scene.toml:2:8: mesh: missing key 'grid'");
+            "scene.toml:2:8: mesh: expected the name of a file, { file = …, prim = … } or { grid = [columns, rows] }, "
+            "found a whole number");
+  EXPECT_EQ(problem("{}"), "scene.toml:2:8: mesh: missing key 'grid' or 'file'");
+  EXPECT_EQ(problem("{ file = \"a.obj\", grid = [2, 2] }"),
+            "scene.toml:2:27: mesh: unknown key 'grid'; the keys are 'file', 'prim', 'up'");
+  EXPECT_EQ(problem("{ prim = \"/a\" }"), "scene.toml:2:8: mesh: missing key 'file'");
+  EXPECT_EQ(problem("{ file = \"a.obj\", up = \"x\" }"), "scene.toml:2:31: mesh.up: expected 'y' or 'z', found 'x'");
   EXPECT_EQ(problem("{ gird = [2, 2] }"), "scene.toml:2:10: mesh: unknown key 'gird'; did you mean 'grid'?");
   EXPECT_EQ(problem("{ grid = 20 }"),
             "scene.toml:2:17: mesh.grid: expected an array of 2 whole numbers, found a whole number");

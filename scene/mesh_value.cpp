@@ -1,0 +1,110 @@
+#include "scene/mesh_value.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/nearest.hpp"
+#include "scene/mesh_file.hpp"
+#include "scene/values.hpp"
+
+namespace drape {
+namespace {
+
+/// A cloth of four million cells takes about 1 GB before the first step; beyond that a typing error is more likely.
+constexpr std::int64_t most_grid_cells = 4'000'000;
+
+const std::vector<std::string> mesh_name_keys = {"file", "prim", "up"};
+
+std::optional<Mesh> read_grid(const TomlValue& value, const std::string& name, Problems& problems) {
+  const TomlTable& table = *value.as<TomlTable>();
+  bool good = true;
+  for (const TomlEntry& entry : table.entries) {
+    if (entry.name == "grid") continue;
+    static const std::vector<std::string> keys = {"grid", "file"};
+    problems.add(entry.place, fmt::format("{}: unknown key '{}'{}", name, entry.name,
+                                          did_you_mean(entry.name, keys, "a mesh has one of the keys")));
+    good = false;
+  }
+  const TomlValue* grid = table.find("grid");
+  if (grid == nullptr) {
+    if (good) problems.add(value.place, name + ": missing key 'grid' or 'file'");
+    return std::nullopt;
+  }
+  const auto cells = read_int_pair(*grid, name + ".grid", {.minimum = 1}, problems);
+  if (!cells || !good) return std::nullopt;
+  const int columns = (*cells)[0], rows = (*cells)[1];
+  if (std::int64_t{columns} * rows > most_grid_cells) {
+    problems.add(grid->place, fmt::format("{}.grid: a grid has at most {} cells, found {}×{}", name, most_grid_cells,
+                                          columns, rows));
+    return std::nullopt;
+  }
+  return make_grid(columns, rows);
+}
+
+std::optional<Mesh> read_named(const TomlValue& value, const std::string& name, const std::filesystem::path& folder,
+                               std::vector<std::filesystem::path>& inputs, Problems& problems) {
+  const std::optional<MeshName> named = read_mesh_name(value, name, problems);
+  if (!named) return std::nullopt;
+  try {
+    Mesh mesh = read_mesh(folder / named->file, named->options, &inputs);
+    if (!mesh.triangles.empty()) return mesh;
+    problems.add(value.place, fmt::format("{}: '{}' has no triangles", name, named->file.string()));
+  } catch (const UsageError& error) {
+    problems.add(value.place, fmt::format("{}: '{}' cannot be read:\n{}", name, named->file.string(), error.what()));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<MeshName> read_mesh_name(const TomlValue& value, const std::string& name, Problems& problems) {
+  if (const std::string* file = value.as<std::string>()) return MeshName{.file = *file, .options = {}};
+  const TomlTable* table = value.as<TomlTable>();
+  if (table == nullptr) {
+    problems.add(value.place, fmt::format("{}: expected the name of a file or {{ file = …, prim = … }}, found {}", name,
+                                          value.kind()));
+    return std::nullopt;
+  }
+  const std::size_t before = problems.count();
+  MeshName mesh;
+  for (const TomlEntry& entry : table->entries) {
+    if (std::ranges::find(mesh_name_keys, entry.name) == mesh_name_keys.end()) {
+      problems.add(entry.place, fmt::format("{}: unknown key '{}'{}", name, entry.name,
+                                            did_you_mean(entry.name, mesh_name_keys, "the keys are")));
+      continue;
+    }
+    const auto text = read_string(entry.value, name + "." + entry.name, problems);
+    if (!text) continue;
+    if (entry.name == "file") mesh.file = *text;
+    if (entry.name == "prim") mesh.options.prim = *text;
+    if (entry.name != "up") continue;
+    if (*text != "y" && *text != "z") {
+      problems.add(entry.value.place, fmt::format("{}.up: expected 'y' or 'z', found '{}'", name, *text));
+    }
+    mesh.options.up = *text == "y" ? MeshOptions::Up::y : MeshOptions::Up::z;
+  }
+  if (problems.count() == before && mesh.file.empty()) problems.add(value.place, name + ": missing key 'file'");
+  return problems.count() == before ? std::optional(mesh) : std::nullopt;
+}
+
+std::optional<Mesh> read_mesh_value(const TomlValue& value, const std::string& name,
+                                    const std::filesystem::path& folder, std::vector<std::filesystem::path>& inputs,
+                                    Problems& problems) {
+  const TomlTable* table = value.as<TomlTable>();
+  if (table == nullptr && value.as<std::string>() == nullptr) {
+    problems.add(value.place, fmt::format("{}: expected the name of a file, {{ file = …, prim = … }} or {{ grid = "
+                                          "[columns, rows] }}, found {}",
+                                          name, value.kind()));
+    return std::nullopt;
+  }
+  const bool named = table == nullptr || std::ranges::any_of(mesh_name_keys, [&](const std::string& key) {
+                       return table->find(key) != nullptr;
+                     });
+  return named ? read_named(value, name, folder, inputs, problems) : read_grid(value, name, problems);
+}
+
+}  // namespace drape

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/document.hpp"
+#include "scene/mesh/options.hpp"
+#include "scene/problems.hpp"
+#include "sim/mesh.hpp"
+
+namespace drape {
+
+/// A mesh that a scene names.
+struct MeshName {
+  std::filesystem::path file;  ///< as the scene has it
+  MeshOptions options;
+};
+
+/// Reads the name of a mesh, "cloth.obj", or { file = "cloth.usda", prim = "/World/cloth" }; `up = "y"` beside `file`
+/// says which axis an OBJ means.
+std::optional<MeshName> read_mesh_name(const TomlValue& value, const std::string& name, Problems& problems);
+
+/// Reads a mesh: { grid = [columns, rows] }, or one that is named as above.
+/// @param folder the scene's, where its files are
+/// @param inputs every file that is read for it is added
+std::optional<Mesh> read_mesh_value(const TomlValue& value, const std::string& name,
+                                    const std::filesystem::path& folder, std::vector<std::filesystem::path>& inputs,
+                                    Problems& problems);
+
+}  // namespace drape

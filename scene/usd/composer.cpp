@@ -1,0 +1,275 @@
+#include <algorithm>
+#include <map>
+#include <string>
+#include <system_error>
+#include <unordered_map>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "scene/usd/stage.hpp"
+
+namespace drape {
+namespace {
+
+constexpr int kMaxArcs = 64;                // one within the other
+constexpr std::size_t kMaxPrims = 200;      // one within the other, as in one file
+constexpr std::size_t kMaxSpecs = 1 << 20;  // looked at, of all prims together
+
+bool is_within(std::string_view path, std::string_view root) {
+  return path.starts_with(root) && (path.size() == root.size() || path[root.size()] == '/');
+}
+
+using Selections = std::map<std::string, std::string>;
+
+}  // namespace
+
+/// Puts the specs of prims together.
+class UsdComposer {
+ public:
+  explicit UsdComposer(UsdStage& stage) : stage_(stage) {}
+
+  void compose() {
+    const File& root = read(stage_.source_);
+    Siblings siblings;
+    for (const File* file : root.sublayers) {
+      for (const UsdSpec& spec : file->layer.prims) {
+        siblings.add({.spec = &spec, .stack = &root, .site = '/' + spec.name});
+      }
+    }
+    stage_.root_.children = prims(siblings, "", 0);
+  }
+
+ private:
+  using File = UsdStage::File;
+
+  /// How the times of a file become those of the stage: offset + scale·t.
+  struct TimeMap {
+    double offset = 0, scale = 1;
+    [[nodiscard]] TimeMap after(const TimeMap& inner) const {
+      return {offset + scale * inner.offset, scale * inner.scale};
+    }
+  };
+
+  /// That a path that begins with `from` begins with `to` one file further up.
+  struct Renaming {
+    std::string from, to;
+  };
+
+  /// A spec of a prim, and how what it says is to be understood.
+  struct Opinion {
+    const UsdSpec* spec = nullptr;
+    const File* stack = nullptr;           // in which the paths that it names are looked up
+    std::string site;                      // the prim's path there
+    bool selected = true;                  // it is not of a variant that nothing selects
+    std::vector<Renaming> renamings = {};  // from this stack's paths up to the stage's
+    TimeMap time = {};
+  };
+
+  /// Specs by the names of their prims: of each the strongest first.
+  struct Siblings {
+    std::vector<std::vector<Opinion>> families;
+    std::unordered_map<std::string_view, std::size_t> places = {};
+
+    void add(Opinion opinion) {
+      const auto place = places.emplace(opinion.spec->name, families.size()).first->second;
+      if (place == families.size()) families.emplace_back();
+      families[place].push_back(std::move(opinion));
+    }
+  };
+
+  const File& read(const SourceText& source) {
+    File& file = stage_.files_.emplace_back(File{&source, parse_usd(source, stage_.reading_)});
+    file.sublayers.push_back(&file);
+    for (const UsdArc& arc : file.layer.sublayers) {
+      const File* sublayer = file_of(arc);
+      if (sublayer == nullptr) continue;
+      for (const File* one : std::vector(sublayer->sublayers)) {
+        if (std::ranges::find(file.sublayers, one) == file.sublayers.end()) file.sublayers.push_back(one);
+      }
+    }
+    return file;
+  }
+
+  /// The file that an arc names, which is read when it is first named; null, and a gap, if it cannot be.
+  const File* file_of(const UsdArc& arc) {
+    const std::filesystem::path folder = std::filesystem::path(arc.place.source->name()).parent_path();
+    const std::filesystem::path path = (folder / arc.file).lexically_normal();
+    const auto known = std::find_if(stage_.files_.begin(), stage_.files_.end(), [&](const File& file) {
+      return std::filesystem::path(file.source->name()).lexically_normal() == path;
+    });
+    if (known != stage_.files_.end()) return &*known;
+    std::error_code error;
+    const bool ascii = path.extension() == ".usda" || path.extension() == ".usd";
+    if (!ascii || !std::filesystem::is_regular_file(path, error)) {
+      gap(arc, fmt::format("{} is {}", in_quotes(arc.file), ascii ? "not there" : "no .usda file"));
+      return nullptr;
+    }
+    try {
+      return &read(stage_.texts_.emplace_back(SourceText::read(path)));
+    } catch (const UsageError& wrong) {
+      gap(arc, fmt::format("{} cannot be read: {}", in_quotes(arc.file), wrong.what()));
+      return nullptr;
+    }
+  }
+
+  void gap(const UsdArc& arc, std::string reason) { stage_.gaps_.push_back({arc.place, std::move(reason)}); }
+
+  std::vector<UsdPrim> prims(const Siblings& siblings, const std::string& parent, std::size_t depth) {
+    std::vector<UsdPrim> result;
+    for (const std::vector<Opinion>& family : siblings.families) {
+      std::vector<Opinion> all;
+      Selections selections;
+      for (const Opinion& opinion : family) expand(opinion, selections, 0, all);
+      result.push_back(prim(all, parent + '/' + family.front().spec->name, depth));
+    }
+    return result;
+  }
+
+  UsdPrim prim(const std::vector<Opinion>& opinions, std::string path, std::size_t depth) {
+    UsdPrim prim;
+    prim.place = opinions.front().spec->place;
+    if (depth == kMaxPrims) prim.place.fail(fmt::format("prims nested deeper than {}", kMaxPrims));
+    prim.name = path.substr(path.rfind('/') + 1);
+    prim.path = std::move(path);
+    for (const Opinion& opinion : opinions) {
+      prim.is_defined = prim.is_defined || (opinion.selected && opinion.spec->is_defined);
+    }
+    for (const Opinion& opinion : opinions) {
+      if (prim.is_defined && !opinion.selected) continue;
+      if (prim.type.empty()) prim.type = opinion.spec->type;
+      for (const UsdAttribute& attribute : opinion.spec->attributes) {
+        prim.attributes.push_back(retimed(attribute, opinion.time));
+      }
+      for (const UsdRelationship& relationship : opinion.spec->relationships) {
+        prim.relationships.push_back(renamed(relationship, opinion.renamings));
+      }
+    }
+    Siblings children;
+    for (const Opinion& opinion : opinions) {
+      for (const UsdSpec& child : opinion.spec->children) children.add(child_of(opinion, child));
+    }
+    prim.children = prims(children, prim.path, depth + 1);
+    return prim;
+  }
+
+  static Opinion child_of(const Opinion& parent, const UsdSpec& child) {
+    Opinion opinion = parent;
+    opinion.spec = &child;
+    opinion.site += '/' + child.name;
+    return opinion;
+  }
+
+  /// Adds a spec of a prim and those that it refers to, the strongest first.
+  /// @param selections what stronger specs of this prim select
+  void expand(const Opinion& opinion, Selections& selections, int depth, std::vector<Opinion>& all) {
+    const UsdSpec& spec = *opinion.spec;
+    if (depth == kMaxArcs) spec.place.fail(fmt::format("references nested deeper than {}", kMaxArcs));
+    if (++specs_ > kMaxSpecs) spec.place.fail(fmt::format("references lead to more than {} prims", kMaxSpecs));
+    for (const auto& [set, variant] : spec.selections) selections.emplace(set, variant);
+    all.push_back(opinion);
+    const auto follow = [&](UsdArc::Kind kind) {
+      for (const UsdArc& arc : spec.arcs) {
+        if (arc.kind == kind) expand_arc(opinion, arc, selections, depth, all);
+      }
+    };
+    follow(UsdArc::Kind::inherits);
+    for (const UsdVariantSet& set : spec.variant_sets) expand_variant(opinion, set, selections, depth, all);
+    follow(UsdArc::Kind::reference);
+    follow(UsdArc::Kind::payload);
+    follow(UsdArc::Kind::specializes);
+  }
+
+  void expand_variant(const Opinion& opinion, const UsdVariantSet& set, Selections& selections, int depth,
+                      std::vector<Opinion>& all) {
+    const auto selection = selections.find(set.name);
+    const bool selected = selection != selections.end() && !selection->second.empty();
+    const auto variant = std::find_if(set.variants.begin(), set.variants.end(), [&](const UsdSpec& candidate) {
+      return !selected || candidate.name == selection->second;
+    });
+    if (variant == set.variants.end()) return;
+    Opinion chosen = opinion;
+    chosen.spec = &*variant;
+    chosen.selected = opinion.selected && selected;
+    expand(chosen, selections, depth + 1, all);
+  }
+
+  void expand_arc(const Opinion& opinion, const UsdArc& arc, Selections& selections, int depth,
+                  std::vector<Opinion>& all) {
+    const File* stack = arc.file.empty() ? opinion.stack : file_of(arc);
+    if (stack == nullptr) return;
+    const std::string path = arc.path.empty() ? '/' + stack->layer.default_prim : arc.path;
+    // USD knows no prim that is made of its own ancestor either.
+    if (stack == opinion.stack && is_within(opinion.site, path)) return gap(arc, "the prim refers to itself");
+    std::vector<Opinion> found = specs_at(*stack, path, depth + 1);
+    if (found.empty()) return gap(arc, fmt::format("there is no prim {}", in_quotes(path)));
+    const double rate = opinion.stack->layer.time_codes_per_second / stack->layer.time_codes_per_second;
+    const TimeMap here = opinion.time.after({arc.offset, arc.scale * rate});
+    for (Opinion& weaker : found) {
+      weaker.selected = weaker.selected && opinion.selected;
+      weaker.renamings.push_back({path, opinion.site});
+      weaker.renamings.insert(weaker.renamings.end(), opinion.renamings.begin(), opinion.renamings.end());
+      weaker.time = here.after(weaker.time);
+      expand(weaker, selections, depth + 1, all);
+    }
+  }
+
+  /// The specs of the prim of a path, not expanded; its ancestors are, as they may have it from elsewhere.
+  std::vector<Opinion> specs_at(const File& stack, std::string_view path, int depth) {
+    std::vector<Opinion> found;
+    if (!path.starts_with('/')) return found;
+    path.remove_prefix(1);
+    const std::string_view first = path.substr(0, path.find('/'));
+    for (const File* file : stack.sublayers) {
+      for (const UsdSpec& spec : file->layer.prims) {
+        if (spec.name == first) found.push_back({.spec = &spec, .stack = &stack, .site = '/' + spec.name});
+      }
+    }
+    for (path.remove_prefix(first.size()); !path.empty() && !found.empty();) {
+      path.remove_prefix(1);
+      const std::string_view name = path.substr(0, path.find('/'));
+      std::vector<Opinion> ancestors;
+      Selections selections;
+      for (const Opinion& opinion : found) expand(opinion, selections, depth, ancestors);
+      found.clear();
+      for (const Opinion& ancestor : ancestors) {
+        for (const UsdSpec& child : ancestor.spec->children) {
+          if (child.name == name) found.push_back(child_of(ancestor, child));
+        }
+      }
+      path.remove_prefix(name.size());
+    }
+    return found;
+  }
+
+  const UsdAttribute* retimed(const UsdAttribute& attribute, const TimeMap& time) {
+    if (attribute.samples.empty() || (time.offset == 0 && time.scale == 1)) return &attribute;
+    UsdAttribute& copy = stage_.retimed_.emplace_back(attribute);
+    for (UsdSample& sample : copy.samples) sample.time = time.offset + time.scale * sample.time;
+    return &copy;
+  }
+
+  /// A relationship whose targets are paths of the stage; those outside of what is referred to have none there.
+  static UsdRelationship renamed(const UsdRelationship& relationship, const std::vector<Renaming>& renamings) {
+    UsdRelationship result{relationship.name, {}};
+    for (std::string target : relationship.targets) {
+      const bool known = std::all_of(renamings.begin(), renamings.end(), [&](const Renaming& renaming) {
+        if (!is_within(target, renaming.from)) return false;
+        target = renaming.to + target.substr(renaming.from.size());
+        return true;
+      });
+      if (known) result.targets.push_back(std::move(target));
+    }
+    return result;
+  }
+
+  UsdStage& stage_;
+  std::size_t specs_ = 0;
+};
+
+UsdStage::UsdStage(const SourceText& source, const UsdReading& reading) : source_(source), reading_(reading) {
+  UsdComposer(*this).compose();
+}
+
+}  // namespace drape
