@@ -2,6 +2,9 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "cli/command_line.hpp"
 #include "cli/grid_option.hpp"
@@ -9,22 +12,14 @@
 #include "cli/motion_runs.hpp"
 #include "cli/output_clashes.hpp"
 #include "cli/run_arguments.hpp"
-#include "cli/step_by_step.hpp"
-#include "cli/summary.hpp"
-#include "cli/watched.hpp"
-#include "core/console.hpp"
-#include "core/shell.hpp"
+#include "cli/scene_run.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
 #include "render/texture_image.hpp"
 #include "run/annotations.hpp"
-#include "run/motion_space.hpp"
 #include "run/outputs.hpp"
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
-#include "sim/make_system.hpp"
-#include "sim/schemes/registry.hpp"
-#include "sim/simulation.hpp"
 
 namespace drape {
 namespace {
@@ -64,58 +59,12 @@ void require_no_drawing(const std::vector<std::string>& outputs) {
   }
 }
 
-/// The command that goes on with a run which writes a motion file, and makes its other files of the whole motion.
-std::string resume_command(const RunArguments& arguments, const std::string& motion) {
-  std::string text = fmt::format("drape {} --resume {}", arguments.drawing ? "render" : "simulate", shell_word(motion));
-  for (const std::string& path : arguments.outputs) {
-    if (!is_motion_file(path)) text += " -o " + shell_word(path);
-  }
-  return text;
-}
-
-/// Says how a run ended, and returns its exit code.
-ExitCode conclude(const Scene& scene, const RunResult& result, const RunArguments& arguments) {
-  for (const std::string& problem : result.problems) spdlog::error(problem);
-  const ExitCode outputs = result.problems.empty() ? ExitCode::ok : ExitCode::output;
-  switch (result.outcome) {
-    case Outcome::completed:
-      return outputs;
-    case Outcome::interrupted:
-      spdlog::error("interrupted {}",
-                    describe_end(result, resume_command(arguments, result.motion ? result.motion->file : "")));
-      return ExitCode::interrupted;
-    case Outcome::diverged:
-      spdlog::error("{}: {}", scene.file.string(), result.divergence);
-      spdlog::error("ended {}", describe_end(result));
-      return std::max(outputs, ExitCode::diverged);
-  }
-  return outputs;
-}
-
-ExitCode run(const Scene& scene, RunOptions options, const RunArguments& arguments, const CommonOptions& common) {
-  spdlog::info(describe(scene, options));
-  if (scene.simulation.integrator.allow_unstable) {
-    if (const auto problem = stability_problem(scene.simulation, make_system(scene.simulation))) {
-      spdlog::warn("{}: {}", scene.file.string(), *problem);
-    }
-  }
-  if (options.motion) {
-    const MotionSpace space = motion_space(scene, options);
-    if (space.most > space.free) spdlog::warn(space.text(options.motion->path));
-  }
-  if (options.recorded) warn_of_gaps(scene.file.string(), *options.recorded, film_extent(scene, options));
-  StepByStep pause(interruption());
-  if (arguments.step_by_step) options.observer = &pause;
-  RunResult result;
-  run_watched(common.quiet || arguments.step_by_step, [&](const std::stop_token& stop, Progress& progress) {
-    result = run_scene(scene, options, stop, progress);
-  });
-  if (!result.renderer.empty()) spdlog::debug("drawn by {}", result.renderer);
-  if (common.verbose) spdlog::debug(effect_shares(result.statistics));
-  if (!common.quiet && (result.statistics.steps() > 0 || options.recorded))
-    print_text(stderr, summarize(result) + "\n");
-  for (const std::string& doubt : doubts(result)) spdlog::warn("{}: {}", scene.file.string(), doubt);
-  return conclude(scene, result, arguments);
+ExitCode run(const Scene& scene, const RunOptions& options, const RunArguments& arguments,
+             const CommonOptions& common) {
+  SceneRun run(scene, options, arguments, common);
+  run.announce();
+  run.begin();
+  return run.end();
 }
 
 /// @throws UsageError if what is said of outputs is said where there are none
@@ -193,8 +142,42 @@ std::vector<SceneToRun> load_all(const RunArguments& arguments) {
   return all;
 }
 
-/// Runs one scene after the other. One that fails does not keep the next from being run.
+/// Runs one scene after the other. While the films of one are completed, which may take another pass over all of their
+/// frames on one core, the next is drawn; what is said of them is in their order. One that fails does not keep the next
+/// from being run.
 /// @returns the worst of their codes, which is the largest
+ExitCode run_each(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options,
+                  const RunArguments& arguments, const CommonOptions& common) {
+  ExitCode worst = ExitCode::ok;
+  std::unique_ptr<SceneRun> last;
+  const auto end_last = [&] {
+    if (last) worst = std::max(worst, reported([&] { return last->end(); }));
+    last.reset();
+  };
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (i > 0 && interrupted()) {
+      end_last();
+      if (worst != ExitCode::interrupted) spdlog::error("interrupted before {}", scenes[i].file.string());
+      return ExitCode::interrupted;
+    }
+    auto next = std::make_unique<SceneRun>(scenes[i], options[i], arguments, common);
+    const ExitCode begun = reported([&] {
+      if (last) next->begin();
+      end_last();
+      next->announce();
+      next->begin();
+      next->wait_until_drawn();
+      return ExitCode::ok;
+    });
+    worst = std::max(worst, begun);
+    if (begun == ExitCode::ok) last = std::move(next);
+    if (arguments.step_by_step) end_last();
+  }
+  end_last();
+  return worst;
+}
+
+/// What the command line asks for, from its files to its films.
 ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
   interruption();  // from here on, a signal ends what there is in good order
   if (arguments.scenes.empty() && arguments.resume.empty()) throw UsageError("SCENE is required; see drape --help");
@@ -211,15 +194,7 @@ ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
     scenes.push_back(std::move(found.scene));
   }
   look_ahead(scenes, options);
-  ExitCode worst = ExitCode::ok;
-  for (std::size_t i = 0; i < scenes.size() && worst != ExitCode::interrupted; ++i) {
-    if (interrupted() && i > 0) {
-      spdlog::error("interrupted before {}", scenes[i].file.string());
-      return ExitCode::interrupted;
-    }
-    worst = std::max(worst, reported([&] { return run(scenes[i], options[i], arguments, common); }));
-  }
-  return worst;
+  return run_each(scenes, options, arguments, common);
 }
 
 }  // namespace

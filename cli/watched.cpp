@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <future>
+#include <utility>
 
 #include "cli/interruption.hpp"
 #include "cli/progress_display.hpp"
@@ -13,18 +14,41 @@ constexpr std::chrono::milliseconds watch_interval{100};
 
 }  // namespace
 
-bool run_watched(bool quiet, const std::function<void(const std::stop_token&, Progress&)>& work) {
-  const std::stop_token stop = interruption().get_token();
-  Progress progress;
-  ProgressDisplay display(progress, ProgressDisplay::fitting_style(quiet));
-  std::future<void> done = std::async(std::launch::async, [&] { work(stop, progress); });
-  while (done.wait_for(watch_interval) != std::future_status::ready) {
+WatchedWork::WatchedWork(const Work& work) {
+  done_ = std::async(std::launch::async, [this, work] {
+    bool told = false;
+    const auto tell = [&] {
+      if (!std::exchange(told, true)) told_.set_value();
+    };
+    try {
+      work(interruption().get_token(), progress_, tell);
+    } catch (...) {
+      tell();
+      throw;
+    }
+    tell();
+  });
+}
+
+void WatchedWork::watch_to_its_end(bool quiet) {
+  watch(quiet, done_);
+  done_.get();
+}
+
+void WatchedWork::watch(bool quiet, const std::future<void>& until) {
+  ProgressDisplay display(progress_, ProgressDisplay::fitting_style(quiet));
+  while (until.wait_for(watch_interval) != std::future_status::ready) {
     static_cast<void>(interrupted());
     display.update();
   }
   display.clear();
-  done.get();
-  return stop.stop_requested();
+}
+
+bool run_watched(bool quiet, const std::function<void(const std::stop_token&, Progress&)>& work) {
+  WatchedWork([&work](const std::stop_token& stop, Progress& progress, const auto&) {
+    work(stop, progress);
+  }).watch_to_its_end(quiet);
+  return interruption().get_token().stop_requested();
 }
 
 }  // namespace drape

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <mutex>
+
+#include "core/console.hpp"
 #include "core/error.hpp"
 #include "core/installation.hpp"
 #include "core/shared_library.hpp"
@@ -23,9 +26,9 @@ std::filesystem::path codecs_module() {
 const Codecs& codecs() {
   static const Codecs* const loaded = [] {
     const SharedLibrary module("codecs", {codecs_module().string()}, "libopencv-dev", "encode or decode");
-    const Codecs* (*get)() = nullptr;
+    const Codecs* (*get)(std::mutex & console) = nullptr;
     module.fetch("drape_codecs", get);
-    return get();
+    return get(console_mutex());
   }();
   return *loaded;
 }

@@ -1,3 +1,4 @@
+#include <mutex>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
@@ -11,6 +12,8 @@
 namespace drape {
 namespace {
 
+std::mutex* console = nullptr;  // the program's, see QuietStderr
+
 std::vector<std::uint8_t> encode_png(const cv::Mat& bgr) {
   std::vector<std::uint8_t> bytes;
   if (!cv::imencode(".png", bgr, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6})) bytes.clear();
@@ -19,12 +22,12 @@ std::vector<std::uint8_t> encode_png(const cv::Mat& bgr) {
 
 cv::Mat decode(std::string_view bytes, int flags) {
   const cv::Mat all(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-  const QuietStderr quiet;  // libpng says on its own what it does not like, without the file's name
+  const QuietStderr quiet(*console);  // libpng says on its own what it does not like, without the file's name
   return cv::imdecode(all, flags);
 }
 
 VideoPen begin_video(const std::string& file, const std::string& fourcc, double fps, cv::Size size) {
-  const QuietStderr quiet;
+  const QuietStderr quiet(*console);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::VideoWriter writer;
   const int code = cv::VideoWriter::fourcc(fourcc[0], fourcc[1], fourcc[2], fourcc[3]);
@@ -35,7 +38,7 @@ VideoPen begin_video(const std::string& file, const std::string& fourcc, double 
 }
 
 cv::VideoCapture opened(const std::string& file) {
-  const QuietStderr quiet;
+  const QuietStderr quiet(*console);
   cv::VideoCapture video(file, cv::CAP_FFMPEG);
   silence_ffmpeg();  // OpenCV has just undone it
   return video;
@@ -50,7 +53,8 @@ int readable_frames(const std::string& file) {
 }  // namespace
 }  // namespace drape
 
-extern "C" const drape::Codecs* drape_codecs() {
+extern "C" const drape::Codecs* drape_codecs(std::mutex& console) {
+  drape::console = &console;
   static constexpr drape::Codecs codecs{drape::encode_png, drape::decode, drape::begin_video, drape::begin_animation,
                                         drape::readable_frames};
   return &codecs;

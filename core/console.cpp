@@ -21,10 +21,16 @@ void open_standard_streams() {
 }
 
 void print_text(std::FILE* stream, std::string_view text) {
+  const std::scoped_lock lock(console_mutex());
   errno = 0;
   const bool printed = std::fwrite(text.data(), 1, text.size(), stream) == text.size() && std::fflush(stream) == 0;
   int none = 0;
   if (!printed && stream == stdout) first_error.compare_exchange_strong(none, errno == 0 ? EIO : errno);
+}
+
+std::mutex& console_mutex() {
+  static std::mutex mutex;
+  return mutex;
 }
 
 int lost_output() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdio>
+#include <mutex>
 #include <string_view>
 
 namespace drape {
@@ -12,6 +13,9 @@ void open_standard_streams();
 /// Prints text for a person, at once. What the stream does not take is lost: telling must not cost the results that it
 /// tells of.
 void print_text(std::FILE* stream, std::string_view text);
+
+/// Held while text is printed. Who keeps libraries from printing for a while, and so everybody, holds it as long.
+std::mutex& console_mutex();
 
 /// Why standard output has lost text, or what is still buffered for it cannot be written: an error number, or 0. Of a
 /// reader that has gone away (EPIPE) nothing is said: it has had enough.

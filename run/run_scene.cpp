@@ -225,9 +225,12 @@ class Pipeline {
   }
 
   void draw() {
-    const std::optional<CameraPath> path = path_.pop();
-    if (!path) return film_.close();
-    FilmPainter painter(scene_, *path, annotations_, options_.backend);
+    if (const std::optional<CameraPath> path = path_.pop()) paint(*path);
+    film_.close();  // when OpenGL is left to the next who draws
+  }
+
+  void paint(const CameraPath& path) {
+    FilmPainter painter(scene_, path, annotations_, options_.backend);
     result_.renderer = painter.description();
     while (std::optional<Frame> frame = frames_.pop()) {
       const auto begin = Clock::now();
@@ -236,7 +239,6 @@ class Pipeline {
       result_.draw_seconds += seconds_since(begin);
       film_.push({std::move(*frame), std::move(image)});
     }
-    film_.close();
   }
 
   void write() {
@@ -249,6 +251,7 @@ class Pipeline {
       progress_.done = ++result_.frames;
     }
     if (const std::scoped_lock lock(mutex_); error_) return;
+    if (options_.drawn) options_.drawn();
     const auto begin = Clock::now();
     result_.outputs = outputs_.finish(result_.frames == result_.frames_wanted ? Ending::complete : Ending::early);
     result_.write_seconds += seconds_since(begin);
