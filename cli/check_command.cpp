@@ -19,9 +19,9 @@
 #include "core/nearest.hpp"
 #include "core/parallel.hpp"
 #include "core/shell.hpp"
+#include "run/shard.hpp"
 #include "sweep/estimate.hpp"
 #include "sweep/merge.hpp"
-#include "sweep/shard.hpp"
 
 namespace drape {
 namespace {

@@ -4,10 +4,12 @@
 
 #include "check/candidate.hpp"
 #include "cli/check_results.hpp"
+#include "cli/studies.hpp"
 #include "cli/sweep_results.hpp"
 #include "core/error.hpp"
 #include "core/read_file.hpp"
 #include "core/shell.hpp"
+#include "study/stability_runs.hpp"
 #include "sweep/merge.hpp"
 
 namespace drape {
@@ -50,19 +52,30 @@ ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder
   return conclude_check(whole, folder, common, verdicts);
 }
 
+/// What the shards in a folder are of; of a sweep where there are none.
+const char* mark_in(const fs::path& folder) {
+  for (const char* mark : {check_mark, stability_runs_name}) {
+    if (!parts_in(folder, mark).empty()) return mark;
+  }
+  return sweep_mark;
+}
+
 ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
-  const char* mark = parts_in(arguments.folders.front(), check_mark).empty() ? sweep_mark : check_mark;
+  const char* mark = mark_in(arguments.folders.front());
   std::vector<fs::path> parts;
   for (const std::string& folder : arguments.folders) {
     const std::vector<fs::path> found = parts_in(folder, mark);
     if (found.empty()) {
       throw UsageError(fmt::format("{}: there is neither a {} in it nor a shard of one", folder,
-                                   mark == check_mark ? "check" : "sweep"));
+                                   mark == check_mark   ? "check"
+                                   : mark == sweep_mark ? "sweep"
+                                                        : "study of stability"));
     }
     parts.insert(parts.end(), found.begin(), found.end());
   }
   const fs::path folder = arguments.output.empty() ? arguments.folders.front() : arguments.output;
   if (mark == check_mark) return merge_checks(parts, folder, common);
+  if (mark == stability_runs_name) return merge_stability_study(parts, folder, common);
   SweepFile whole = merge_sweeps(parts, folder);
   return conclude_sweep(read_results(folder, std::move(whole)), folder, common);
 }
@@ -71,7 +84,7 @@ ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
 
 void add_merge_command(CLI::App& app, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<MergeArguments>();
-  CLI::App* sub = app.add_subcommand("merge", "Merge the shards of a sweep or check");
+  CLI::App* sub = app.add_subcommand("merge", "Merge the shards of a sweep, check or study");
   sub->add_option("DIR", arguments->folders, "Folders of shards, or a folder with shards in it")->required();
   sub->add_option("-o,--output", arguments->output, "Folder for the merged result; default the first DIR");
   sub->callback(

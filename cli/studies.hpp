@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
 #include "cli/command_line.hpp"
 #include "run/progress.hpp"
@@ -21,6 +22,15 @@ inline constexpr const char* runs_help =
 /// @throws OutputError
 ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& common,
                    const std::function<std::optional<StudyReport>(const std::stop_token&, Progress&)>& measure);
+
+/// Writes a report's files and prints it.
+/// @throws OutputError
+ExitCode conclude_study(const StudyReport& report, const std::filesystem::path& folder, const CommonOptions& common);
+
+/// The report of a study of stability whose shards are in these folders.
+/// @throws UsageError if they are not of one study
+ExitCode merge_stability_study(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
+                               const CommonOptions& common);
 
 /// A study's report, if it was not stopped.
 template <class Study>

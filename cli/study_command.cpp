@@ -46,10 +46,14 @@ ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& com
     spdlog::error("interrupted: no report was written");
     return ExitCode::interrupted;
   }
-  const std::string problem = write_report(*report, folder);
+  return conclude_study(*report, folder, common);
+}
+
+ExitCode conclude_study(const StudyReport& report, const std::filesystem::path& folder, const CommonOptions& common) {
+  const std::string problem = write_report(report, folder);
   if (!problem.empty()) spdlog::warn(problem);
   if (!common.quiet) {
-    print_text(stdout, fmt::format("{}\n{}\n", to_text(*report, terminal(stdout, common.color).width),
+    print_text(stdout, fmt::format("{}\n{}\n", to_text(report, terminal(stdout, common.color).width),
                                    (folder / report_page).string()));
   }
   return ExitCode::ok;

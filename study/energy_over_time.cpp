@@ -65,24 +65,23 @@ std::string name_of(const EnergyCurve& curve) {
 
 }  // namespace
 
-std::optional<std::vector<EnergyCurve>> measure_energies(const std::stop_token& stop, Progress& progress) {
+std::vector<EnergyCurve> energy_curves() {
   constexpr StepMethod sdirk2(Method::quasi_newton, TimeScheme::sdirk2);
-  std::vector<EnergyCurve> curves{{.method = Method::verlet, .step = 0.001},
-                                  {.method = sdirk2, .step = 0.0025},
-                                  {.method = sdirk2, .step = 0.02},
-                                  {.method = Method::quasi_newton, .step = 0.0025},
-                                  {.method = Method::quasi_newton, .step = 0.02}};
-  progress.begin("measuring energies over time", "motions", static_cast<std::int64_t>(curves.size()));
-  for (EnergyCurve& curve : curves) {
-    Simulation simulation(swinging_cloth(curve.method, curve.step));
-    EnergySamples samples(std::llround(between / curve.step), curve);
-    StepObserver* const observer = &samples;
-    run_steps(simulation, std::llround(duration / curve.step), {&observer, 1}, stop);
-    if (stop.stop_requested()) return std::nullopt;
-    samples.finish();
-    ++progress.done;
-  }
-  return curves;
+  return {{.method = Method::verlet, .step = 0.001},
+          {.method = sdirk2, .step = 0.0025},
+          {.method = sdirk2, .step = 0.02},
+          {.method = Method::quasi_newton, .step = 0.0025},
+          {.method = Method::quasi_newton, .step = 0.02}};
+}
+
+std::int64_t step_count(const EnergyCurve& curve) { return std::llround(duration / curve.step); }
+
+void measure_energy(EnergyCurve& curve, const std::stop_token& stop) {
+  Simulation simulation(swinging_cloth(curve.method, curve.step));
+  EnergySamples samples(std::llround(between / curve.step), curve);
+  StepObserver* const observer = &samples;
+  run_steps(simulation, step_count(curve), {&observer, 1}, stop);
+  samples.finish();
 }
 
 NamedChart energy_chart(const std::vector<EnergyCurve>& curves) {

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <stop_token>
 #include <vector>
 
-#include "run/progress.hpp"
 #include "sim/settings.hpp"
 #include "study/diagram_files.hpp"
 
@@ -19,9 +18,14 @@ struct EnergyCurve {
 };
 
 /// Eight seconds of the homework's cloth with springs of 180 N/m, which hangs from two corners and nothing damps: by
-/// velocity Verlet, and by backward Euler and SDIRK2 with a long and a short step.
-/// @returns nothing if it was stopped
-std::optional<std::vector<EnergyCurve>> measure_energies(const std::stop_token& stop, Progress& progress);
+/// velocity Verlet, and by backward Euler and SDIRK2 with a long and a short step. Nothing is measured yet.
+std::vector<EnergyCurve> energy_curves();
+
+/// Steps of a curve.
+std::int64_t step_count(const EnergyCurve& curve);
+
+/// Measures a curve. One that was stopped is not to be used.
+void measure_energy(EnergyCurve& curve, const std::stop_token& stop);
 
 NamedChart energy_chart(const std::vector<EnergyCurve>& curves);
 

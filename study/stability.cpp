@@ -68,7 +68,7 @@ StabilityMap empty_map(StepMethod method, StabilityAxis axis, const StabilityDet
 }
 
 /// The borders of every map that has one.
-std::vector<StabilityBorder> measure_borders(std::size_t threads, const std::stop_token& stop, Progress& progress) {
+std::vector<StabilityBorder> empty_borders() {
   std::vector<StabilityBorder> borders;
   for (const double stiffness : {1e-2, 1.0, 1e2, 1e4, 1e6, 1e8}) {
     for (const Method method : {Method::semi_implicit, Method::verlet}) {
@@ -80,12 +80,28 @@ std::vector<StabilityBorder> measure_borders(std::size_t threads, const std::sto
       borders.push_back({method, StabilityAxis::explicit_push, stiffness});
     }
   }
-  progress.begin("measuring where methods become unstable", "borders", static_cast<std::int64_t>(borders.size()));
-  for_each_in_parallel(threads, borders.size(), stop, [&](std::size_t, std::size_t i) {
-    borders[i] = stability_border(borders[i].method, borders[i].axis, borders[i].stiffness);
-    ++progress.done;
-  });
   return borders;
+}
+
+/// What a step costs, where one of an explicit method on the maps' cloth costs 1.
+double cost_of_step(StepMethod method) { return is_explicit(method.method) ? 1 : 30; }
+
+void measure_part(StabilityStudy& study, std::size_t part, const std::stop_token& stop) {
+  for (StabilityMap& map : study.maps) {
+    if (part < map.cells.size()) {
+      const std::size_t columns = map.steps.size();
+      map.cells[part] = stability_cell(map.method, map.axis, map.steps[part % columns], map.stiffnesses[part / columns],
+                                       study.detail.steps);
+      return;
+    }
+    part -= map.cells.size();
+  }
+  if (part < study.borders.size()) {
+    StabilityBorder& border = study.borders[part];
+    border = stability_border(border.method, border.axis, border.stiffness);
+  } else {
+    measure_energy(study.energies.at(part - study.borders.size()), stop);
+  }
 }
 
 }  // namespace
@@ -179,11 +195,8 @@ StabilityBorder stability_border(StepMethod method, StabilityAxis axis, double s
   return border;
 }
 
-std::optional<StabilityStudy> study_stability(const StabilityDetail& detail, const std::stop_token& stop,
-                                              Progress& progress) {
-  const auto begin = std::chrono::steady_clock::now();
-  StabilityStudy study;
-  study.detail = detail;
+StabilityStudy plan_stability(const StabilityDetail& detail) {
+  StabilityStudy study{.detail = detail, .maps = {}, .borders = empty_borders(), .energies = energy_curves()};
   for (const StabilityAxis axis :
        {StabilityAxis::springs, StabilityAxis::explicit_push, StabilityAxis::implicit_push}) {
     for (const StepMethod method : step_methods) {
@@ -191,26 +204,34 @@ std::optional<StabilityStudy> study_stability(const StabilityDetail& detail, con
       study.maps.push_back(empty_map(method, axis, detail));
     }
   }
-  std::size_t runs = 0;
-  for (const StabilityMap& map : study.maps) runs += map.cells.size();
-  progress.begin("measuring", "runs", static_cast<std::int64_t>(runs));
-  const std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
-  for (StabilityMap& map : study.maps) {
-    const std::size_t columns = map.steps.size();
-    for_each_in_parallel(threads, map.cells.size(), stop, [&](std::size_t, std::size_t i) {
-      map.cells[i] =
-          stability_cell(map.method, map.axis, map.steps[i % columns], map.stiffnesses[i / columns], detail.steps);
-      ++progress.done;
-    });
-    if (stop.stop_requested()) return std::nullopt;
-  }
-  study.borders = measure_borders(threads, stop, progress);
-  if (stop.stop_requested()) return std::nullopt;
-  auto energies = measure_energies(stop, progress);
-  if (!energies) return std::nullopt;
-  study.energies = std::move(*energies);
-  study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return study;
+}
+
+std::vector<double> stability_costs(const StabilityStudy& study) {
+  constexpr double border_steps = 9 * 2000, curve_vertices = 441.0 / 49;  // where a map's cloth is 1
+  std::vector<double> costs;
+  for (const StabilityMap& map : study.maps) {
+    costs.insert(costs.end(), map.cells.size(), study.detail.steps * cost_of_step(map.method));
+  }
+  for (const StabilityBorder& border : study.borders) costs.push_back(border_steps * cost_of_step(border.method));
+  for (const EnergyCurve& curve : study.energies) {
+    costs.push_back(curve_vertices * static_cast<double>(step_count(curve)) * cost_of_step(curve.method));
+  }
+  return costs;
+}
+
+bool measure_stability(StabilityStudy& study, const std::vector<std::size_t>& parts, const std::stop_token& stop,
+                       Progress& progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  progress.begin("measuring", "runs", static_cast<std::int64_t>(parts.size()));
+  // The longest come last in a study: with them first, all threads end at about the same time.
+  for_each_in_parallel(std::max(1U, std::thread::hardware_concurrency()), parts.size(), stop,
+                       [&](std::size_t, std::size_t i) {
+                         measure_part(study, parts[parts.size() - 1 - i], stop);
+                         ++progress.done;
+                       });
+  study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return !stop.stop_requested();
 }
 
 }  // namespace drape

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -87,11 +86,17 @@ double stability_border(const std::function<bool(double factor)>& blows_up);
 /// The border of a map at a stiffness.
 StabilityBorder stability_border(StepMethod method, StabilityAxis axis, double stiffness);
 
-/// Draws a map for every method over h and k, and over h and the stiffness of a ground's push, explicit and, for the
-/// implicit methods, implicit; measures the border of every map that has one, and what becomes of
-/// the energy over time.
-/// @returns nothing if it was stopped
-std::optional<StabilityStudy> study_stability(const StabilityDetail& detail, const std::stop_token& stop,
-                                              Progress& progress);
+/// What there is to measure: a map for every method over h and k, and over h and the stiffness of a ground's push,
+/// explicit and, for the implicit methods, implicit; the border of every map that has one; and what becomes of the
+/// energy over time. Its parts are the cells, map by map, then the borders, then the curves.
+StabilityStudy plan_stability(const StabilityDetail& detail);
+
+/// How long each part takes, in no unit: steps of an explicit method, roughly.
+std::vector<double> stability_costs(const StabilityStudy& study);
+
+/// Measures some of its parts, each of which has the same bits whichever others are measured.
+/// @returns whether it was not stopped
+bool measure_stability(StabilityStudy& study, const std::vector<std::size_t>& parts, const std::stop_token& stop,
+                       Progress& progress);
 
 }  // namespace drape

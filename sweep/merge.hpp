@@ -14,7 +14,7 @@ std::filesystem::path shard_place(const std::filesystem::path& folder, const Sha
 /// What a shard leaves in its folder: sweep.json, or of a check check.cbor.
 inline constexpr const char *sweep_mark = "sweep.json", *check_mark = "check.cbor";
 
-/// The folders with parts of a sweep or check: the shards within a folder, or itself where it has none; perhaps
+/// The folders with parts of a sweep, check or study: the shards within a folder, or itself where it has none; perhaps
 /// neither.
 /// @param mark the file that tells which it is
 /// @throws UsageError if the folder cannot be read

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "run/shard.hpp"
 #include "sweep/request.hpp"
-#include "sweep/shard.hpp"
 
 namespace drape {
 

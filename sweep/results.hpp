@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "run/shard.hpp"
 #include "sweep/plan.hpp"
 #include "sweep/run_folder.hpp"
-#include "sweep/shard.hpp"
 
 namespace drape {
 

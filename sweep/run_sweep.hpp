@@ -5,9 +5,9 @@
 #include <stop_token>
 
 #include "run/progress.hpp"
+#include "run/shard.hpp"
 #include "sweep/plan.hpp"
 #include "sweep/run_folder.hpp"
-#include "sweep/shard.hpp"
 
 namespace drape {
 

@@ -1,4 +1,4 @@
-#include "sweep/shard.hpp"
+#include "run/shard.hpp"
 
 #include <gtest/gtest.h>
 
