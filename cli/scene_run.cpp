@@ -45,6 +45,7 @@ SceneRun::SceneRun(const Scene& scene, RunOptions options, const RunArguments& a
 
 void SceneRun::announce() const {
   spdlog::info(describe(scene_, options_));
+  for (const std::string& doubt : scene_.doubts) spdlog::warn(doubt);
   if (scene_.simulation.integrator.allow_unstable) {
     if (const auto problem = stability_problem(scene_.simulation, make_system(scene_.simulation))) {
       spdlog::warn("{}: {}", scene_.file.string(), *problem);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/text.hpp"
+#include "scene/cloth_shape.hpp"
 #include "scene/method_names.hpp"
 
 namespace drape {
@@ -45,9 +46,10 @@ std::string describe(const Scene& scene, const RunOptions& options) {
                        scene.file.string(), motion.header().name, motion.header().vertices, motion.last_step(), s.step,
                        static_cast<double>(motion.last_step()) * s.step, motion.states());
   }
-  std::string text = fmt::format("{}: {}, {} vertices, {} springs, {} steps of {:g} s ({:g} s)", scene.file.string(),
-                                 step_method_name(s.integrator.step_method()), s.cloth.vertex_count(),
-                                 s.cloth.springs.size(), steps, s.step, static_cast<double>(steps) * s.step);
+  std::string text =
+      fmt::format("{}: {}, {} vertices, {} springs, {}, {} steps of {:g} s ({:g} s)", scene.file.string(),
+                  step_method_name(s.integrator.step_method()), s.cloth.vertex_count(), s.cloth.springs.size(),
+                  shape_of(s.cloth).text(), steps, s.step, static_cast<double>(steps) * s.step);
   for (const Effect& effect : s.effects) text += ", " + std::string(effect.name());
   return text;
 }

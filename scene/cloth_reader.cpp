@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "scene/cloth_shape.hpp"
+#include "scene/mesh_file.hpp"
 #include "scene/mesh_value.hpp"
 #include "scene/pins.hpp"
 #include "scene/table_reader.hpp"
@@ -53,6 +55,21 @@ std::string difference(const Mesh& rest, const Mesh& mesh) {
     }
   }
   return {};
+}
+
+/// What may not be meant, of a cloth that is complete.
+std::vector<std::string> doubts_of(const ClothTable& table, const ClothAndUvs& result) {
+  std::vector<std::string> doubts;
+  if (const auto doubt = shape_of(result.cloth).doubt()) doubts.push_back(*doubt);
+  const std::string* file = table.mesh->as<std::string>();  // a table may say which axis is up
+  const bool turned = !table.rotate.isZero(0);
+  if (file != nullptr && !turned && is_obj(*file) && seems_y_up(result.unplaced)) {
+    doubts.push_back(
+        fmt::format("it looks as if y pointed up in it, and here z does: perhaps {{ file = \"{}\", up = "
+                    "\"y\" }} is meant; up = \"z\" ends this hint",
+                    *file));
+  }
+  return doubts;
 }
 
 /// Whether a value is a table with this key.
@@ -130,7 +147,10 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
   }
 
   ClothAndUvs result{make_cloth(*start, *rest, table.mass, table.stiffness.value_or(1), std::move(pins)),
-                     std::move(start->uvs), std::move(unplaced), std::move(inputs)};
+                     std::move(start->uvs),
+                     std::move(unplaced),
+                     std::move(inputs),
+                     {}};
   if (!give_material(table, value, result.cloth, problems)) return std::nullopt;
   result.cloth.velocities.rowwise() = table.velocity.transpose();
   for (const int pin : result.cloth.pins) result.cloth.velocities.row(pin).setZero();
@@ -138,6 +158,7 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
     problems.add(place_of(value, "mass"), "mass: too small to be shared by so many vertices");
     return std::nullopt;
   }
+  result.doubts = doubts_of(table, result);
   return result;
 }
 

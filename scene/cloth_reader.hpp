@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "scene/problems.hpp"
@@ -17,6 +18,7 @@ struct ClothAndUvs {
   std::vector<std::array<float, 2>> uvs;      ///< see Mesh::uvs
   Vertices unplaced;                          ///< where its vertices were before [cloth.transform] [m]
   std::vector<std::filesystem::path> inputs;  ///< the files that it was read from
+  std::vector<std::string> doubts;            ///< what may not be meant about its mesh, a sentence each
 };
 
 /// Makes the cloth that a [cloth] table describes.

@@ -20,15 +20,20 @@ using Inputs = std::vector<std::filesystem::path>;
 
 enum class Format { obj, usd };
 
+std::string ending_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return ending;
+}
+
 [[noreturn]] void fail_file(const std::filesystem::path& file, const std::string& message) {
   SourceText(file.string(), "").fail(message);
 }
 
 Format format_of(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  const std::string ending = ending_of(file);
   if (ending == ".obj") return Format::obj;
   if (ending == ".usda" || ending == ".usd") return Format::usd;
   const std::string found = ending.empty() ? "a name without an ending" : in_quotes(file.extension().string());
@@ -83,6 +88,8 @@ MeshMotion read_sequence(const std::filesystem::path& file, const MeshOptions& o
 }
 
 }  // namespace
+
+bool is_obj(const std::filesystem::path& file) { return ending_of(file) == ".obj"; }
 
 Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options, Inputs* inputs) {
   const Format format = format_of(file);

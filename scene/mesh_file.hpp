@@ -16,6 +16,9 @@ namespace drape {
 Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options = {},
                std::vector<std::filesystem::path>* inputs = nullptr);
 
+/// Whether a name is that of an OBJ, which says neither its unit nor its up axis.
+bool is_obj(const std::filesystem::path& file);
+
 /// Reads a mesh that may move: that of a USD file (see read_usd_mesh_motion), or an OBJ sequence,
 /// "body/{frame:04}.obj": files with the same triangles, the first at 0 s and one every 1/frames_per_second. Any other
 /// mesh stands still.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scene/mesh/sequence.hpp"
 #include "scene/value_text.hpp"
 
 namespace drape {
@@ -22,12 +23,36 @@ class FileNames {
     } else if (TomlArray* array = value.as<TomlArray>()) {
       for (TomlValue& item : *array) replace(item);
     } else if (std::string* string = value.as<std::string>(); string != nullptr && !string->empty()) {
+      if (names_frames(*string)) return replace_frames(*string);
       const auto input = std::ranges::find_if(inputs_, [&](const auto& file) { return is_named(file, *string); });
       if (input != inputs_.end()) *string = name_of(*input);
     }
   }
 
+  /// What was read without being named in the scene, since a file names it.
+  void add_others() {
+    for (const std::filesystem::path& input : inputs_) {
+      const std::string name = input.filename().string();
+      const bool there = std::ranges::any_of(
+          files_, [&](const PortableScene::File& file) { return file.place == input || file.name == name; });
+      if (!there) files_.push_back({name, input});
+    }
+  }
+
  private:
+  /// Of a name like "body/{frame:04}.obj".
+  void replace_frames(std::string& text) {
+    const std::filesystem::path named = folder_ / text;
+    const std::string before = fmt::format("file-{}-", files_.size() + 1);
+    bool found = false;
+    for (const std::filesystem::path& input : inputs_) {
+      if (!is_frame(input, named)) continue;
+      files_.push_back({before + input.filename().string(), input});
+      found = true;
+    }
+    if (found) text = before + named.filename().string();
+  }
+
   /// Beside the scene, or else in the data folder's textures/.
   [[nodiscard]] bool is_named(const std::filesystem::path& file, const std::string& text) const {
     return file == folder_ / text || file.native().ends_with("/textures/" + text);
@@ -50,7 +75,9 @@ class FileNames {
 PortableScene make_portable(TomlValue document, const std::filesystem::path& folder,
                             const std::vector<std::filesystem::path>& inputs) {
   PortableScene scene;
-  FileNames(folder, inputs, scene.files).replace(document);
+  FileNames names(folder, inputs, scene.files);
+  names.replace(document);
+  names.add_others();
   for (const TomlEntry& table : document.as<TomlTable>()->entries) {
     if (table.name == "check") continue;
     if (const TomlTable* entries = table.value.as<TomlTable>()) {

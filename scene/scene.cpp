@@ -179,6 +179,9 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
       scene.uvs = std::move(cloth->uvs);
       unplaced = std::move(cloth->unplaced);
       cloth_inputs = std::move(cloth->inputs);
+      for (const std::string& doubt : cloth->doubts) {
+        scene.doubts.push_back(problems.text(place_of(*value, "mesh")) + ": mesh: " + doubt);
+      }
       reader.set_vertices(&unplaced);
       cloth_good = reader.good("cloth") && reader.good("cloth.transform");
     }

@@ -49,8 +49,9 @@ struct Scene {
   /// A hash of what the file and the overrides say, but for [check], [caption] and [overlay]: comments, the order of
   /// keys and the way in which a number is written do not change it. 16 hexadecimal digits.
   std::string digest;
-  std::vector<SceneValue> tables;  ///< what the tables say on which the motion depends, see physics_values()
-  PortableScene portable;          ///< all that it was read from
+  std::vector<SceneValue> tables;   ///< what the tables say on which the motion depends, see physics_values()
+  PortableScene portable;           ///< all that it was read from
+  std::vector<std::string> doubts;  ///< what may not be meant, though it can be simulated: "scene.toml:2:8: …"
 
   /// The number of steps that cover the duration: duration/step, rounded to the nearest whole number.
   [[nodiscard]] std::int64_t step_count() const;

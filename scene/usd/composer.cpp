@@ -95,12 +95,14 @@ class UsdComposer {
   /// The file that an arc names, which is read when it is first named; null, and a gap, if it cannot be.
   const File* file_of(const UsdArc& arc) {
     const std::filesystem::path folder = std::filesystem::path(arc.place.source->name()).parent_path();
-    const std::filesystem::path path = (folder / arc.file).lexically_normal();
+    std::filesystem::path path = (folder / arc.file).lexically_normal();
+    std::error_code error;
+    // A motion file keeps them all in one folder.
+    if (!std::filesystem::exists(path, error)) path = (folder / path.filename()).lexically_normal();
     const auto known = std::find_if(stage_.files_.begin(), stage_.files_.end(), [&](const File& file) {
       return std::filesystem::path(file.source->name()).lexically_normal() == path;
     });
     if (known != stage_.files_.end()) return &*known;
-    std::error_code error;
     const bool ascii = path.extension() == ".usda" || path.extension() == ".usd";
     if (!ascii || !std::filesystem::is_regular_file(path, error)) {
       gap(arc, fmt::format("{} is {}", in_quotes(arc.file), ascii ? "not there" : "no .usda file"));

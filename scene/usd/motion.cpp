@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/text.hpp"
+#include "scene/usd/skin.hpp"
 #include "scene/usd/stage.hpp"
 #include "scene/usd/xform.hpp"
 
@@ -73,10 +75,10 @@ SphereShape TransformTrack::sphere_at(double time) const {
   return {transform * center, stretch * radius};
 }
 
-TransformTrack read_usd_motion(const SourceText& source) {
-  const UsdStage stage(source);
+namespace {
+
+TransformTrack track_of(const UsdStage& stage, const UsdPath& path) {
   const UsdLayer& layer = stage.layer();
-  const UsdPath path = moving_prim(stage);
   const UsdPrim& prim = *path.back();
 
   TransformTrack track;
@@ -92,11 +94,36 @@ TransformTrack read_usd_motion(const SourceText& source) {
   return track;
 }
 
+/// A Mesh that its skeleton or its points move.
+bool deforms(const UsdPath& path) {
+  if (path.back()->type != "Mesh") return false;
+  const UsdAttribute* points = path.back()->find("points");
+  return (points != nullptr && points->samples.size() > 1) || UsdSkin::is_on(path);
+}
+
+}  // namespace
+
+TransformTrack read_usd_motion(const SourceText& source) {
+  const UsdStage stage(source);
+  return track_of(stage, moving_prim(stage));
+}
+
 TransformTrack read_usd_motion(const std::filesystem::path& file) { return read_usd_motion(SourceText::read(file)); }
 
 std::shared_ptr<const SphereTrack> read_sphere_track(const std::filesystem::path& file) {
   const SourceText source = SourceText::read(file);
-  TransformTrack track = read_usd_motion(source);
+  const UsdStage stage(source, {.moving_points = true});
+  const UsdPath path = moving_prim(stage);
+  const std::vector<UsdPath> shapes = find_prims(stage, {"Mesh"});
+  const auto deforming = std::ranges::find_if(shapes, deforms);
+  if (deforms(path) || (transform_times(path).empty() && deforming != shapes.end())) {
+    const UsdPrim& mesh = deforms(path) ? *path.back() : *deforming->back();
+    mesh.place.fail(
+        fmt::format("a track moves a sphere, but the Mesh {} changes its shape: use [[effects.body]] with "
+                    "file and prim = \"{}\"",
+                    in_quotes(mesh.name), escape_controls(mesh.path)));
+  }
+  TransformTrack track = track_of(stage, path);
   if (track.times.size() < 2) {
     source.fail("nothing moves in the file: expected a Mesh, a Sphere or an Xform with time samples of its transform");
   }

@@ -52,9 +52,14 @@ UsdPath prim_at(const UsdStage& stage, const UsdPath& from, const std::string& p
 
 }  // namespace
 
+bool UsdSkin::is_on(const UsdPath& mesh) {
+  return !inherited_target(mesh, "skel:skeleton").empty() &&
+         inherited_attribute(mesh, "primvars:skel:jointIndices") != nullptr;
+}
+
 std::optional<UsdSkin> UsdSkin::of(const UsdStage& stage, const UsdPath& mesh) {
+  if (!is_on(mesh)) return std::nullopt;
   const std::string target = inherited_target(mesh, "skel:skeleton");
-  if (target.empty() || inherited_attribute(mesh, "primvars:skel:jointIndices") == nullptr) return std::nullopt;
   UsdSkin skin(stage, prim_at(stage, mesh, target, "skel:skeleton"));
   skin.read_skeleton();
   skin.read_animation();

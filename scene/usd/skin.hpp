@@ -17,6 +17,9 @@ namespace drape {
 /// See https://openusd.org/release/api/_usd_skel__schema_overview.html
 class UsdSkin {
  public:
+  /// Whether a mesh has one.
+  static bool is_on(const UsdPath& mesh);
+
   /// The skin of a mesh; nothing if it has none. Skeleton, joints and weights may be its ancestors'.
   /// @throws UsageError "file:line:column: message"
   static std::optional<UsdSkin> of(const UsdStage& stage, const UsdPath& mesh);

@@ -39,7 +39,8 @@ struct UsdGap {
 /// strength that USD has: its own, inherited, of the variants that are selected, of references, of payloads,
 /// specialised; see https://openusd.org/release/glossary.html#liverps-strength-ordering. Where no variant of a set is
 /// selected, the first one is read, but what only it has is not part of the scene (is_defined). Units, up axis and
-/// times are those of the file itself; the times of others are stretched to its time codes.
+/// times are those of the file itself; the times of others are stretched to its time codes. A file that is not where a
+/// reference says is looked for beside the one that refers to it.
 class UsdStage {
  public:
   /// @param source must outlive this object; its name is where files are looked for that it refers to

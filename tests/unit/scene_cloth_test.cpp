@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "scene/cloth_shape.hpp"
 #include "scene/scene.hpp"
 #include "tests/support/scene_folder.hpp"
 
@@ -68,6 +69,46 @@ TEST(SceneMesh, IsChosenByItsNameAndTurnedByItsUpAxis) {
   EXPECT_EQ(turned.simulation.cloth.positions.row(2), Eigen::RowVector3d(0, -2, 1));
 }
 
+// What may be a mistake, and may be meant: it is simulated all the same.
+TEST(SceneMesh, DoubtsSizesAndUpAxesThatAreSeldomMeant) {
+  const SceneFolder folder;
+  const auto doubts = [&](const std::string& mesh, const std::string& more = "") {
+    return folder.load("[cloth]\nmesh = " + mesh + "\nstiffness = 7\n" + more).doubts;
+  };
+  const std::string scaled = "[cloth.transform]\nscale = ";
+  EXPECT_TRUE(doubts("{ grid = [2, 2] }").empty());
+  EXPECT_TRUE(doubts("{ grid = [2, 2] }", scaled + "50").empty());
+  const std::vector<std::string> large = doubts("{ grid = [2, 2] }", scaled + "167");
+  ASSERT_EQ(large.size(), 1U);
+  EXPECT_TRUE(
+      large[0].ends_with("scene.toml:2:8: mesh: the cloth is 334 m large: are its coordinates metres? "
+                         "[cloth.transform] scale changes them"))
+      << large[0];
+  EXPECT_EQ(doubts("{ grid = [2, 2] }", scaled + "4e-4").size(), 1U);
+
+  folder.write("shirt.obj", "v -0.4 0.9 -0.1\nv 0.4 0.9 0.15\nv 0 1.5 0\nf 1 2 3\n");  // on a floor at y = 0
+  folder.write("table.obj", "v -1 3 -1\nv 1 3 1\nv 1 3.1 -1\nf 1 2 3\n");              // flat in y
+  folder.write("flag.obj", "v -1 0 3\nv 1 1 3\nv 1 -1 3.1\nf 1 2 3\n");                // flat in z
+  for (const char* file : {"\"shirt.obj\"", "\"table.obj\""}) {
+    ASSERT_EQ(doubts(file).size(), 1U) << file;
+    EXPECT_NE(doubts(file)[0].find(std::string("perhaps { file = ") + file + ", up = \"y\" } is meant"),
+              std::string::npos)
+        << doubts(file)[0];
+  }
+  EXPECT_TRUE(doubts("\"flag.obj\"").empty());
+  EXPECT_TRUE(doubts("{ file = \"shirt.obj\", up = \"z\" }").empty());
+  EXPECT_TRUE(doubts("\"shirt.obj\"", "[cloth.transform]\nrotate = [90, 0, 0]\n").empty());
+}
+
+TEST(SceneMesh, SaysItsPiecesItsExtentAndItsEdges) {
+  const SceneFolder folder;
+  folder.write("two.obj", "v 0 0 0\nv 3 0 0\nv 0 4 0\nv 0 0 7\nv 1 0 7\nv 0 1 7\nv 9 9 9\nf 1 2 3\nf 4 5 6\n");
+  const Scene scene = folder.load("[cloth]\nmesh = \"two.obj\"\nstiffness = 7\n");
+  EXPECT_EQ(shape_of(scene.simulation.cloth).text(), "2 pieces of 9 × 9 × 9 m together, edges of 1 to 5 m");
+  const Scene grid = folder.load("[cloth]\nmesh = { grid = [4, 4] }\nstiffness = 7\n");
+  EXPECT_EQ(shape_of(grid.simulation.cloth).text(), "1 piece of 2 × 2 × 0 m, edges of 0.5 to 0.707 m");
+}
+
 TEST(SceneMesh, EveryOtherFormIsAnError) {
   const SceneFolder folder;
   const auto problem = [&](const std::string& mesh) {
@@ -78,7 +119,7 @@ TEST(SceneMesh, EveryOtherFormIsAnError) {
             "found a whole number");
   EXPECT_EQ(problem("{}"), "scene.toml:2:8: mesh: missing key 'grid' or 'file'");
   EXPECT_EQ(problem("{ file = \"a.obj\", grid = [2, 2] }"),
-            "scene.toml:2:27: mesh: unknown key 'grid'; the keys are 'file', 'prim', 'up'");
+            "scene.toml:2:26: mesh: unknown key 'grid'; the keys are 'file', 'prim', 'up'");
   EXPECT_EQ(problem("{ prim = \"/a\" }"), "scene.toml:2:8: mesh: missing key 'file'");
   EXPECT_EQ(problem("{ file = \"a.obj\", up = \"x\" }"), "scene.toml:2:31: mesh.up: expected 'y' or 'z', found 'x'");
   EXPECT_EQ(problem("{ gird = [2, 2] }"), "scene.toml:2:10: mesh: unknown key 'gird'; did you mean 'grid'?");

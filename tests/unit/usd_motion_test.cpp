@@ -153,9 +153,16 @@ TEST(UsdMotion, OfNothingIsNoTrack) {
   const std::string message =
       "ball.usda: nothing moves in the file: expected a Mesh, a Sphere or an Xform with time samples of its transform";
   EXPECT_EQ(error_of_track(ball("")), message);
+  const std::string deforms = " changes its shape: use [[effects.body]] with file and prim = \"/m\"",
+                    of = "a track moves a sphere, but the Mesh 'm'";
   EXPECT_EQ(error_of_track(kHeader + "def Mesh \"m\" {\npoint3f[] points.timeSamples = { 1: [(0, 0, 0)], 2: [(1, 0, "
                                      "0)] }\n}\n"),
-            message);
+            "ball.usda:6:1: " + of + deforms);
+  EXPECT_EQ(
+      error_of_track(kHeader + "def Mesh \"m\" {\nrel skel:skeleton = </s>\nint[] primvars:skel:jointIndices = [0]\n" +
+                     "double3 xformOp:translate.timeSamples = { 1: (0, 0, 0), 2: (0, 0, 1) }\nuniform token[] "
+                     "xformOpOrder = [\"xformOp:translate\"]\n}\n"),
+      "ball.usda:6:1: " + of + deforms);
   EXPECT_EQ(error_of_track(ball("double3 xformOp:translate.timeSamples = { 1: (0, 0, 0) }\nuniform token[] "
                                 "xformOpOrder = [\"xformOp:translate\"]")),
             message);
