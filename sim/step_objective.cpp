@@ -26,6 +26,7 @@ StepObjective::StepObjective(const System& system, double duration)
     const Spring& s = bound.pairs[p];
     const auto d = system.cloth.positions.row(s.i) - system.cloth.positions.row(s.j);
     elastic_scale_ += std::abs(s.stiffness) * d.squaredNorm();
+    cancelling_ += std::abs(s.stiffness) * d.squaredNorm() / 2;
   }
   Eigen::VectorXd stiffness = inertia_ + bound.vertices;
   for (const Spring& s : bound.pairs) {
@@ -63,7 +64,9 @@ double StepObjective::inertial_value(const Vertices& x) const {
   return twice / 2;
 }
 
-double StepObjective::rounding(double value) const { return units * unit * (value + std::sqrt(2 * value * scale_)); }
+double StepObjective::rounding(double value) const {
+  return units * unit * (value + std::sqrt(2 * value * scale_)) + unit * cancelling_;
+}
 
 double StepObjective::error_bound(const Vertices& gradient) const {
   const auto length =
