@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "scene/mesh_file.hpp"
-#include "scene/usd/layer.hpp"
 #include "scene/usd/mesh.hpp"
 #include "scene/usd/motion.hpp"
+#include "scene/usd/stage.hpp"
 #include "tests/support/written_motion.hpp"
 
 namespace drape::usd {
@@ -38,13 +38,14 @@ TEST(Usd, ReadsBackAsTheFramesOfTheFilm) {
   options.frames = FrameRange{2, 12};
   const auto [result, frames] = test::write_motion(scene, {folder.path("x.usda")}, options);
   ASSERT_EQ(frames.size(), 11U);
-  const UsdLayer layer = parse_usd(SourceText::read(folder.path("x.usda")));
-  EXPECT_TRUE(layer.z_up);
-  EXPECT_EQ(layer.metres_per_unit, 1);
-  EXPECT_EQ(layer.start_time_code, 2);
-  EXPECT_EQ(layer.time_codes_per_second, 40);  // of the scene's time, at half of which the film plays 20
-  ASSERT_EQ(layer.prims.size(), 1U);
-  const UsdPrim& cloth = layer.prims[0].children.at(0);
+  const SourceText source = SourceText::read(folder.path("x.usda"));
+  const UsdStage stage(source);
+  EXPECT_TRUE(stage.layer().z_up);
+  EXPECT_EQ(stage.layer().metres_per_unit, 1);
+  EXPECT_EQ(stage.layer().start_time_code, 2);
+  EXPECT_EQ(stage.layer().time_codes_per_second, 40);  // of the scene's time, at half of which the film plays 20
+  ASSERT_EQ(stage.prims().size(), 1U);
+  const UsdPrim& cloth = stage.prims()[0].children.at(0);
   EXPECT_EQ(cloth.type, "Mesh");
   EXPECT_NE(cloth.find("points"), nullptr);
   const auto points = samples(test::content(folder.path("x.usda")), "points");
@@ -71,8 +72,9 @@ TEST(Usd, ReadsBackAsAMesh) {
 TEST(Usd, ItsSphereMovesAsTheScenes) {
   const test::SceneFolder folder;
   const auto [result, frames] = test::write_motion(folder.load(test::moving_scene), {folder.path("x.usda")});
-  const UsdLayer layer = parse_usd(SourceText::read(folder.path("x.usda")));
-  const std::vector<UsdPrim>& prims = layer.prims.at(0).children;
+  const SourceText source = SourceText::read(folder.path("x.usda"));
+  const UsdStage stage(source);
+  const std::vector<UsdPrim>& prims = stage.prims().at(0).children;
   std::vector<std::string> types;
   for (const UsdPrim& prim : prims) types.push_back(prim.type);
   EXPECT_EQ(types, (std::vector<std::string>{"Mesh", "Material", "Sphere", "Plane"}));
@@ -103,8 +105,9 @@ TEST(Usd, ItsGroundLiesWhereItLies) {
   const test::SceneFolder folder;
   const Scene scene = folder.load(test::moving_scene, {"effects.ground.normal=[0.6,0,0.8]"});
   test::write_motion(scene, {folder.path("x.usda")});
-  const UsdLayer layer = parse_usd(SourceText::read(folder.path("x.usda")));
-  const std::vector<double>& m = layer.prims.at(0).children.at(3).find("xformOp:transform")->first()->numbers;
+  const SourceText source = SourceText::read(folder.path("x.usda"));
+  const UsdStage stage(source);
+  const std::vector<double>& m = stage.prims().at(0).children.at(3).find("xformOp:transform")->first()->numbers;
   ASSERT_EQ(m.size(), 16U);
   EXPECT_NEAR(m[8], 0.6, 1e-15);  // the image of z, the normal of USD's plane
   EXPECT_NEAR(m[10], 0.8, 1e-15);
