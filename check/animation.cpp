@@ -8,6 +8,8 @@
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "check/compare_motion.hpp"
@@ -15,7 +17,9 @@
 #include "check/picture.hpp"
 #include "codecs/codecs.hpp"
 #include "core/read_file.hpp"
+#include "html/film.hpp"
 #include "output/gif_encoder.hpp"
+#include "output/png_encoder.hpp"
 #include "render/montage.hpp"
 
 namespace drape {
@@ -94,8 +98,8 @@ Image side_by_side(const Pair& pair, double factor) {
 
 }  // namespace
 
-std::string difference_animation(const Scene& scene, const Golden& golden, const SceneResult& result, GlBackend backend,
-                                 const std::filesystem::path& folder) {
+DifferenceAnimation difference_animation(const Scene& scene, const Golden& golden, const SceneResult& result,
+                                         GlBackend backend, const std::filesystem::path& folder) {
   const Comparison& shown = result.windows.first_bad_frame || !result.end_to_end ? result.windows : *result.end_to_end;
   if (!shown.first_bad_frame) return {};
   const auto changed = std::find_if(shown.windows.begin(), shown.windows.end(), [](const WindowResult& window) {
@@ -112,9 +116,17 @@ std::string difference_animation(const Scene& scene, const Golden& golden, const
   const std::unique_ptr<Encoder> encoder =
       std::make_unique<GifEncoder>(file, moved ? motion_rate : picture_rate, std::function<void(int, int)>());
   const double factor = common_amplification(pairs);
-  for (const Pair& pair : pairs) encoder->add(side_by_side(pair, factor));
+  const std::set<std::size_t> printed = html::printed_moments(pairs.size());
+  std::vector<Image> stills;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    Image frame = side_by_side(pairs[i], factor);
+    encoder->add(frame);
+    if (printed.contains(i)) stills.push_back(std::move(frame));
+  }
   encoder->finish();
-  return read_file(file, std::filesystem::file_size(file));
+  std::vector<const Image*> moments;
+  for (const Image& still : stills) moments.push_back(&still);
+  return {read_file(file, std::filesystem::file_size(file)), encode_png(montage(moments, 1, gap, gap_gray))};
 }
 
 }  // namespace drape

@@ -10,13 +10,17 @@
 
 namespace drape {
 
+/// The bytes of a GIF, and of a PNG that shows some of its moments below one another; both empty: there is nothing.
+struct DifferenceAnimation {
+  std::string gif, stills;
+};
+
 /// A GIF that shows expected, actual and difference side by side and repeats: of a changed motion the steps of the
 /// first windows that changed whose positions are compared, drawn alike, else the compared frames around the first
 /// picture that changed.
 /// @param folder  where it is written, as NAME/difference.gif
-/// @returns the file's bytes; empty if there is nothing to show
 /// @throws OutputError
-std::string difference_animation(const Scene& scene, const Golden& golden, const SceneResult& result, GlBackend backend,
-                                 const std::filesystem::path& folder);
+DifferenceAnimation difference_animation(const Scene& scene, const Golden& golden, const SceneResult& result,
+                                         GlBackend backend, const std::filesystem::path& folder);
 
 }  // namespace drape

@@ -53,7 +53,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Comparison, motion, picture, windows, frames,
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Machine, drape, compiler, system, processor, cpu_flags, kernels, renderer)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SceneResult, name, file, golden, verdict, error, findings, windows, end_to_end,
                                    settings, ignored, elsewhere, scene_changed, recorded_at, recorded_on, renderer,
-                                   size, animation, has_candidate, rerun_command, accept_command, seconds)
+                                   size, animation, stills, has_candidate, rerun_command, accept_command, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckReport, command, accept_command, date, machine, scenes, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckShard, report, places, scenes, whole)
 

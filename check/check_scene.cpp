@@ -237,7 +237,9 @@ class SceneCheck {
     }
     if (!changed || options_.artefacts.empty()) return;
     if (!stop_.stop_requested()) {
-      result_.animation = difference_animation(scene_, golden_, result_, options_.backend, options_.artefacts);
+      DifferenceAnimation made = difference_animation(scene_, golden_, result_, options_.backend, options_.artefacts);
+      result_.animation = std::move(made.gif);
+      result_.stills = std::move(made.stills);
     }
     if (!stop_.stop_requested()) keep_candidate();
   }

@@ -228,7 +228,7 @@ Markup scene_content(const SceneResult& scene, const std::string& id) {
   content += viewer(scene, scene.windows, id);
   if (!scene.animation.empty()) {
     content += html::figure(
-        html::picture("image/gif", scene.animation, "Animation of expected, actual and difference side by side"),
+        html::animation(scene.animation, scene.stills, "Animation of expected, actual and difference side by side"),
         "Expected, actual and difference around the first frame that changed.");
   }
   content += figures(scene, scene.windows);

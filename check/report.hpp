@@ -122,6 +122,7 @@ struct SceneResult {
   std::array<int, 2> size{};   ///< of the pictures [pixels]
   std::string animation;       ///< a GIF's bytes: expected, actual and difference side by side, looping around the
                                ///< first bad frame; empty if there is none
+  std::string stills;          ///< some of its moments for paper: a PNG's bytes
   bool has_candidate = false;  ///< what it is now is kept beside the report, and can be accepted
   std::string rerun_command;
   std::string accept_command;  ///< makes what it is now the golden: drape accept, or drape bless without a candidate

@@ -66,8 +66,10 @@ class Comparison {
     }
     result_.differences = differences(scenes);
     result_.frames_wanted = frames_.count();
-    for (const std::string& label : labels(scenes, result_.differences))
-      result_.motions.push_back({label, {}, {}, {}, {}, {}});
+    for (const std::string& label : labels(scenes, result_.differences)) {
+      const IntegratorSettings& integrator = scenes[result_.motions.size()].simulation.integrator;
+      result_.motions.push_back({label, {}, {}, {}, {}, {}, step_method_name({integrator.method, integrator.scheme})});
+    }
   }
 
   CompareResult run() {

@@ -38,6 +38,7 @@ struct ComparedMotion {
   std::string divergence;                         ///< empty unless it diverged
   std::vector<double> total_energy;               ///< by frame [J]
   std::vector<std::optional<double>> most, mean;  ///< of the vertices' distances to the first, by frame [m]
+  std::string method = {};                        ///< "liu13", "implicit-sdirk2"
 };
 
 struct CompareResult {

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/text.hpp"
 #include "html/chart.hpp"
 #include "html/components.hpp"
 #include "html/film.hpp"
 #include "html/page.hpp"
+#include "study/diagram_files.hpp"
 
 namespace drape {
 namespace {
@@ -74,17 +76,31 @@ Markup figures_table(const CompareResult& result) {
                                   "read from a file has none.");
 }
 
+/// An empty series of the i-th motion: in the colour of its method where that tells the motions apart.
+html::ChartSeries series_of(const CompareResult& result, std::size_t i) {
+  std::set<std::string> methods;
+  for (const ComparedMotion& motion : result.motions) methods.insert(motion.method);
+  html::ChartSeries series;
+  if (methods.size() == result.motions.size()) {
+    series = method_series(result.motions[i].method);
+  } else {
+    series.style = i;
+  }
+  series.name = result.motions[i].label;
+  series.markers = false;
+  return series;
+}
+
 /// Lines over time, one for each motion.
 /// @param of a motion's numbers by frame
 template <class Of>
 Markup lines(const CompareResult& result, const std::string& title, const std::string& y_title, Of of) {
   html::Chart chart{.title = title, .x_title = "time [s]", .y_title = y_title, .series = {}, .levels = {}};
   const std::size_t every = std::max<std::size_t>(1, result.times.size() / 200);
-  for (const ComparedMotion& motion : result.motions) {
-    html::ChartSeries series{.name = motion.label, .points = {}, .markers = false};
-    series.style = static_cast<std::size_t>(&motion - result.motions.data());
+  for (std::size_t i = 0; i < result.motions.size(); ++i) {
+    html::ChartSeries series = series_of(result, i);
     for (std::size_t k = 0; k < result.times.size(); k += every) {
-      const std::optional<double> y = of(motion, k);
+      const std::optional<double> y = of(result.motions[i], k);
       if (y) series.points.push_back({result.times[k], *y, fmt::format("{:.2f} s: {:.4g}", result.times[k], *y), {}});
     }
     if (!series.points.empty()) chart.series.push_back(std::move(series));

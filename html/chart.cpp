@@ -39,7 +39,8 @@ Markup chart(const Chart& chart) {
       inline_svg(diagram, {{"tabindex", "0"}, {"aria-label", chart.title + " Arrow keys go from point to point."}});
   return element("figure", {{"class", "chart"}},
                  element("figcaption", chart.title) + legend(diagram.legend) +
-                     element("p", {{"class", "axis-title"}}, chart.y_title) + svg + points_table(chart));
+                     element("p", {{"class", "axis-title"}}, chart.y_title) + svg +
+                     copies({"SVG", "PNG"}, chart.title) + points_table(chart));
 }
 
 Diagram still_chart(const Chart& chart) { return draw_chart(chart, Medium::file); }

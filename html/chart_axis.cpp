@@ -14,16 +14,41 @@ constexpr std::size_t fewest_ticks = 3;
 constexpr double room_for_zero = 0.1, near = 0.1;  // as parts of an axis
 constexpr double rounding = 1e-9;                  // by which a value may be beyond a tick that is meant to be it
 
-/// A digit times ten to a power: "0.02", "500", and beyond that "10⁻⁷", "2·10⁵".
-std::string factor_and_power(int factor, int exponent) {
-  if (std::abs(exponent) <= 3) return short_number(factor * std::pow(10, exponent));
+/// A power of ten: "10⁻⁷".
+std::string power(int exponent) {
   constexpr std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = (factor == 1 ? "" : fmt::format("{}·", factor)) + (exponent < 0 ? "10⁻" : "10");
+  std::string text = exponent < 0 ? "10⁻" : "10";
   for (const char digit : std::to_string(std::abs(exponent))) text += digits[static_cast<std::size_t>(digit - '0')];
   return text;
 }
 
-std::string tick_label(double value) { return (value < 0 ? "−" : "") + short_number(std::abs(value)); }
+/// A digit times ten to a power: "0.02", "500", or else "10⁻⁷", "2·10⁵".
+std::string factor_and_power(int factor, int exponent, bool plain) {
+  if (plain) return short_number(factor * std::pow(10, exponent));
+  return (factor == 1 ? "" : fmt::format("{}·", factor)) + power(exponent);
+}
+
+/// What stands at the multiples of a step, all in one way: "0", "0.5", "1", or "5·10⁻⁶".
+class TickLabels {
+ public:
+  TickLabels(double step, double low, double high) {
+    const double largest = std::max(std::abs(low), std::abs(high));
+    const int leading = static_cast<int>(std::floor(std::log10(largest) + rounding));
+    const int last = static_cast<int>(std::floor(std::log10(step) + rounding));
+    if (leading >= most_digits || last < -most_digits) exponent_ = leading;
+    decimals_ = std::max(0, exponent_ - last);
+  }
+
+  [[nodiscard]] std::string operator()(double value) const {
+    if (value == 0) return "0";
+    const std::string number = fmt::format("{:.{}f}", std::abs(value) / std::pow(10, exponent_), decimals_);
+    return (value < 0 ? "−" : "") + number + (exponent_ == 0 ? "" : "·" + power(exponent_));
+  }
+
+ private:
+  static constexpr int most_digits = 5;  // before the point, or behind it
+  int exponent_ = 0, decimals_ = 0;
+};
 
 /// Between the ticks of a linear axis.
 double round_step(double low, double high) {
@@ -50,7 +75,9 @@ std::vector<double> multiples(double step, double low, double high) {
 
 }  // namespace
 
-std::string power_of_ten(int exponent) { return factor_and_power(1, exponent); }
+bool is_plain(int lowest, int highest) { return lowest >= -3 && highest <= 3; }
+
+std::string power_of_ten(int exponent, bool plain) { return factor_and_power(1, exponent, plain); }
 
 std::string short_number(double value) { return fmt::format("{:.4g}", value); }
 
@@ -91,7 +118,8 @@ void AxisMap::make_linear(double low, double high) {
   widen(low, high, step);
   low_ = low;
   high_ = high;
-  for (const double value : multiples(step, low, high)) ticks_.push_back({place(value), tick_label(value)});
+  const TickLabels label(step, low, high);
+  for (const double value : multiples(step, low, high)) ticks_.push_back({place(value), label(value)});
 }
 
 void AxisMap::make_logarithmic(double low, double high) {
@@ -101,20 +129,21 @@ void AxisMap::make_logarithmic(double low, double high) {
   high_ = high;
   const int first = static_cast<int>(std::floor(low + rounding)), last = static_cast<int>(std::floor(high + rounding));
   const int stride = (last - first + wanted_ticks) / (wanted_ticks + 1);
+  const bool plain = is_plain(first, last);
   const bool between = high - low < 2.5;  // there is room for ticks within a decade
   for (int exponent = first; exponent <= last; exponent += std::max(1, stride)) {
     for (const int factor : {1, 2, 5}) {
       const double place_of_it = exponent + std::log10(factor);
       if ((factor > 1 && !between) || place_of_it < low - rounding || place_of_it > high + rounding) continue;
-      ticks_.push_back({place(factor * std::pow(10, exponent)), factor_and_power(factor, exponent)});
+      ticks_.push_back({place(factor * std::pow(10, exponent)), factor_and_power(factor, exponent, plain)});
     }
   }
   if (ticks_.size() >= fewest_ticks + (floor_ > 0 ? 1 : 0)) return;
   ticks_.erase(ticks_.begin() + (floor_ > 0 ? 1 : 0), ticks_.end());
   const double from = std::pow(10, low), to = std::pow(10, high);
-  for (const double value : multiples(round_step(from, to), from, to)) {
-    ticks_.push_back({place(value), tick_label(value)});
-  }
+  const double step = round_step(from, to);
+  const TickLabels label(step, from, to);
+  for (const double value : multiples(step, from, to)) ticks_.push_back({place(value), label(value)});
 }
 
 double AxisMap::place(double value) const {

@@ -36,8 +36,12 @@ class AxisMap {
   std::vector<Tick> ticks_;
 };
 
-/// 10 to a power: "0.01", "100", and beyond a thousand "10⁻⁷".
-std::string power_of_ten(int exponent);
+/// Whether powers of ten of these exponents are written out on an axis, "0.01" and "100". All its ticks are of one
+/// kind.
+bool is_plain(int lowest, int highest);
+
+/// 10 to a power: "0.01" or "10⁻²".
+std::string power_of_ten(int exponent, bool plain);
 
 /// A number as people write it: "0.25", "1e-06".
 std::string short_number(double value);

@@ -2,15 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 namespace drape::html {
 namespace {
 
 // In the units of the drawing, which is scaled to the page.
 constexpr double width = 640, height = 340, left = 72, right = 24, top = 12, bottom = 50;
+constexpr double large = 19;         // height of the letters in a narrow window, see chart.css
+constexpr double wide_letter = 0.6;  // their width, by their height
 constexpr std::size_t styles = 6;    // colours and signs of the style sheet
+constexpr std::size_t deepest = 3;   // curves below others that it tells apart
+constexpr double told_apart = 2.5;   // how far apart two points of curves must be to be seen as two
 constexpr std::size_t crowded = 60;  // points in a series from which on signs would cover the line
 
 struct Frame {
@@ -32,16 +38,38 @@ Frame frame_of(const Chart& chart) {
   return {chart.x_names.empty() ? AxisMap(chart.x_scale, xs) : AxisMap(chart.x_names), AxisMap(chart.y_scale, ys)};
 }
 
+/// The ticks whose labels would run into that of the one before where letters are as large as in a narrow window.
+/// @param room  along the axis
+/// @param needs what a label takes of it
+std::vector<bool> spare_ticks(const std::vector<AxisMap::Tick>& ticks, double room,
+                              const std::function<double(const std::string&)>& needs) {
+  std::vector<bool> spare(ticks.size(), false);
+  double taken = -INFINITY;
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    const double middle = room * ticks[i].place, half = needs(ticks[i].label) / 2;
+    spare[i] = middle - half < taken;
+    if (!spare[i]) taken = middle + half;
+  }
+  return spare;
+}
+
 Markup axes(const Chart& chart, const Frame& frame) {
   Markup parts;
   const double span = width - left - right, rise = height - top - bottom;
-  for (const AxisMap::Tick& tick : frame.y.ticks()) {
-    const double y = height - bottom - rise * tick.place;
-    parts += svg_line("grid", left, y, width - right, y) + svg_text(left - 8, y + 4, "end", tick.label);
+  const auto style = [](bool spare) { return spare ? Attributes{{"class", "spare"}} : Attributes{}; };
+  const auto high = [](const std::string&) { return large; };
+  const auto wide = [](const std::string& label) { return large * (wide_letter * letters(label) + 0.5); };
+  const std::vector<bool> spare_y = spare_ticks(frame.y.ticks(), rise, high);
+  for (std::size_t i = 0; i < spare_y.size(); ++i) {
+    const double y = height - bottom - rise * frame.y.ticks()[i].place;
+    parts += svg_line("grid", left, y, width - right, y) +
+             svg_text(left - 8, y + 4, "end", frame.y.ticks()[i].label, style(spare_y[i]));
   }
-  for (const AxisMap::Tick& tick : frame.x.ticks()) {
-    const double x = left + span * tick.place;
-    parts += svg_line("grid", x, top, x, height - bottom) + svg_text(x, height - bottom + 18, "middle", tick.label);
+  const std::vector<bool> spare_x = spare_ticks(frame.x.ticks(), span, wide);
+  for (std::size_t i = 0; i < spare_x.size(); ++i) {
+    const double x = left + span * frame.x.ticks()[i].place;
+    parts += svg_line("grid", x, top, x, height - bottom) +
+             svg_text(x, height - bottom + 18, "middle", frame.x.ticks()[i].label, style(spare_x[i]));
   }
   parts += svg_line("axis", left, top, left, height - bottom) +
            svg_line("axis", left, height - bottom, width - right, height - bottom);
@@ -71,6 +99,39 @@ Markup sign(std::size_t style) {
 
 std::size_t style_of(const Chart& chart, std::size_t number) {
   return chart.series[number].style.value_or(number) % styles;
+}
+
+/// Whether no point of a curve can be told from one of another curve.
+bool lies_under(const ChartSeries& lower, const ChartSeries& upper, const Frame& frame) {
+  std::size_t points = 0;
+  auto other = upper.points.begin();
+  for (const ChartPoint& point : lower.points) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
+    const auto same = [&](const ChartPoint& p) {
+      return std::abs(frame.across(p.x) - frame.across(point.x)) < told_apart &&
+             std::abs(frame.down(p.y) - frame.down(point.y)) < told_apart;
+    };
+    // Points of two curves are mostly in one order, so the search goes on where it ended.
+    other = std::find_if(other, upper.points.end(), same);
+    if (other == upper.points.end()) other = std::find_if(upper.points.begin(), upper.points.end(), same);
+    if (other == upper.points.end()) return false;
+    ++points;
+  }
+  return points > 1;
+}
+
+/// The curve under which another one is hidden: the first that is drawn over all of it; none if it is seen.
+std::optional<std::size_t> hidden_under(const Chart& chart, std::size_t number, const Frame& frame) {
+  for (std::size_t i = number + 1; i < chart.series.size(); ++i) {
+    if (lies_under(chart.series[number], chart.series[i], frame)) return i;
+  }
+  return std::nullopt;
+}
+
+/// How many curves lie upon one another above this one.
+std::size_t depth(const Chart& chart, std::size_t number, const Frame& frame) {
+  const auto over = hidden_under(chart, number, frame);
+  return over ? 1 + depth(chart, *over, frame) : 0;
 }
 
 std::string style_class(const Chart& chart, std::size_t number) {
@@ -112,18 +173,25 @@ Markup draw_series(const Chart& chart, std::size_t number, const Frame& frame, M
                                   {"d", fmt::format("M{:.1f} {}H{:.1f}", frame.across(from), y, frame.across(to))}});
     }
   }
-  Attributes attributes{{"class", "series " + style_class(chart, number)}};
+  std::string style = "series " + style_class(chart, number);
+  // One that would be hidden is seen on both sides of those upon it.
+  if (const std::size_t below = std::min(depth(chart, number, frame), deepest); below > 0) {
+    style += fmt::format(" beneath{}", below);
+  }
+  Attributes attributes{{"class", style}};
   if (medium == Medium::page) attributes.push_back({"data-command", series.command});
   return element("g", attributes, element("path", {{"class", "curve"}, {"d", path}}) + spreads + points);
 }
 
-std::vector<LegendEntry> legend_of(const Chart& chart) {
+std::vector<LegendEntry> legend_of(const Chart& chart, const Frame& frame) {
   std::vector<LegendEntry> entries;
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     if (chart.series[i].name.empty()) continue;
     Markup key = element("path", {{"class", "curve"}, {"d", "M-12 0L12 0"}});
     if (!is_line(chart.series[i])) key += sign(style_of(chart, i));
-    entries.push_back({style_class(chart, i), std::move(key), chart.series[i].name});
+    const auto over = hidden_under(chart, i, frame);
+    const std::string where = over ? fmt::format(" (beneath {})", chart.series[*over].name) : "";
+    entries.push_back({style_class(chart, i), std::move(key), chart.series[i].name + where});
   }
   return entries;
 }
@@ -135,7 +203,7 @@ Diagram draw_chart(const Chart& chart, Medium medium) {
   Markup drawing = axes(chart, frame);
   for (std::size_t i = 0; i < chart.series.size(); ++i) drawing += draw_series(chart, i, frame, medium);
   drawing += levels(chart, frame);
-  return {chart.title, chart.y_title, legend_of(chart), width, height, std::move(drawing)};
+  return {chart.title, chart.y_title, legend_of(chart, frame), width, height, std::move(drawing)};
 }
 
 }  // namespace drape::html

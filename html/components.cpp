@@ -5,6 +5,8 @@
 namespace drape::html {
 namespace {
 
+constexpr std::size_t narrow = 9;  // columns that fit on paper at the usual size
+
 std::string tone_class(Tone tone) {
   switch (tone) {
     case Tone::neutral:
@@ -48,6 +50,15 @@ Markup findings(const std::vector<Finding>& list) {
   return element("ul", {{"class", "findings"}}, items);
 }
 
+Markup copies(const std::vector<std::string>& forms, const std::string& of) {
+  Markup buttons;
+  for (const std::string& form : forms) {
+    const std::string says = "Copy as " + form + ": " + of;
+    buttons += element("button", {{"type", "button"}, {"data-form", form}, {"aria-label", says}}, form);
+  }
+  return element("p", {{"class", "copies"}}, element("span", "Copy as") + buttons);
+}
+
 Markup table(const Table& table) {
   const auto cell = [&](std::string_view tag, std::size_t column, const Markup& content) {
     Attributes attributes;
@@ -64,9 +75,11 @@ Markup table(const Table& table) {
     body += element("tr", line);
   }
   // What scrolls must be reachable by keyboard, and then it needs a name.
-  return element("div", {{"class", "scroll"}, {"role", "region"}, {"tabindex", "0"}, {"aria-label", table.caption}},
-                 element("table", element("caption", table.caption) + element("thead", element("tr", head)) +
-                                      element("tbody", body)));
+  return element(
+      "div", {{"class", "scroll"}, {"role", "region"}, {"tabindex", "0"}, {"aria-label", table.caption}},
+      element("table", table.columns.size() > narrow ? Attributes{{"class", "wide"}} : Attributes{},
+              element("caption", table.caption) + element("thead", element("tr", head)) + element("tbody", body)) +
+          copies({"CSV", "Markdown", "LaTeX"}, table.caption));
 }
 
 Markup facts(const std::vector<std::pair<std::string, Markup>>& list) {
@@ -82,6 +95,12 @@ Markup details(const Markup& summary, const Markup& content, bool open) {
 Markup picture(const std::string& type, const std::string& bytes, const std::string& alt) {
   // Whatever looks at the page as soon as it is loaded, such as a printer, finds the picture in its place.
   return element("img", {{"src", data_uri(type, bytes)}, {"alt", alt}, {"decoding", "sync"}});
+}
+
+Markup animation(const std::string& gif, const std::string& stills, const std::string& alt) {
+  if (stills.empty()) return picture("image/gif", gif, alt);
+  return element("div", {{"class", "on-screen"}}, picture("image/gif", gif, alt)) +
+         element("div", {{"class", "on-paper"}}, picture("image/png", stills, alt));
 }
 
 Markup figure(const Markup& content, const Markup& caption) {

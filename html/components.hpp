@@ -26,6 +26,10 @@ Markup link(const std::string& href, const Markup& content);
 /// A command that can be copied, under a label that says what it does.
 Markup command(const std::string& label, const std::string& line);
 
+/// Buttons that copy the table, or the diagram ("SVG", "PNG"), in which they stand.
+/// @param of what is copied, for who cannot see it
+Markup copies(const std::vector<std::string>& forms, const std::string& of);
+
 struct Finding {
   Tone tone = Tone::neutral;
   Markup text;
@@ -42,7 +46,7 @@ struct Table {
   std::vector<Column> columns;
   std::vector<std::vector<Markup>> rows;
 };
-/// A table that scrolls sideways where it does not fit.
+/// A table that scrolls sideways where it does not fit, and can be copied for LaTeX, Markdown and spreadsheets.
 Markup table(const Table& table);
 
 /// Names and their values.
@@ -56,6 +60,11 @@ Markup details(const Markup& summary, const Markup& content, bool open = false);
 /// @param bytes of the file
 /// @param alt   what it shows, for who cannot see it
 Markup picture(const std::string& type, const std::string& bytes, const std::string& alt);
+
+/// An animation, and on paper some of its moments instead.
+/// @param gif    bytes of the GIF file
+/// @param stills of a PNG file that shows the moments side by side; empty: the animation's first picture is printed
+Markup animation(const std::string& gif, const std::string& stills, const std::string& alt);
 
 /// A picture, or something like it, with a line below.
 Markup figure(const Markup& content, const Markup& caption);

@@ -15,12 +15,6 @@ constexpr double title_size = 15, label_size = 13;
 constexpr double letter = 0.56;  // width of a letter by its size, that of a wide font: the reader's is not known
 constexpr double key_width = 24, key_gap = 8, entry_gap = 20;
 
-/// The characters of a text in UTF-8.
-double letters(std::string_view text) {
-  return static_cast<double>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
-}
-
 /// The text in lines of so many letters at most, unless a word has more.
 std::vector<std::string> wrapped(std::string_view text, double widest) {
   std::vector<std::string> lines;
@@ -92,6 +86,11 @@ class FileLayout {
 };
 
 }  // namespace
+
+double letters(std::string_view text) {
+  return static_cast<double>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
 
 std::string coordinate(double value) { return fmt::format("{:.1f}", value); }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "html/markup.hpp"
@@ -33,6 +34,9 @@ Markup legend(const std::vector<LegendEntry>& entries);
 /// A file of its own: an SVG document with title, legend, axes and style, light, on white, in the reader's font without
 /// serifs.
 std::string svg_file(const Diagram& diagram);
+
+/// The letters of a text in UTF-8.
+double letters(std::string_view text);
 
 /// A number of a drawing.
 std::string coordinate(double value);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "html/film.hpp"
+
 namespace drape::html {
 
 Markup strip(const Strip& strip) {
@@ -17,24 +19,10 @@ Markup strip(const Strip& strip) {
 }
 
 Markup strips(const std::string& id, const std::vector<std::string>& moments, const Markup& content) {
-  Markup names;
-  for (const std::string& moment : moments) names += element("li", moment);
-  const Attributes slider{{"type", "range"},
-                          {"min", "0"},
-                          {"max", std::to_string(moments.size() - 1)},
-                          {"step", "1"},
-                          {"value", "0"},
-                          {"autocomplete", "off"},
-                          {"aria-label", "Moment"},
-                          {"aria-valuetext", moments.front()}};
   const Markup sheets =
       element("label", element("input", {{"type", "checkbox"}, {"class", "as-sheets"}, {"autocomplete", "off"}}) +
                            " Contact sheets");
-  const Markup controls = element("button", {{"type", "button"}, {"class", "play"}}, "Play") +
-                          element("input", slider) + element("output", {{"for", id}}, moments.front()) + sheets +
-                          element("ol", {{"class", "names"}, {"hidden?", "hidden"}}, names);
-  return element("div", {{"class", "strips"}, {"id", id}},
-                 element("div", {{"class", "film-controls"}}, controls) + content);
+  return element("div", {{"class", "strips"}, {"id", id}}, film_controls(id, moments, sheets) + content);
 }
 
 Markup sortable_table(const Table& table) { return element("div", {{"class", "sortable"}}, html::table(table)); }

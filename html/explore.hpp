@@ -23,7 +23,7 @@ struct Strip {
 Markup strip(const Strip& strip);
 
 /// Whatever has strips in it, which show the same moment: it plays, and a slider or the arrow keys choose it; or they
-/// are seen as contact sheets. Without a script they show the first.
+/// are seen as contact sheets, as they are on paper. Without a script they show the first.
 /// @param moments their names, at least one: "t = 0.40 s"
 Markup strips(const std::string& id, const std::vector<std::string>& moments, const Markup& content);
 

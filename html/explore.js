@@ -1,48 +1,7 @@
 "use strict";
-// Strips that show one moment, tables that are sorted, and pieces that are chosen.
+// Tables that are sorted, and pieces that are chosen.
 (() => {
   const all = (selector, root = document) => [...root.querySelectorAll(selector)];
-  const interval = 350; // ms
-
-  for (const root of all(".strips")) {
-    const slider = root.querySelector("input[type=range]");
-    const play = root.querySelector(".play");
-    const sheets = root.querySelector(".as-sheets");
-    const said = root.querySelector("output");
-    const names = all(".names li", root).map((item) => item.textContent);
-    let timer = 0;
-
-    const show = () => {
-      for (const strip of all(".strip", root)) {
-        const { columns, rows, count } = strip.dataset;
-        const moment = Math.min(Number(slider.value), count - 1);
-        const across = (-100 * (moment % columns)) / columns;
-        const down = (-100 * Math.floor(moment / columns)) / rows;
-        strip.firstElementChild.style.transform = `translate(${across}%, ${down}%)`;
-      }
-      said.textContent = names[slider.value];
-      slider.setAttribute("aria-valuetext", names[slider.value]);
-    };
-    const stop = () => {
-      clearInterval(timer);
-      timer = 0;
-      play.textContent = "Play";
-    };
-    slider.addEventListener("input", () => {
-      stop();
-      show();
-    });
-    play.addEventListener("click", () => {
-      if (timer) return stop();
-      timer = setInterval(() => {
-        slider.value = (Number(slider.value) + 1) % names.length;
-        show();
-      }, interval);
-      play.textContent = "Pause";
-    });
-    sheets.addEventListener("change", () => root.classList.toggle("sheets", sheets.checked));
-  }
-
   // Numbers before words, and what has no value last.
   const rank = (text) => (text === "" || text === "–" ? 2 : Number.isNaN(Number(text)) ? 1 : 0);
   const compare = (a, b) =>

@@ -1,17 +1,16 @@
 "use strict";
-// Films whose panels show one moment.
+// Films, whose panels show one moment, and strips, which do so wherever on the page they are.
 (() => {
-  const interval = 160; // ms
-  for (const root of document.querySelectorAll(".film")) {
-    const slider = root.querySelector("input");
+  /// Lets the controls of a film show its moments, by their numbers, and play them, one in so many milliseconds.
+  function player(root, interval, show) {
+    const slider = root.querySelector("input[type=range]");
     const play = root.querySelector(".play");
     const said = root.querySelector("output");
     const names = [...root.querySelectorAll(".names li")].map((item) => item.textContent);
-    const pictures = [...root.querySelectorAll(".shown-moment")];
     let timer = 0;
 
-    const show = () => {
-      for (const picture of pictures) picture.hidden = picture.dataset.moment !== slider.value;
+    const go = () => {
+      show(Number(slider.value));
       said.textContent = names[slider.value];
       slider.setAttribute("aria-valuetext", names[slider.value]);
     };
@@ -20,18 +19,39 @@
       timer = 0;
       play.textContent = "Play";
     };
-    const step = () => {
-      slider.value = (Number(slider.value) + 1) % names.length;
-      show();
-    };
     slider.addEventListener("input", () => {
       stop();
-      show();
+      go();
     });
     play.addEventListener("click", () => {
       if (timer) return stop();
-      timer = setInterval(step, interval);
+      timer = setInterval(() => {
+        slider.value = (Number(slider.value) + 1) % names.length;
+        go();
+      }, interval);
       play.textContent = "Pause";
     });
+  }
+
+  for (const root of document.querySelectorAll(".film")) {
+    const pictures = [...root.querySelectorAll(".shown-moment")];
+    player(root, 160, (moment) => {
+      for (const picture of pictures) picture.hidden = Number(picture.dataset.moment) !== moment;
+    });
+  }
+
+  for (const root of document.querySelectorAll(".strips")) {
+    const strips = [...root.querySelectorAll(".strip")];
+    player(root, 350, (moment) => {
+      for (const strip of strips) {
+        const { columns, rows, count } = strip.dataset;
+        const shown = Math.min(moment, count - 1);
+        const across = (-100 * (shown % columns)) / columns;
+        const down = (-100 * Math.floor(shown / columns)) / rows;
+        strip.firstElementChild.style.transform = `translate(${across}%, ${down}%)`;
+      }
+    });
+    const sheets = root.querySelector(".as-sheets");
+    sheets.addEventListener("change", () => root.classList.toggle("sheets", sheets.checked));
   }
 })();

@@ -5,6 +5,7 @@
 #include "core/build_info.hpp"
 #include "core/machine.hpp"
 #include "html/components.hpp"
+#include "html/latex.hpp"
 #include "html_assets.hpp"
 
 namespace drape::html {
@@ -22,8 +23,10 @@ Markup meta(const std::string& name, const std::string& content) {
 }  // namespace
 
 std::string render(const Page& page) {
-  const std::string style =
-      fmt::format("{}{}{}{}{}{}{}", theme_css, diagram_css, page_css, chart_css, comparison_css, film_css, explore_css);
+  const std::string style = fmt::format("{}{}{}{}{}{}{}{}{}", theme_css, diagram_css, page_css, chart_css, copies_css,
+                                        comparison_css, film_css, explore_css, print_css);
+  const std::string script =
+      fmt::format("{}{}{}const latexSigns = {};\n{}", page_js, film_js, explore_js, latex_signs(), copies_js);
   const Markup head = element("meta", {{"charset", "utf-8"}}) +
                       element("meta", {{"http-equiv", "Content-Security-Policy"}, {"content", policy}}) +
                       meta("viewport", "width=device-width, initial-scale=1") + meta("color-scheme", "light dark") +
@@ -34,7 +37,7 @@ std::string render(const Page& page) {
   const Markup footer = element("footer", element("h2", "How this was made") + facts(page.foot));
   const Markup body = header + element("main", page.content) + footer +
                       element("div", {{"id", "tip"}, {"role", "status"}, {"hidden?", "hidden"}}) +
-                      element("script", Markup::trusted(fmt::format("{}{}{}", page_js, film_js, explore_js)));
+                      element("script", Markup::trusted(script));
   return "<!doctype html>\n" + element("html", {{"lang", "en"}}, element("head", head) + element("body", body)).html() +
          "\n";
 }

@@ -93,10 +93,11 @@ std::optional<StudyPicture> animate_accuracy(const SceneAccuracy& accuracy, Anim
       accuracy.scene, name,
       by == AnimatedBy::steps ? fmt::format("with h = {:g} s", reference.step) : "by Newton's method down to rounding");
   picture.command = fmt::format("{} --animate {}", study_command(accuracy), name);
-  auto bytes = animate_errors(scene, to_rounding(reference, Method::implicit), panels, folder / picture.file, backend,
-                              stop, progress);
-  if (!bytes) return std::nullopt;
-  picture.bytes = std::move(*bytes);
+  auto animation = animate_errors(scene, to_rounding(reference, Method::implicit), panels, folder / picture.file,
+                                  backend, stop, progress);
+  if (!animation) return std::nullopt;
+  picture.bytes = std::move(animation->gif);
+  picture.stills = std::move(animation->stills);
   return picture;
 }
 

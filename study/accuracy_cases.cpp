@@ -17,12 +17,18 @@ constexpr double small_tolerance = 1e-9;
 // After which a motion is given up: it is a miss in the performance profile.
 constexpr double most_seconds = 20;
 
-StudyCase make_case(const std::string& file, const AccuracyOptions& options, StepMethod method, std::string label) {
+/// A scene as it is asked about, with its own method.
+StudyCase bare_case(const std::string& file, const AccuracyOptions& options, std::string label) {
   StudyCase what;
   what.label = std::move(label);
   what.scene = file;
   what.folder = std::filesystem::current_path();
   what.overrides = options.overrides;
+  return what;
+}
+
+StudyCase make_case(const std::string& file, const AccuracyOptions& options, StepMethod method, std::string label) {
+  StudyCase what = bare_case(file, options, std::move(label));
   what.overrides.push_back("integrator.method=" + method_name(method.method));
   if (!is_explicit(method.method)) what.overrides.push_back("integrator.scheme=" + scheme_name(method.scheme));
   return what;
@@ -43,11 +49,7 @@ bool is_stable(SimulationSettings settings, StepMethod method, double step) {
 
 /// With the default tolerance, whatever the scene says: its table is replaced.
 StudyCase by_default(const std::string& file, const AccuracyOptions& options, StepMethod method, std::string label) {
-  StudyCase what;
-  what.label = std::move(label);
-  what.scene = file;
-  what.folder = std::filesystem::current_path();
-  what.overrides = options.overrides;
+  StudyCase what = bare_case(file, options, std::move(label));
   const std::string scheme =
       is_explicit(method.method) ? "" : fmt::format(",scheme=\"{}\"", scheme_name(method.scheme));
   what.overrides.push_back(fmt::format("integrator={{method=\"{}\"{}}}", method_name(method.method), scheme));

@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/text.hpp"
 #include "scene/method_names.hpp"
 #include "study/accuracy_asked.hpp"
 #include "study/accuracy_charts.hpp"
+#include "study/accuracy_cheapest.hpp"
 #include "study/profile.hpp"
 
 namespace drape {
 namespace {
-
-constexpr std::array<double, 4> limits{1e-3, 1e-4, 1e-5, smallest_error};
 
 std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–"; }
 
@@ -68,91 +66,6 @@ ResultTable step_table(const SceneAccuracy& scene) {
   return table;
 }
 
-/// A kind of error: what every point offers.
-struct Kind {
-  std::string name, unit;
-  std::vector<Offer> offers;
-};
-
-std::vector<Kind> kinds_of(const SceneAccuracy& scene) {
-  std::vector<Kind> kinds;
-  if (!scene.points.empty()) {
-    kinds.push_back({"solve", "µs per step", {}});
-    for (const double time : scene.options.times) {
-      kinds.push_back({fmt::format("motion at {:g} s", time), "µs per step", {}});
-    }
-  }
-  for (const TolerancePoint& p : scene.points) {
-    Offer offer{step_method_name(p.method), fmt::format("ε = {:g} {}", p.tolerance, scene.tolerance_unit), p.solve.max,
-                p.measured.time()};
-    kinds[0].offers.push_back(offer);
-    for (std::size_t i = 0; i < p.motion.size(); ++i) {
-      offer.error = p.motion[i].max;
-      kinds[i + 1].offers.push_back(offer);
-    }
-  }
-  if (scene.steps.empty()) return kinds;
-  Kind steps{fmt::format("time step at {:g} s", scene.options.times.front()), "ms per second of motion", {}};
-  for (const StepPoint& p : scene.steps) {
-    steps.offers.push_back(
-        {step_method_name(p.method), fmt::format("h = {:g} s", p.step), p.error.max, p.measured.cost()});
-  }
-  kinds.push_back(std::move(steps));
-  return kinds;
-}
-
-/// Why errors below a limit cannot be told, for the kind of a number; empty if they can.
-std::string why_unknown(const SceneAccuracy& scene, std::size_t kind, double limit) {
-  if (kind == 0 && !scene.points.empty()) return {};
-  const std::size_t motions = scene.points.empty() ? 0 : scene.apart.size();
-  if (kind <= motions && motions > 0) {
-    return scene.apart[kind - 1] < limit ? std::string() : "unknown: the motion is chaotic";
-  }
-  return scene.step_gained.front() < limit ? std::string() : "unknown: the reference is not accurate enough";
-}
-
-ResultTable cheapest_table(const SceneAccuracy& scene) {
-  ResultTable table{scene.name + "-cheapest",
-                    fmt::format("{}: what accuracy costs", scene.scene),
-                    {"error", "below", "cheapest", "at", "cost", "unit", "next best", "next at", "next cost"},
-                    {},
-                    {}};
-  const std::vector<Kind> kinds = kinds_of(scene);
-  for (std::size_t k = 0; k < kinds.size(); ++k) {
-    for (const double limit : limits) {
-      const Cheapest c = find_cheapest(kinds[k].offers, limit);
-      std::vector<std::string> row{kinds[k].name, readable_length(limit)};
-      const std::string unknown = why_unknown(scene, k, limit);
-      if (!unknown.empty() || c.first == nullptr) {
-        row.emplace_back(unknown.empty() ? "none of those run" : unknown);
-        row.resize(table.columns.size(), "–");
-      } else {
-        row.insert(row.end(), {c.first->method, c.first->at, three_digits(c.first->cost.median), kinds[k].unit});
-        if (c.next != nullptr) {
-          row.insert(row.end(), {c.next->method, c.next->at, three_digits(c.next->cost.median)});
-        }
-        row.resize(table.columns.size(), "–");
-      }
-      table.rows.push_back(std::move(row));
-    }
-  }
-  return table;
-}
-
-/// "The cheapest below 1 mm is liu13 at ε = 0.001 m with 88.1 µs per step; below 0.1 mm it is …"
-std::string describe_cheapest(const SceneAccuracy& scene) {
-  const std::vector<Kind> kinds = kinds_of(scene);
-  std::string text = "The cheapest";
-  for (const double limit : limits) {
-    const Cheapest c = find_cheapest(kinds.front().offers, limit);
-    text += fmt::format("{} below {} is {}", limit == limits.front() ? "" : "; the cheapest", readable_length(limit),
-                        c.first == nullptr ? "none of those run"
-                                           : fmt::format("{} at {} with {} µs per step", c.first->method, c.first->at,
-                                                         three_digits(c.first->cost.median)));
-  }
-  return text + ".";
-}
-
 /// "semi-implicit 0.99, implicit 0.87 (from h = 0.00125 s to 0.000625 s)"
 std::string describe_orders(const SceneAccuracy& scene) {
   std::string text, unknown;
@@ -201,7 +114,8 @@ std::string headline(const std::vector<SceneAccuracy>& scenes) {
   double least = INFINITY, most = 0;
   for (const SceneAccuracy& scene : scenes) {
     if (scene.points.empty()) continue;
-    const Cheapest c = find_cheapest(kinds_of(scene).front().offers, smallest_error);
+    const std::vector<Offer> offers = solve_offers(scene);
+    const Cheapest c = find_cheapest(offers, smallest_error);
     if (c.first == nullptr) continue;
     least = std::min(least, c.first->cost.median);
     most = std::max(most, c.first->cost.median);
@@ -211,24 +125,26 @@ std::string headline(const std::vector<SceneAccuracy>& scenes) {
   return fmt::format("A step solved to 1 µm costs {} to {} µs", three_digits(least), three_digits(most));
 }
 
-}  // namespace
-
-Cheapest find_cheapest(const std::vector<Offer>& offers, double limit) {
-  Cheapest found;
-  const auto best = [&](const std::string& but) {
-    const Offer* least = nullptr;
-    for (const Offer& offer : offers) {
-      if (!(offer.error < limit) || offer.method == but) continue;
-      // The same iterations: what differs is the clock's scatter.
-      if (least != nullptr && offer.method == least->method && offer.error == least->error) continue;
-      if (least == nullptr || offer.cost.median < least->cost.median) least = &offer;
-    }
-    return least;
-  };
-  found.first = best("");
-  if (found.first != nullptr) found.next = best(found.first->method);
-  return found;
+/// What somebody asks who has a scene to compute: beside pictures of it, a method for each error.
+StudySection answer_section(const AccuracyStudy& study) {
+  StudySection answer{
+      "What to take",
+      {"Choose the kind of error that matters to you, and how large it may be: there stand the cheapest "
+       "method, its setting and its cost. The evidence follows.",
+       "Whole: the distance from the true motion. Its three parts are told apart below. Solve: how far "
+       "one step is from its exact result. Motion: what these errors have accumulated to. Time step: "
+       "what even exact steps leave, because they are not small."},
+      {},
+      {},
+      {}};
+  for (std::size_t i = 0; i < study.scenes.size(); ++i) {
+    answer.pictures.insert(answer.pictures.end(), study.pictures[i].begin(), study.pictures[i].end());
+    answer.tables.push_back(answer_table(study.scenes[i]));
+  }
+  return answer;
 }
+
+}  // namespace
 
 StudyReport accuracy_report(const AccuracyStudy& study) {
   const std::vector<SceneAccuracy>& scenes = study.scenes;
@@ -239,21 +155,20 @@ StudyReport accuracy_report(const AccuracyStudy& study) {
   report.introduction =
       "Error against computing time: of a step relative to the exact minimiser, and of a motion relative to the "
       "reference motion. Each point is a method with a tolerance, a time step or a requested accuracy. Lower and "
-      "further "
-      "left is better.";
+      "further left is better.";
   report.command = study.command;
   report.seconds = study.seconds;
   report.provenance = study.provenance;
+  report.answer = answer_section(study);
   if (auto profile = profile_section(scenes)) report.sections.push_back(std::move(*profile));
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const SceneAccuracy& scene = scenes[i];
+  for (const SceneAccuracy& scene : scenes) {
     add_findings(report, scene);
     add_asked_findings(report, scene);
-    StudySection section{scene.scene, scene.notes, {}, accuracy_charts(scene), study.pictures[i]};
+    StudySection section{scene.scene, scene.notes, {}, accuracy_charts(scene), {}};
     for (NamedChart& chart : asked_charts(scene)) section.charts.push_back(std::move(chart));
     if (!scene.points.empty()) section.tables.push_back(tolerance_table(scene));
     if (!scene.steps.empty()) section.tables.push_back(step_table(scene));
-    if (!scene.points.empty() || !scene.steps.empty()) section.tables.push_back(cheapest_table(scene));
+    section.tables.push_back(cheapest_table(scene));
     for (ResultTable& table : asked_tables(scene)) section.tables.push_back(std::move(table));
     report.sections.push_back(std::move(section));
   }

@@ -18,18 +18,4 @@ struct AccuracyStudy {
 /// The study as it is printed and written.
 StudyReport accuracy_report(const AccuracyStudy& study);
 
-/// A method, with its tolerance or its step, that keeps an error below a limit, and what that costs.
-struct Offer {
-  std::string method, at;  ///< "liu13", "ε = 0.001"
-  double error = 0;        ///< [m]
-  MedianInterval cost;     ///< in the same unit for all
-};
-
-/// The cheapest offer whose error is below the limit, and the cheapest of another method; null where there is none.
-struct Cheapest {
-  const Offer* first = nullptr;
-  const Offer* next = nullptr;
-};
-Cheapest find_cheapest(const std::vector<Offer>& offers, double limit);
-
 }  // namespace drape

@@ -230,7 +230,10 @@ class StudyReader {
     if (std::filesystem::path(picture.file).filename() != picture.file) {
       record.fail(record.line(), fmt::format("expected the name of a file beside this one, found '{}'", picture.file));
     }
-    picture.bytes = read_file(folder_ / picture.file, most_picture_bytes);
+    const std::filesystem::path file = folder_ / picture.file,
+                                stills = std::filesystem::path(file).replace_extension(".png");
+    picture.bytes = read_file(file, most_picture_bytes);
+    if (std::filesystem::exists(stills)) picture.stills = read_file(stills, most_picture_bytes);
   }
 
   SceneAccuracy& scene(const RunsRecord& record) {

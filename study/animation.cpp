@@ -9,9 +9,12 @@
 #include <functional>
 #include <memory>
 
+#include "core/atomic_file.hpp"
 #include "core/read_file.hpp"
 #include "core/text.hpp"
+#include "html/film.hpp"
 #include "output/gif_encoder.hpp"
+#include "output/png_encoder.hpp"
 #include "overlay/color_bar.hpp"
 #include "overlay/color_map.hpp"
 #include "overlay/pen.hpp"
@@ -30,6 +33,7 @@ constexpr double most_frames_per_second = 10;                        // a GIF th
 constexpr int picture_width = 340, gap = 6, band = 42, margin = 10;  // [pixels]
 constexpr int letters = 13;                                          // size of the font [pixels]
 constexpr double smallest = 1e-6, largest = 1;                       // of the colour bar [m]
+constexpr int stills_in_a_row = 2;                                   // more would be too small on paper
 constexpr std::uint8_t paper = 255;
 // The lines of the mesh show triangles that are folded over, on dark colours as on bright ones.
 const Rgb mesh_ink{0.05, 0.05, 0.06};
@@ -119,9 +123,9 @@ View view_of(const Scene& scene, const Eigen::Vector2i& size, const std::vector<
 
 }  // namespace
 
-std::optional<std::string> animate_errors(const Scene& scene, const SimulationSettings& reference,
-                                          const std::vector<AnimationPanel>& panels, const std::filesystem::path& file,
-                                          GlBackend backend, const std::stop_token& stop, Progress& progress) {
+std::optional<Animation> animate_errors(const Scene& scene, const SimulationSettings& reference,
+                                        const std::vector<AnimationPanel>& panels, const std::filesystem::path& file,
+                                        GlBackend backend, const std::stop_token& stop, Progress& progress) {
   Pen pen;
   progress.begin("simulating for the animation", "motions", static_cast<std::int64_t>(panels.size()) + 1);
   Video video = scene.video;
@@ -142,6 +146,8 @@ std::optional<std::string> animate_errors(const Scene& scene, const SimulationSe
       std::make_unique<GifEncoder>(file, video.fps, std::function<void(int, int)>());
   progress.begin("drawing the animation", "frames", static_cast<std::int64_t>(exact.size()));
   Image bar;
+  std::vector<Image> stills;
+  const std::set<std::size_t> printed = html::printed_moments(exact.size());
   for (std::size_t f = 0; f < exact.size(); ++f) {
     if (stop.stop_requested()) return std::nullopt;
     std::vector<Image> pictures;
@@ -152,11 +158,17 @@ std::optional<std::string> animate_errors(const Scene& scene, const SimulationSe
     for (const Image& picture : pictures) list.push_back(&picture);
     const Image all = montage(list, columns, gap, paper);
     if (bar.width == 0) bar = distance_bar(pen, all.width);
-    encoder->add(beneath(all, bar));
+    const Image whole = beneath(all, bar);
+    if (printed.contains(f)) stills.push_back(whole);
+    encoder->add(whole);
     ++progress.done;
   }
   encoder->finish();
-  return read_file(file, std::filesystem::file_size(file));
+  std::vector<const Image*> moments;
+  for (const Image& still : stills) moments.push_back(&still);
+  const std::string picture = encode_png(montage(moments, stills_in_a_row, gap, paper));
+  write_file_atomically(std::filesystem::path(file).replace_extension(".png"), picture);
+  return Animation{read_file(file, std::filesystem::file_size(file)), picture};
 }
 
 }  // namespace drape

@@ -18,16 +18,21 @@ struct AnimationPanel {
   std::string label;  ///< "liu13, tolerance 0.001: 190 µs per step"
 };
 
+/// The bytes of a GIF, and of a PNG that shows some of its moments in rows.
+struct Animation {
+  std::string gif, stills;
+};
+
 /// A GIF in which several motions of a scene run side by side, each vertex in the colour of its distance to a reference
 /// motion, with a colour bar. Above each panel stands what it is, and its error and flipped pairs at the moment.
 /// @param scene     what gives the camera, the size and the duration
 /// @param reference settings of the reference motion, see to_rounding()
 /// @param panels    cases whose scenes have the same cloth; their steps are not asked
-/// @param file      where it is written
-/// @returns the file's bytes; nothing if it was stopped
+/// @param file      where it is written; its stills, with the extension .png
+/// @returns the file's bytes and its stills; nothing if it was stopped
 /// @throws OutputError where nothing can be drawn or written, or there is no font; DivergedError
-std::optional<std::string> animate_errors(const Scene& scene, const SimulationSettings& reference,
-                                          const std::vector<AnimationPanel>& panels, const std::filesystem::path& file,
-                                          GlBackend backend, const std::stop_token& stop, Progress& progress);
+std::optional<Animation> animate_errors(const Scene& scene, const SimulationSettings& reference,
+                                        const std::vector<AnimationPanel>& panels, const std::filesystem::path& file,
+                                        GlBackend backend, const std::stop_token& stop, Progress& progress);
 
 }  // namespace drape

@@ -14,8 +14,10 @@ StudyReport homework_report(const HomeworkStudy& study) {
   report.title = "The homework's results, measured again";
   report.headline = fmt::format("{} of the report's {} conclusions are confirmed", confirmed, study.conclusions.size());
   report.introduction =
-      "The tables of the report that drape grew out of, with drape's measurements beside its own: mass-spring cloth of "
-      "20×20 cells, 8.34 s of motion.";
+      "drape grew out of a course's homework: mass-spring cloth of 20×20 cells, 8.34 s of motion, by two implicit "
+      "methods and an explicit one. In tables, \"report\" is what the report on that homework printed, \"its code "
+      "again\" what its program gives when it is compiled and run today, and \"drape\" what was measured just now. In "
+      "diagrams, the report's figures are dashed, in the colour of their method.";
   for (const Conclusion& c : study.conclusions) {
     report.findings.push_back({c.confirmed ? html::Tone::good : html::Tone::bad,
                                c.confirmed ? "confirmed" : "Not confirmed.", c.claim, c.figures});

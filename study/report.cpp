@@ -17,17 +17,17 @@ html::Markup to_html(const StudyFinding& finding) {
   return html::element("strong", claim) + " " + finding.figures;
 }
 
-html::Markup to_html(const StudySection& section, std::size_t number) {
+html::Markup to_html(const StudySection& section, const std::string& id) {
   html::Markup content;
   for (const std::string& paragraph : section.text) content += html::paragraph(paragraph);
   for (const StudyPicture& picture : section.pictures) {
-    content += html::figure(html::picture("image/gif", picture.bytes, picture.caption), picture.caption) +
+    content += html::figure(html::animation(picture.bytes, picture.stills, picture.caption), picture.caption) +
                html::command("Reproduce this animation", picture.command);
   }
   if (!section.charts.empty()) {
-    content += html::note(
-        "Point at a curve, or move along it with the arrow keys, to see its values and the command that reproduces "
-        "them.");
+    content += html::element("p", {{"class", "note on-screen"}},
+                             "Point at a curve, or move along it with the arrow keys, to see its values and the "
+                             "command that reproduces them.");
   }
   for (const NamedChart& chart : section.charts) content += html::chart(chart.chart);
   if (!section.maps.empty()) {
@@ -36,7 +36,38 @@ html::Markup to_html(const StudySection& section, std::size_t number) {
     content += map_legend() + html::row(drawings);
   }
   for (const ResultTable& table : section.tables) content += to_html(table);
-  return html::section(2, fmt::format("section-{}", number), section.title, content);
+  return html::section(2, id, section.title, content);
+}
+
+std::string to_markdown(const StudySection& section) {
+  const auto image = [](const std::string& words, const std::string& file) {
+    return fmt::format("![{}]({})\n\n", markdown(words), link_target(file));
+  };
+  std::string text = fmt::format("\n## {}\n\n", markdown(section.title));
+  for (const std::string& paragraph : section.text) text += markdown(paragraph) + "\n\n";
+  for (const StudyPicture& picture : section.pictures) {
+    text += image(picture.caption, picture.file) + fmt::format("    {}\n\n", picture.command);
+  }
+  for (const NamedChart& chart : section.charts) text += image(chart.chart.title, chart.name + ".svg");
+  for (const StabilityMap& map : section.maps) text += image(map_title(map), map_name(map) + ".svg");
+  for (const ResultTable& table : section.tables) text += to_markdown(table) + "\n";
+  return text;
+}
+
+/// All that a report has, as it is read.
+std::vector<StudySection> all_sections(const StudyReport& report) {
+  std::vector<StudySection> sections = report.sections;
+  if (report.answer) sections.insert(sections.begin(), *report.answer);
+  return sections;
+}
+
+constexpr std::size_t most_rows = 200;  // of a table that somebody would set into a text
+
+void write_table(const ResultTable& table, const std::filesystem::path& folder) {
+  write_file_atomically(folder / (table.name + ".csv"), to_csv(table));
+  if (table.rows.size() > most_rows) return;
+  write_file_atomically(folder / (table.name + ".md"), to_markdown(table));
+  write_file_atomically(folder / (table.name + ".tex"), to_latex(table));
 }
 
 }  // namespace
@@ -49,9 +80,11 @@ std::vector<std::pair<std::string, std::string>> study_provenance() {
 
 std::string to_text(const StudyReport& report, std::size_t width) {
   std::string text;
-  for (const StudySection& section : report.sections) {
+  const auto add_tables = [&](const StudySection& section) {
     for (const ResultTable& table : section.tables) text += to_text(table, width) + "\n";
-  }
+  };
+  for (const StudySection& section : report.sections) add_tables(section);
+  if (report.answer) add_tables(*report.answer);  // a terminal shows the end
   text += wrapped(report.headline, width) + "\n";
   for (const StudyFinding& f : report.findings) {
     text += wrapped(fmt::format("  {}{}{}\n", f.verdict, f.verdict.empty() ? "" : ": ", f.claim), width, 2);
@@ -66,25 +99,14 @@ std::string to_text(const StudyReport& report, std::size_t width) {
 }
 
 std::string to_markdown(const StudyReport& report) {
-  const auto image = [](const std::string& words, const std::string& file) {
-    return fmt::format("![{}]({})\n\n", markdown(words), link_target(file));
-  };
   std::string text = fmt::format("# {}\n\n{}.\n\n{}\n\n", markdown(report.title), markdown(report.headline),
                                  markdown(report.introduction));
+  if (report.answer) text += to_markdown(*report.answer);
   for (const StudyFinding& f : report.findings) {
     text += fmt::format("- {}{} {}\n", f.verdict.empty() ? "" : "**" + markdown(f.verdict) + "** ", markdown(f.claim),
                         markdown(f.figures));
   }
-  for (const StudySection& section : report.sections) {
-    text += fmt::format("\n## {}\n\n", markdown(section.title));
-    for (const std::string& paragraph : section.text) text += markdown(paragraph) + "\n\n";
-    for (const StudyPicture& picture : section.pictures) {
-      text += image(picture.caption, picture.file) + fmt::format("    {}\n\n", picture.command);
-    }
-    for (const NamedChart& chart : section.charts) text += image(chart.chart.title, chart.name + ".svg");
-    for (const StabilityMap& map : section.maps) text += image(map_title(map), map_name(map) + ".svg");
-    for (const ResultTable& table : section.tables) text += to_markdown(table) + "\n";
-  }
+  for (const StudySection& section : report.sections) text += to_markdown(section);
   return text + fmt::format("    {}\n", report.command);
 }
 
@@ -96,8 +118,15 @@ std::string to_page(const StudyReport& report) {
   page.title = report.title;
   page.heading = report.headline;
   page.introduction = html::paragraph(report.introduction) + html::command("Reproduce this study", report.command);
-  page.content = html::findings(findings);
-  for (std::size_t i = 0; i < report.sections.size(); ++i) page.content += to_html(report.sections[i], i + 1);
+  if (report.answer) {
+    page.content =
+        to_html(*report.answer, "answer") + html::section(2, "findings", "Findings", html::findings(findings));
+  } else {
+    page.content = html::findings(findings);
+  }
+  for (std::size_t i = 0; i < report.sections.size(); ++i) {
+    page.content += to_html(report.sections[i], fmt::format("section-{}", i + 1));
+  }
   for (const auto& [name, value] : report.provenance.empty() ? study_provenance() : report.provenance) {
     page.foot.emplace_back(name, value);
   }
@@ -110,13 +139,11 @@ std::string write_report(const StudyReport& report, const std::filesystem::path&
   const auto note = [&](const std::string& missing) {
     if (problem.empty()) problem = missing;
   };
-  for (const ResultTable& table : report.data) write_file_atomically(folder / (table.name + ".csv"), to_csv(table));
-  for (const StudySection& section : report.sections) {
-    for (const ResultTable& table : section.tables) {
-      write_file_atomically(folder / (table.name + ".csv"), to_csv(table));
-    }
+  for (const ResultTable& table : report.data) write_table(table, folder);
+  for (const StudySection& section : all_sections(report)) {
+    for (const ResultTable& table : section.tables) write_table(table, folder);
     for (const NamedChart& chart : section.charts) {
-      write_file_atomically(folder / (chart.name + ".csv"), to_csv(points_table(chart)));
+      write_table(points_table(chart), folder);
       note(write_diagram(html::still_chart(chart.chart), folder, chart.name));
     }
     for (const StabilityMap& map : section.maps) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,10 +24,11 @@ struct StudyFinding {
 
 /// An animation that a study has made.
 struct StudyPicture {
-  std::string file;     ///< its name in the folder of the results
-  std::string bytes;    ///< of the GIF
-  std::string caption;  ///< also for who cannot see it
-  std::string command;  ///< that makes it again
+  std::string file;         ///< its name in the folder of the results
+  std::string bytes;        ///< of the GIF
+  std::string caption;      ///< also for who cannot see it
+  std::string command;      ///< that makes it again
+  std::string stills = {};  ///< some of its moments side by side, for paper: bytes of a PNG
 };
 
 struct StudySection {
@@ -44,7 +46,8 @@ struct StudyReport {
   std::string title;     ///< of the page's window
   std::string headline;  ///< the finding in one sentence
   std::string introduction;
-  std::string command;  ///< that makes it again
+  std::string command;                 ///< that makes it again
+  std::optional<StudySection> answer;  ///< what a reader has come for, before what speaks for it
   std::vector<StudyFinding> findings;
   std::vector<StudySection> sections;
   std::vector<ResultTable> data;                                     ///< tables that are written as CSV and not shown
@@ -64,8 +67,8 @@ std::string to_page(const StudyReport& report);
 /// The name of the page's file.
 inline constexpr const char* report_page = "report.html";
 
-/// Writes all of it into a folder: the page, report.md, a CSV file for every table, and every diagram as CSV, SVG,
-/// PDF and PNG. Animations have been written where they were made.
+/// Writes all of it into a folder: the page, report.md, every table as CSV, Markdown and LaTeX, and every diagram as
+/// SVG, PDF and PNG and, with its points, like a table. Animations have been written where they were made.
 /// @returns what could not be done, as a sentence; empty if all is there
 /// @throws OutputError
 std::string write_report(const StudyReport& report, const std::filesystem::path& folder);

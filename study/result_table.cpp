@@ -1,24 +1,18 @@
 #include "study/result_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "core/wrap.hpp"
+#include "html/latex.hpp"
 #include "html/markdown.hpp"
 
 namespace drape {
 namespace {
-
-/// Whether everything in the column starts like a number, or there is nothing.
-bool is_numeric(const ResultTable& table, std::size_t column) {
-  return std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
-    const std::string& cell = row[column];
-    return cell.empty() || cell == "–" || std::string_view("0123456789-+").find(cell[0]) != std::string_view::npos;
-  });
-}
 
 std::string quoted(const std::string& cell) {
   if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
@@ -58,6 +52,21 @@ std::vector<std::vector<std::size_t>> parts_within(std::size_t width, const std:
     used += 2 + widths[c];
   }
   return parts;
+}
+
+/// Whether everything in the column starts like a number, or there is nothing.
+bool is_numeric(const ResultTable& table, std::size_t column) {
+  return std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+    const std::string& cell = row[column];
+    return cell.empty() || cell == "–" || std::string_view("0123456789-+").find(cell[0]) != std::string_view::npos;
+  });
+}
+
+/// A line of a tabular environment.
+std::string latex_line(const std::vector<std::string>& cells) {
+  std::vector<std::string> texts;
+  for (const std::string& cell : cells) texts.push_back(html::latex(cell));
+  return fmt::format("  {} \\\\\n", fmt::join(texts, " & "));
 }
 
 }  // namespace
@@ -116,6 +125,16 @@ std::string to_csv(const ResultTable& table) {
   std::string text = csv_line(table.columns);
   for (const auto& row : table.rows) text += csv_line(row);
   return text;
+}
+
+std::string to_latex(const ResultTable& table) {
+  std::string columns, rows;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) columns += is_numeric(table, c) ? 'r' : 'l';
+  for (const auto& row : table.rows) rows += latex_line(row);
+  return fmt::format(
+      "% {}\n% needs \\usepackage{{booktabs}}\n\\begin{{tabular}}{{{}}}\n  \\toprule\n{}  \\midrule\n{}  "
+      "\\bottomrule\n\\end{{tabular}}\n",
+      html::latex(table.title), columns, latex_line(table.columns), rows);
 }
 
 html::Markup to_html(const ResultTable& table) {

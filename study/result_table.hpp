@@ -8,7 +8,7 @@
 
 namespace drape {
 
-/// A table of results, which is printed, written as Markdown and CSV, and shown on a page.
+/// A table of results, which is printed, written as CSV, Markdown and LaTeX, and shown on a page.
 struct ResultTable {
   std::string name;   ///< of its file: "table1"
   std::string title;  ///< "Table 1: no sphere, k = 18 N/m"
@@ -29,6 +29,8 @@ std::string to_text(const ResultTable& table, std::size_t width = unlimited_widt
 std::string to_markdown(const ResultTable& table);
 /// RFC 4180.
 std::string to_csv(const ResultTable& table);
+/// A tabular environment, as \input takes it; needs booktabs and nothing else.
+std::string to_latex(const ResultTable& table);
 html::Markup to_html(const ResultTable& table);
 
 }  // namespace drape

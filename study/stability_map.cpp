@@ -43,11 +43,11 @@ double cell_width(const StabilityMap& map) {
   return std::max(20.0, least_width / static_cast<double>(map.steps.size()));
 }
 
-/// The label of a row or a column: of whole powers of ten.
-std::string power(double value) {
-  const double exponent = std::log10(value);
-  return std::abs(exponent - std::round(exponent)) < 1e-6 ? html::power_of_ten(static_cast<int>(std::lround(exponent)))
-                                                          : "";
+/// The label of a row or a column, one of `all`: of whole powers of ten.
+std::string power(double value, const std::vector<double>& all) {
+  const auto whole = [](double number) { return static_cast<int>(std::lround(std::log10(number))); };
+  if (std::abs(std::log10(value) - whole(value)) > 1e-6) return "";
+  return html::power_of_ten(whole(value), html::is_plain(whole(all.front()), whole(all.back())));
 }
 
 Markup sign(const StabilityCell& cell, double x, double y) {
@@ -121,11 +121,11 @@ Markup draw_axes(const StabilityMap& map, double below) {
   Markup parts;
   for (std::size_t c = 0; c < map.steps.size(); ++c) {
     parts += html::svg_text(left + cell_width(map) * (static_cast<double>(c) + 0.5), below + 15, "middle",
-                            power(map.steps[c]));
+                            power(map.steps[c], map.steps));
   }
   for (std::size_t r = 0; r < map.stiffnesses.size(); ++r) {
     parts += html::svg_text(left - 6, below - cell_height * (static_cast<double>(r) + 0.5) + 4, "end",
-                            power(map.stiffnesses[r]));
+                            power(map.stiffnesses[r], map.stiffnesses));
   }
   return parts + html::svg_text(left + cell_width(map) * static_cast<double>(map.steps.size()) / 2, below + 34,
                                 "middle", "step [s]");
@@ -180,7 +180,8 @@ Markup map_figure(const StabilityMap& map) {
       "figure", {{"class", "chart"}},
       element("figcaption", map_title(map) + (is_limited(map) ? "; the dashed line: " + map.limit_name : "")) +
           element("p", {{"class", "axis-title"}}, stiffness_title(map.axis)) +
-          inline_svg(map_diagram(map), {{"aria-label", map_title(map)}}));
+          inline_svg(map_diagram(map), {{"aria-label", map_title(map)}}) +
+          html::copies({"SVG", "PNG"}, map_title(map)));
 }
 
 Markup map_legend() { return element("p", "Energy error, relative to the energy exchanged:") + legend(cell_entries()); }

@@ -129,13 +129,16 @@ NamedChart diagram(const SweepResults& results, const std::string& figure, std::
       const SweepAxis& other = results.axes[apart[i]];
       parts.push_back(fmt::format("{} {}", other.name.substr(other.name.rfind('.') + 1), other.values[places[i]]));
     }
-    html::ChartSeries series{.name = fmt::format("{}", fmt::join(parts, ", ")), .points = {}};
+    html::ChartSeries series;
+    const bool by_method = apart.size() == 1 && results.axes[apart[0]].name == "integrator.method";
+    if (by_method) series = method_series(results.axes[apart[0]].values[places[0]]);
+    series.name = fmt::format("{}", fmt::join(parts, ", "));
     for (const auto& [x, values] : line) {
       const double y = median(values);
       const std::string at = numbers.empty() ? axis.values[static_cast<std::size_t>(x)] : fmt::format("{:.6g}", x);
       series.points.push_back({x, y, fmt::format("{} = {}: {:.4g}", axis.name, at, y), {}});
     }
-    series.other = chart.series.size() >= 6;  // there are six colours
+    if (!by_method) series.other = chart.series.size() >= 6;  // there are six colours
     chart.series.push_back(std::move(series));
   }
   return {file_name(fmt::format("{}-over-{}", figure, axis.name)), std::move(chart)};

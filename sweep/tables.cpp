@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "html/latex.hpp"
 #include "html/markdown.hpp"
 #include "study/result_table.hpp"
 
@@ -79,40 +80,10 @@ std::string markdown_grid(const SweepResults& results, const SweepGrid& grid) {
   return text + "\n";
 }
 
-/// A text as LaTeX sets it.
-std::string latex(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '\\':
-        escaped += "\\textbackslash{}";
-        break;
-      case '~':
-        escaped += "\\textasciitilde{}";
-        break;
-      case '^':
-        escaped += "\\textasciicircum{}";
-        break;
-      case '_':
-      case '&':
-      case '%':
-      case '#':
-      case '$':
-      case '{':
-      case '}':
-        escaped += std::string("\\") + c;
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
 std::string latex_cells(const SweepRow* row) {
   if (row == nullptr) return " & -- & --";
   if (row->record.outcome != "completed")
-    return fmt::format(" & \\multicolumn{{2}}{{c}}{{{}}}", latex(row->record.outcome));
+    return fmt::format(" & \\multicolumn{{2}}{{c}}{{{}}}", html::latex(row->record.outcome));
   const auto cell = [&](const char* name) {
     const std::string text = short_figure(*row, name);
     return text == nothing ? "--" : text;
@@ -122,21 +93,21 @@ std::string latex_cells(const SweepRow* row) {
 
 std::string latex_grid(const SweepGrid& grid) {
   const std::size_t columns = grid.cells.front().size();
-  std::string form = "l", heads = grid.down == nullptr ? "" : latex(grid.down->name), units;
+  std::string form = "l", heads = grid.down == nullptr ? "" : html::latex(grid.down->name), units;
   for (std::size_t c = 0; c < columns; ++c) {
     form += "|rr";
     const std::string head = grid.across == nullptr ? "" : grid.across->name + " = " + grid.across->values[c];
-    heads += fmt::format(" & \\multicolumn{{2}}{{c{}}}{{{}}}", c + 1 == columns ? "" : "|", latex(head));
+    heads += fmt::format(" & \\multicolumn{{2}}{{c{}}}{{{}}}", c + 1 == columns ? "" : "|", html::latex(head));
     units += " & $\\mu$s & it.";
   }
   std::string text = fmt::format("\\begin{{table}}\n\\centering\n\\begin{{tabular}}{{{}}}\n", form);
   text += fmt::format("{} \\\\\n{} \\\\\n\\hline\n", heads, units);
   for (std::size_t r = 0; r < grid.cells.size(); ++r) {
-    text += grid.down == nullptr ? "" : latex(grid.down->values[r]);
+    text += grid.down == nullptr ? "" : html::latex(grid.down->values[r]);
     for (const SweepRow* row : grid.cells[r]) text += latex_cells(row);
     text += " \\\\\n";
   }
-  const std::string of = grid.title.empty() ? "" : ", " + latex(grid.title);
+  const std::string of = grid.title.empty() ? "" : ", " + html::latex(grid.title);
   return text +
          fmt::format("\\end{{tabular}}\n\\caption{{Microseconds and iterations of a step{}}}\n\\end{{table}}\n", of);
 }

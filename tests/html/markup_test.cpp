@@ -2,8 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include "html/chart_axis.hpp"
 #include "html/components.hpp"
+#include "tests/support/files.hpp"
 
 namespace drape::html {
 namespace {
@@ -87,6 +93,30 @@ TEST(AxisMap, GivesEveryDecadeTheSameRoom) {
   EXPECT_EQ(axis.ticks().front().label, "10⁻⁵");
 }
 
+TEST(AxisMap, HasTicksOfOneKind) {
+  const AxisMap small(Scale::logarithmic, {1e-5, 1}), usual(Scale::logarithmic, {1e-3, 100});
+  for (const AxisMap::Tick& tick : small.ticks()) {
+    EXPECT_TRUE(tick.label.starts_with("10")) << tick.label;
+  }
+  for (const AxisMap::Tick& tick : usual.ticks()) {
+    EXPECT_EQ(tick.label.find("⁻"), std::string::npos) << tick.label;
+  }
+}
+
+TEST(AxisMap, WritesNumbersInOneWay) {
+  const auto labels = [](double low, double high) {
+    std::vector<std::string> texts;
+    const AxisMap axis(Scale::linear, {low, high});
+    for (const AxisMap::Tick& tick : axis.ticks()) texts.push_back(tick.label);
+    return texts;
+  };
+  using List = std::vector<std::string>;
+  EXPECT_EQ(labels(0, 1), (List{"0", "0.2", "0.4", "0.6", "0.8", "1.0"}));
+  EXPECT_EQ(labels(-20000, 20000), (List{"−20000", "−10000", "0", "10000", "20000"}));
+  EXPECT_EQ(labels(0, 8.34e-6), (List{"0", "2·10⁻⁶", "4·10⁻⁶", "6·10⁻⁶", "8·10⁻⁶"}));
+  EXPECT_EQ(labels(0, 3e7), (List{"0", "0.5·10⁷", "1.0·10⁷", "1.5·10⁷", "2.0·10⁷", "2.5·10⁷", "3.0·10⁷"}));
+}
+
 TEST(AxisMap, KeepsAPlaceForZeroOnALogarithmicAxis) {
   const AxisMap axis(Scale::logarithmic, {0, 1e-6, 1e-3});
   EXPECT_EQ(axis.place(0), 0);
@@ -101,6 +131,49 @@ TEST(AxisMap, HoldsOneValueOrNone) {
       EXPECT_GE(axis.place(3), 0);
       EXPECT_LE(axis.place(3), 3);
       EXPECT_GE(axis.ticks().size(), 2U);
+    }
+  }
+}
+
+/// CIE L*a*b* of a colour, "#cc4400", as eyes see it whose cones turn linear RGB into this.
+std::array<double, 3> seen_as(const std::string& color, const std::array<std::array<double, 3>, 3>& eyes) {
+  std::array<double, 3> linear{}, seen{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double value = std::stoi(color.substr(1 + 2 * i, 2), nullptr, 16) / 255.0;
+    linear[i] = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) seen[i] += eyes[i][j] * linear[j];
+  }
+  const auto f = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116; };
+  const auto [r, g, b] = seen;
+  const double x = f((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505), y = f(0.2126 * r + 0.7152 * g + 0.0722 * b),
+               z = f((0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089);
+  return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+// Machado, Oliveira and Fernandes 2009, severity 1. A difference of 2.3 is just noticeable side by side; thin curves
+// apart from each other take several times that.
+TEST(Colours, OfMethodsDifferForColourBlindEyes) {
+  constexpr std::array<std::array<double, 3>, 3> protanope{
+      {{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}};
+  constexpr std::array<std::array<double, 3>, 3> deuteranope{
+      {{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}};
+  const std::string css = test::content(DRAPE_SOURCE_DIR "/html/theme.css");
+  for (const std::size_t theme : {css.find(":root"), css.rfind(":root")}) {
+    std::vector<std::string> colors;
+    for (int method = 0; method < 6; ++method) {
+      const std::size_t at = css.find("--s" + std::to_string(method) + ": #", theme);
+      ASSERT_NE(at, std::string::npos);
+      colors.push_back(css.substr(at + 6, 7));
+    }
+    for (const auto& eyes : {protanope, deuteranope}) {
+      for (std::size_t i = 0; i < colors.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+          const auto a = seen_as(colors[i], eyes), b = seen_as(colors[j], eyes);
+          EXPECT_GT(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]), 15) << colors[i] << " " << colors[j];
+        }
+      }
     }
   }
 }

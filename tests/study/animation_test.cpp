@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <opencv2/imgcodecs.hpp>
 
 #include "study/reference.hpp"
 #include "tests/support/gif_file.hpp"
@@ -26,10 +27,12 @@ TEST(Animation, HasAPanelForEachMotionAndAFrameForEachMoment) {
   }
   Progress progress;
   const auto gif_file = folder.path() / "a.gif";
-  const auto bytes = animate_errors(scene, to_rounding(scene.simulation, Method::implicit), panels, gif_file,
-                                    GlBackend::automatic, {}, progress);
-  ASSERT_TRUE(bytes);
-  EXPECT_EQ(bytes->size(), std::filesystem::file_size(gif_file));
+  const auto animation = animate_errors(scene, to_rounding(scene.simulation, Method::implicit), panels, gif_file,
+                                        GlBackend::automatic, {}, progress);
+  ASSERT_TRUE(animation);
+  EXPECT_EQ(animation->gif.size(), std::filesystem::file_size(gif_file));
+  const std::vector<std::uint8_t> stills(animation->stills.begin(), animation->stills.end());
+  EXPECT_EQ(cv::imdecode(stills, cv::IMREAD_COLOR).cols, 2 * (2 * 340 + 6) + 6);  // four of the five, in two rows
   const test::GifFile gif = test::read_gif(gif_file);
   EXPECT_EQ(gif.delays.size(), 5U);  // 0 to 0.4 s, 10 a second
   EXPECT_EQ(gif.width, 2 * 340 + 6);

@@ -43,6 +43,12 @@ TEST(ResultTable, EscapesWhatMarkdownWouldSplit) {
             "### Title\n\n| method | µs |\n|---|---:|\n| a, \"b\" \\| c | 9.5 |\n| d | – |\n\nA note.\n");
 }
 
+TEST(ResultTable, IsWrittenForLatex) {
+  EXPECT_EQ(to_latex(table),
+            "% Title\n% needs \\usepackage{booktabs}\n\\begin{tabular}{lr}\n  \\toprule\n  method & \\textmu{}s \\\\\n"
+            "  \\midrule\n  a, \"b\" \\textbar{} c & 9.5 \\\\\n  d & -- \\\\\n  \\bottomrule\n\\end{tabular}\n");
+}
+
 TEST(Markdown, ShowsTextAsItIs) {
   EXPECT_EQ(markdown("<b>&.toml"), "\\<b\\>\\&.toml");
   EXPECT_EQ(markdown("a|b\n`c` *d* [e](f)"), "a\\|b \\`c\\` \\*d\\* \\[e\\](f)");

@@ -124,7 +124,12 @@ void Browser::open(const std::filesystem::path& file) {
 
 void Browser::set_theme(bool dark) {
   command("Emulation.setEmulatedMedia",
-          {{"features", {{{"name", "prefers-color-scheme"}, {"value", dark ? "dark" : "light"}}}}});
+          {{"media", ""}, {"features", {{{"name", "prefers-color-scheme"}, {"value", dark ? "dark" : "light"}}}}});
+}
+
+void Browser::set_print(bool dark) {
+  command("Emulation.setEmulatedMedia",
+          {{"media", "print"}, {"features", {{{"name", "prefers-color-scheme"}, {"value", dark ? "dark" : "light"}}}}});
 }
 
 void Browser::set_width(int width) {

@@ -31,6 +31,8 @@ class Browser {
 
   /// @param dark whether the person prefers dark pages
   void set_theme(bool dark);
+  /// Shows the page as it is printed, until the next set_theme().
+  void set_print(bool dark);
   /// @param width of the window's inside [CSS pixels]
   void set_width(int width);
 

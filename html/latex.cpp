@@ -1,0 +1,77 @@
+#include "html/latex.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace drape::html {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 29> signs{{{"\\", "\\textbackslash{}"},
+                                                                               {"~", "\\textasciitilde{}"},
+                                                                               {"^", "\\textasciicircum{}"},
+                                                                               {"&", "\\&"},
+                                                                               {"%", "\\%"},
+                                                                               {"$", "\\$"},
+                                                                               {"#", "\\#"},
+                                                                               {"_", "\\_"},
+                                                                               {"{", "\\{"},
+                                                                               {"}", "\\}"},
+                                                                               {"<", "\\textless{}"},
+                                                                               {">", "\\textgreater{}"},
+                                                                               {"|", "\\textbar{}"},
+                                                                               {"µ", "\\textmu{}"},
+                                                                               {"ε", "$\\varepsilon$"},
+                                                                               {"∇", "$\\nabla$"},
+                                                                               {"‖", "$\\|$"},
+                                                                               {"→", "$\\to$"},
+                                                                               {"×", "$\\times$"},
+                                                                               {"·", "$\\cdot$"},
+                                                                               {"≈", "$\\approx$"},
+                                                                               {"°", "\\textdegree{}"},
+                                                                               {"²", "\\textsuperscript{2}"},
+                                                                               {"³", "\\textsuperscript{3}"},
+                                                                               {"−", "$-$"},
+                                                                               {"–", "--"},
+                                                                               {"½", "$\\frac12$"},
+                                                                               {"…", "\\dots{}"},
+                                                                               {"\n", " "}}};
+
+/// A text of JavaScript.
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '\n') {
+      result += "\\n";
+      continue;
+    }
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
+}  // namespace
+
+std::string latex(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const auto* const found =
+        std::find_if(signs.begin(), signs.end(), [text](const auto& sign) { return text.starts_with(sign.first); });
+    result += found == signs.end() ? text.substr(0, 1) : found->second;
+    text.remove_prefix(found == signs.end() ? 1 : found->first.size());
+  }
+  return result;
+}
+
+std::string latex_signs() {
+  std::string result;
+  for (const auto& [sign, written] : signs) {
+    result += fmt::format("{}{}: {}", result.empty() ? "{" : ", ", quoted(sign), quoted(written));
+  }
+  return result + "}";
+}
+
+}  // namespace drape::html

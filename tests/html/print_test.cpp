@@ -1,0 +1,181 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "html/chart.hpp"
+#include "html/comparison.hpp"
+#include "html/components.hpp"
+#include "html/film.hpp"
+#include "html/latex.hpp"
+#include "html/page.hpp"
+#include "output/png_encoder.hpp"
+#include "tests/html/html_page.hpp"
+
+// What a page looks like on paper, in a narrow window, and in somebody's clipboard.
+
+namespace drape::html {
+namespace {
+
+class Paper : public test::InBrowser {
+ protected:
+  static constexpr int paper_width = 688;  // between the margins of A4 [CSS pixels]
+
+  void open_page(const Markup& content) { open(render({"kind", "title", "heading", {}, content, {}})); }
+
+  void print(bool dark = false) {
+    browser_->set_print(dark);
+    browser_->set_width(paper_width);
+  }
+
+  /// How many elements of a selector are seen.
+  int seen(const std::string& selector) {
+    return browser_->run("return [...document.querySelectorAll('" + selector +
+                         "')].filter((e) => e.getClientRects().length).length");
+  }
+
+  /// What a press of the button leaves in the clipboard.
+  std::string copied(const std::string& selector) {
+    browser_->run(
+        "Object.defineProperty(navigator, 'clipboard', { configurable: true, value: { writeText: async (t) => { "
+        "window.copied = t } } }); document.querySelector('" +
+        selector + "').click()");
+    return browser_->run("return window.copied");
+  }
+};
+
+Markup wide_table() {
+  Table wide{"Many columns", {{"method"}}, {{"quasi-newton"}}};
+  for (int i = 0; i < 14; ++i) {
+    wide.columns.push_back({"ε & cost_" + std::to_string(i), true});
+    wide.rows.front().push_back("0.000" + std::to_string(100000 + i));
+  }
+  return table(wide);
+}
+
+/// Two curves on one another, a third apart.
+Chart sample_chart() {
+  Chart chart{"What three methods cost.", "step [s]", "error [m]", Scale::logarithmic, Scale::logarithmic, {}, {}};
+  for (const auto& [name, factor] : {std::pair("implicit", 1.0), std::pair("liu13", 1.0), std::pair("verlet", 8.0)}) {
+    ChartSeries series{name, {}};
+    for (int k = 0; k < 6; ++k) series.points.push_back({std::pow(10, -k), factor * std::pow(10, -k), "a point", ""});
+    chart.series.push_back(series);
+  }
+  return chart;
+}
+
+TEST_F(Paper, HoldsWholeTablesOnWhite) {
+  open_page(wide_table() + chart(sample_chart()) + command("Again", std::string(300, 'x')));
+  for (const bool dark : {false, true}) {
+    print(dark);
+    EXPECT_EQ(
+        browser_->run("return [...document.querySelectorAll('.scroll, .command code')].filter((e) => e.scrollWidth > "
+                      "e.clientWidth + 1 && e.getClientRects().length).length"),
+        0);
+    EXPECT_LE(browser_->run("return document.documentElement.scrollWidth").get<int>(), paper_width);
+    EXPECT_EQ(browser_->run("return getComputedStyle(document.body).backgroundColor"), "rgb(255, 255, 255)");
+    EXPECT_EQ(browser_->run("return getComputedStyle(document.body).color"), "rgb(30, 31, 33)");
+    EXPECT_EQ(seen("button"), 0);
+  }
+}
+
+TEST_F(Paper, ShowsSomeMomentsOfAFilm) {
+  std::vector<FilmMoment> moments;
+  const std::string pixel = encode_png(Image(1, 1));
+  for (int k = 0; k < 9; ++k) moments.push_back({"t = " + std::to_string(k), {pixel, pixel}});
+  open_page(film("film", {"one", "other"}, moments));
+  EXPECT_EQ(seen(".shown-moment"), 2);
+  print();
+  EXPECT_EQ(seen(".shown-moment"), 8);
+  EXPECT_EQ(browser_->run("return document.querySelector('.panels figure').innerText.replace(/\\s+/g, ' ').trim()"),
+            "one t = 0 t = 2 t = 5 t = 8");
+}
+
+TEST_F(Paper, ShowsTheStillsOfAnAnimation) {
+  const std::string pixel = encode_png(Image(1, 1));
+  open_page(animation(pixel, pixel, "A cloth"));
+  EXPECT_EQ(seen("img[src^=\"data:image/gif\"]"), 1);
+  EXPECT_EQ(seen("img[src^=\"data:image/png\"]"), 0);
+  print();
+  EXPECT_EQ(seen("img[src^=\"data:image/gif\"]"), 0);
+  EXPECT_EQ(seen("img[src^=\"data:image/png\"]"), 1);
+}
+
+TEST_F(Paper, TakesTablesFromTheClipboard) {
+  open_page(table({"A table", {{"method"}, {"ε_1, %", true}}, {{"a, \"b\"", "0.5"}}}));
+  EXPECT_EQ(copied("[data-form=CSV]"), "method,\"ε_1, %\"\n\"a, \"\"b\"\"\",0.5\n");
+  EXPECT_EQ(copied("[data-form=Markdown]"), "| method | ε_1, % |\n| --- | ---: |\n| a, \"b\" | 0.5 |\n");
+  const std::string latex = copied("[data-form=LaTeX]");
+  EXPECT_NE(latex.find("\\begin{tabular}{lr}\n  \\toprule\n  method & $\\varepsilon$\\_1, \\% \\\\\n"),
+            std::string::npos)
+      << latex;
+}
+
+TEST_F(Paper, TakesDiagramsFromTheClipboard) {
+  open_page(chart(sample_chart()));
+  const std::string svg = copied("[data-form=SVG]");
+  EXPECT_NE(svg.find("xmlns=\"http://www.w3.org/2000/svg\""), std::string::npos);
+  EXPECT_NE(svg.find("stroke: rgb("), std::string::npos);  // no style sheet goes with it
+  EXPECT_EQ(svg.find("data-label"), std::string::npos);
+}
+
+TEST_F(Paper, TakesPicturesOfDiagramsFromTheClipboard) {
+  open_page(chart(sample_chart()));
+  browser_->run(
+      "Object.defineProperty(navigator, 'clipboard', { configurable: true, value: { write: async ([item]) => {"
+      "const picture = await createImageBitmap(await item.getType('image/png'));"
+      "window.taken = [picture.width, picture.height] } } }); document.querySelector('[data-form=PNG]').click()");
+  nlohmann::json taken;
+  for (int tries = 0; taken.is_null() && tries < 100; ++tries) {
+    taken = browser_->run("return new Promise((done) => setTimeout(() => done(window.taken ?? null), 50))");
+  }
+  EXPECT_EQ(taken, browser_->run("const b = document.querySelector('.chart > svg').getBoundingClientRect();"
+                                 "return [Math.floor(2 * b.width), Math.floor(2 * b.height)]"));
+}
+
+TEST_F(Paper, TakesLatexAsFilesHaveIt) {
+  const std::string signs = "\\ ~^&%$#_{}<>|µε∇‖→×·≈°²³−–½…";
+  open_page(table({"A table", {{"a"}}, {{signs}}}));
+  const std::string copy = copied("[data-form=LaTeX]");
+  EXPECT_NE(copy.find("  " + latex(signs) + " \\\\\n"), std::string::npos) << copy;
+}
+
+TEST_F(Paper, ShowsEveryComparedPicture) {
+  const std::string pixel = encode_png(Image(1, 1));
+  ComparedPictures same, other;
+  same.name = "0", other.name = "40";
+  same.expected = other.expected = other.actual = other.difference = pixel;
+  same.size = other.size = {1, 1};
+  open_page(comparison("pictures", {same, other}, 1));
+  EXPECT_EQ(seen(".moment img"), 3);
+  print();
+  EXPECT_EQ(seen(".moment img"), 4);
+}
+
+TEST_F(Paper, SaysWhichCurveLiesBeneathAnother) {
+  open_page(chart(sample_chart()));
+  EXPECT_EQ(browser_->run("return [...document.querySelectorAll('.legend li')].map((e) => e.textContent).join()"),
+            "implicit (beneath liu13),liu13,verlet");
+}
+
+// Boxes of text have room for letters with tails below, which digits do not have.
+TEST_F(Paper, LabelsOfAnAxisDoNotCollideInANarrowWindow) {
+  Chart long_labels = sample_chart();
+  for (ChartSeries& series : long_labels.series) {
+    for (ChartPoint& p : series.points) p.x = 1e-4 * (1 + p.x);  // 1, 2, 5 times a power of ten
+  }
+  open_page(chart(sample_chart()) + chart(long_labels));
+  for (const int width : {390, 1200}) {
+    browser_->set_width(width);
+    EXPECT_EQ(
+        browser_->run("let count = 0; for (const svg of document.querySelectorAll('.chart > svg')) {"
+                      "const boxes = [...svg.querySelectorAll('text')].filter((t) => t.getClientRects().length)"
+                      ".map((t) => t.getBoundingClientRect());"
+                      "boxes.forEach((a, i) => boxes.slice(i + 1).forEach((b) => { if (a.left < b.right && b.left < "
+                      "a.right && a.top < b.bottom - 3 && b.top < a.bottom - 3) ++count })) } return count"),
+        0)
+        << width;
+  }
+}
+
+}  // namespace
+}  // namespace drape::html
