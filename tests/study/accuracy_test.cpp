@@ -6,11 +6,9 @@
 #include <filesystem>
 
 #include "sim/effects/ground.hpp"
-#include "study/accuracy_cheapest.hpp"
 #include "study/accuracy_report.hpp"
 #include "study/film_judge.hpp"
 #include "study/local_error.hpp"
-#include "tests/study/invented_study.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape {
@@ -269,39 +267,6 @@ TEST(AccuracyOptions, MustFitTheMotion) {
   EXPECT_EQ(whole.times.size(), 3U);
   EXPECT_DOUBLE_EQ(whole.times.back(), 1);
   EXPECT_DOUBLE_EQ(whole.steps.front(), 0.02);
-}
-
-TEST(Cheapest, IsTheLeastCostlyBelowTheLimitAndTheNextIsOfAnotherMethod) {
-  const std::vector<Offer> offers{{"a", "1", 1e-2, {1, 1, 1}},
-                                  {"a", "2", 1e-4, {5, 5, 5}},
-                                  {"a", "3", 1e-5, {6, 6, 6}},
-                                  {"b", "1", 1e-4, {7, 7, 7}},
-                                  {"b", "2", 1e-7, {9, 9, 9}}};
-  EXPECT_EQ(find_cheapest(offers, 1e-3).first, &offers[1]);
-  EXPECT_EQ(find_cheapest(offers, 1e-3).next, &offers[3]);
-  EXPECT_EQ(find_cheapest(offers, 1e-6).first, &offers[4]);
-  EXPECT_EQ(find_cheapest(offers, 1e-6).next, nullptr);
-  EXPECT_EQ(find_cheapest(offers, 1e-9).first, nullptr);
-  // A tighter tolerance that gives the same iterations is not cheaper, whatever the clock says.
-  const std::vector<Offer> same{{"a", "1", 1e-4, {5, 5, 5}}, {"a", "2", 1e-4, {4, 4, 4}}};
-  EXPECT_EQ(find_cheapest(same, 1e-3).first, &same[0]);
-}
-
-// Of the invented runs, see there: with an accuracy of 1e-4 m Newton's method is at 50 µm for 90 ms; Verlet has 0.4 mm
-// for 5 ms.
-TEST(Cheapest, IsTheAnswerOfTheStudy) {
-  const StudyReport report = accuracy_report(test::invented_study());
-  ASSERT_TRUE(report.answer);
-  ASSERT_EQ(report.answer->tables.size(), 2U) << "one for each scene";
-  const ResultTable& answer = report.answer->tables.front();
-  EXPECT_EQ(answer.columns,
-            (std::vector<std::string>{"error", "below 1 mm", "below 0.1 mm", "below 10 µm", "below 1 µm"}));
-  EXPECT_EQ(answer.rows.front(),
-            (std::vector<std::string>{"whole, at 0.2 s [ms per second of motion]", "verlet, h = 0.01 s: 5.00",
-                                      "implicit, accuracy = 0.0001 m: 90.0", "none of those run",
-                                      "unknown: the reference is not accurate enough"}));
-  const std::string page = to_page(report);
-  EXPECT_LT(page.find("What to take"), page.find(">Findings<"));
 }
 
 }  // namespace
