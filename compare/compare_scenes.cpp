@@ -16,6 +16,7 @@
 #include "output/registry.hpp"
 #include "render/view.hpp"
 #include "run/outputs.hpp"
+#include "scene/method_names.hpp"
 
 namespace drape {
 namespace {

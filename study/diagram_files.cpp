@@ -7,7 +7,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "sim/settings.hpp"
+#include "scene/method_names.hpp"
 #include "study/case.hpp"
 #include "study/svg_printer.hpp"
 
@@ -62,6 +62,11 @@ std::string write_diagram(const html::Diagram& diagram, const std::filesystem::p
   write_file_atomically(folder / (name + ".pdf"), pdf);
   write_file_atomically(folder / (name + ".png"), png);
   return {};
+}
+
+std::string write_chart(const NamedChart& chart, const std::filesystem::path& folder) {
+  write_table(points_table(chart), folder);
+  return write_diagram(html::still_chart(chart.chart), folder, chart.name);
 }
 
 }  // namespace drape

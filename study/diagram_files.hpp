@@ -26,4 +26,7 @@ ResultTable points_table(const NamedChart& chart);
 /// @throws OutputError if a file cannot be written
 std::string write_diagram(const html::Diagram& diagram, const std::filesystem::path& folder, const std::string& name);
 
+/// The same of a chart, with its points as write_table() writes them.
+std::string write_chart(const NamedChart& chart, const std::filesystem::path& folder);
+
 }  // namespace drape

@@ -61,15 +61,6 @@ std::vector<StudySection> all_sections(const StudyReport& report) {
   return sections;
 }
 
-constexpr std::size_t most_rows = 200;  // of a table that somebody would set into a text
-
-void write_table(const ResultTable& table, const std::filesystem::path& folder) {
-  write_file_atomically(folder / (table.name + ".csv"), to_csv(table));
-  if (table.rows.size() > most_rows) return;
-  write_file_atomically(folder / (table.name + ".md"), to_markdown(table));
-  write_file_atomically(folder / (table.name + ".tex"), to_latex(table));
-}
-
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> study_provenance() {
@@ -142,10 +133,7 @@ std::string write_report(const StudyReport& report, const std::filesystem::path&
   for (const ResultTable& table : report.data) write_table(table, folder);
   for (const StudySection& section : all_sections(report)) {
     for (const ResultTable& table : section.tables) write_table(table, folder);
-    for (const NamedChart& chart : section.charts) {
-      write_table(points_table(chart), folder);
-      note(write_diagram(html::still_chart(chart.chart), folder, chart.name));
-    }
+    for (const NamedChart& chart : section.charts) note(write_chart(chart, folder));
     for (const StabilityMap& map : section.maps) {
       write_file_atomically(folder / (map_name(map) + ".csv"), map_csv(map));
       note(write_diagram(map_diagram(map), folder, map_name(map)));

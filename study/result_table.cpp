@@ -7,12 +7,15 @@
 #include <cmath>
 #include <set>
 
+#include "core/atomic_file.hpp"
 #include "core/wrap.hpp"
 #include "html/latex.hpp"
 #include "html/markdown.hpp"
 
 namespace drape {
 namespace {
+
+constexpr std::size_t most_set_rows = 200;  // of a table that somebody would set into a text
 
 std::string quoted(const std::string& cell) {
   if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
@@ -135,6 +138,13 @@ std::string to_latex(const ResultTable& table) {
       "% {}\n% needs \\usepackage{{booktabs}}\n\\begin{{tabular}}{{{}}}\n  \\toprule\n{}  \\midrule\n{}  "
       "\\bottomrule\n\\end{{tabular}}\n",
       html::latex(table.title), columns, latex_line(table.columns), rows);
+}
+
+void write_table(const ResultTable& table, const std::filesystem::path& folder) {
+  write_file_atomically(folder / (table.name + ".csv"), to_csv(table));
+  if (table.rows.size() > most_set_rows) return;
+  write_file_atomically(folder / (table.name + ".md"), to_markdown(table));
+  write_file_atomically(folder / (table.name + ".tex"), to_latex(table));
 }
 
 html::Markup to_html(const ResultTable& table) {

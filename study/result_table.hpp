@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ std::string to_markdown(const ResultTable& table);
 std::string to_csv(const ResultTable& table);
 /// A tabular environment, as \input takes it; needs booktabs and nothing else.
 std::string to_latex(const ResultTable& table);
+/// Writes NAME.csv, and NAME.md and NAME.tex of a table that is not too long for a text.
+/// @throws OutputError
+void write_table(const ResultTable& table, const std::filesystem::path& folder);
 html::Markup to_html(const ResultTable& table);
 
 }  // namespace drape

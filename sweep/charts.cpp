@@ -148,15 +148,15 @@ NamedChart diagram(const SweepResults& results, const std::string& figure, std::
 
 std::string figure_title(const std::string& name) {
   static const std::map<std::string, std::string> titles{
-      {"step_us.median", "µs a step (median)"},
-      {"step_us.mean", "µs a step (mean)"},
-      {"iterations.mean", "iterations a step"},
+      {"step_us.median", "µs per step (median)"},
+      {"step_us.mean", "µs per step (mean)"},
+      {"iterations.mean", "iterations per step"},
       {"iterations.max", "most iterations of a step"},
       {"iterations.steps_not_converged", "steps that did not converge"},
       {"iterations.worst_residual", "worst residual [N]"},
       {"accuracy.estimated_error.mean", "estimated error of a step [m]"},
       {"accuracy.estimated_error.largest", "largest estimated error of a step [m]"},
-      {"accuracy.substeps.mean", "substeps a step"},
+      {"accuracy.substeps.mean", "substeps per step"},
       {"accuracy.unbalanced_at_rest.force", "unbalanced force at rest [N]"}};
   const auto found = titles.find(name);
   return found == titles.end() ? name : found->second;

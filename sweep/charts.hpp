@@ -12,7 +12,7 @@ namespace drape {
 /// Where the files of diagrams are within a sweep's folder.
 inline constexpr const char* diagrams_place = "diagrams";
 
-/// What a figure is called on pages: "µs a step"; its own name where it has no other.
+/// What a figure is called on pages: "µs per step"; its own name where it has no other.
 std::string figure_title(const std::string& name);
 
 /// Diagrams of figures over axes.

@@ -183,11 +183,11 @@ std::string sweep_page(const SweepResults& results, const std::filesystem::path&
   page.introduction = findings(results) + html::command("Make it again", command_of(results.plan.request));
   page.content = Films(results, folder).section();
   if (const SweepDiagrams diagrams = figure_diagrams(results); !diagrams.charts.empty()) {
-    page.content +=
-        html::section(2, "diagrams", "Diagrams",
-                      html::choices("figure-diagrams", choices_of(diagrams)) +
-                          html::note(fmt::format("Each is a file, too: {}/ has all of them as SVG, PDF, PNG and CSV.",
-                                                 diagrams_place)));
+    page.content += html::section(2, "diagrams", "Diagrams",
+                                  html::choices("figure-diagrams", choices_of(diagrams)) +
+                                      html::note(fmt::format("Each is a file, too: {}/ has all of them as SVG, PDF and "
+                                                             "PNG, with their points as CSV, Markdown and LaTeX.",
+                                                             diagrams_place)));
   }
   page.content += html::section(
       2, "figures", "Figures",

@@ -13,9 +13,7 @@ std::string write_sweep_report(const SweepResults& results, const std::filesyste
   write_file_atomically(folder / "table.tex", sweep_latex(results));
   std::string problem;
   for (const NamedChart& chart : figure_diagrams(results).charts) {
-    const std::filesystem::path place = folder / diagrams_place;
-    write_file_atomically(place / (chart.name + ".csv"), to_csv(points_table(chart)));
-    problem = write_diagram(html::still_chart(chart.chart), place, chart.name);
+    problem = write_chart(chart, folder / diagrams_place);
   }
   write_file_atomically(folder / sweep_page_name, sweep_page(results, folder));
   return problem;

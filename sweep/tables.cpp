@@ -74,8 +74,8 @@ std::string markdown_grid(const SweepResults& results, const SweepGrid& grid) {
   for (std::size_t r = 0; r < grid.cells.size(); ++r) {
     const std::string value = grid.down == nullptr ? "" : fmt::format("**{}**", markdown(grid.down->values[r]));
     line(value, grid.cells[r], [&](const SweepRow* row) { return film_cell(results, row); });
-    line("µs a step", grid.cells[r], figure("step_us.median"));
-    line("iterations a step", grid.cells[r], figure("iterations.mean"));
+    line("µs per step", grid.cells[r], figure("step_us.median"));
+    line("iterations per step", grid.cells[r], figure("iterations.mean"));
   }
   return text + "\n";
 }

@@ -185,13 +185,13 @@ TEST_F(Sweep, WritesWhatAReportNeeds) {
   for (const SweepRow& row : results.rows) {
     EXPECT_NE(text.find("](runs/" + results.planned(row).key + "/film.gif)"), std::string::npos) << text;
   }
-  EXPECT_NE(text.find("| µs a step |"), std::string::npos);
+  EXPECT_NE(text.find("| µs per step |"), std::string::npos);
   const std::string latex = test::content(folder_.path("out/table.tex"));
   EXPECT_NE(latex.find("\\begin{tabular}{l|rr|rr}"), std::string::npos) << latex;
   EXPECT_NE(latex.find("integrator.method = implicit"), std::string::npos) << latex;
   EXPECT_NE(test::content(folder_.path("out/report.html")).find("films-in-step"), std::string::npos);
   const std::string diagram = folder_.path("out/diagrams/step_us.median-over-integrator.method");
-  EXPECT_EQ(test::content(diagram + ".csv").find("series,integrator.method,µs a step (median)\n"), 0U);
+  EXPECT_EQ(test::content(diagram + ".csv").find("series,integrator.method,µs per step (median)\n"), 0U);
   EXPECT_NE(test::content(diagram + ".svg").find("<svg"), std::string::npos);
   EXPECT_TRUE(test::content(diagram + ".pdf").starts_with("%PDF"));
   EXPECT_TRUE(test::content(diagram + ".png").starts_with("\x89PNG"));
