@@ -24,7 +24,7 @@ struct SceneField {
   bool operator==(const SceneField&) const = default;
 };
 
-/// What holds for a key of a scene, as a text.
+/// The value of a key of a scene, as text.
 struct SceneValue {
   std::string key, text;
 };
@@ -44,9 +44,9 @@ struct Scene {
   CheckSettings check;
   std::vector<std::filesystem::path> inputs;  ///< every file that it is read from: itself, meshes, tracks, the texture
   std::string texture_place;                  ///< where the texture is named, for messages: "scene.toml:9:11"
-  std::vector<SceneField> fields;             ///< every key, and what holds for it
+  std::vector<SceneField> fields;             ///< every key with its value
   std::string caption_place;                  ///< where the caption's text is, for messages
-  /// A hash of what the file and the overrides say, but for [check], [caption] and [overlay]: comments, the order of
+  /// A hash of what the file and the overrides say, except [check], [caption] and [overlay]: comments, the order of
   /// keys and the way in which a number is written do not change it. 16 hexadecimal digits.
   std::string digest;
   std::vector<SceneValue> tables;   ///< what the tables say on which the motion depends, see physics_values()
@@ -75,7 +75,7 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
 /// @throws UsageError if there is none
 std::filesystem::path data_folder();
 
-/// Has data_folder() return this one from now on; with an empty path, what is found again. Not while another thread
+/// Makes data_folder() return this one from now on; an empty path has it searched for again. Not while another thread
 /// reads scenes or draws.
 /// @throws UsageError if there is no such folder
 void use_data_folder(const std::filesystem::path& folder);

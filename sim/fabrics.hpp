@@ -8,7 +8,7 @@
 
 namespace drape {
 
-/// What a fabric is like, as far as a cloth of one density, modulus and rigidity in all directions can be like it.
+/// A fabric, as far as a cloth of one density, modulus and rigidity in all directions can represent it.
 ///
 /// Measured by Wang, O'Brien and Ramamoorthi 2011, "Data-Driven Elastic Models for Cloth: Modeling and Measurement",
 /// whose tables of ten fabrics come with ARCSim. Those are anisotropic and change with strain; this is what they say of

@@ -22,8 +22,8 @@ struct Frame {
   double time = 0;                        ///< [s], in the scene's time
   Vertices positions = {};                ///< n×3 [m]
   std::vector<Collider> colliders = {};   ///< in the order of the scene
-  Vertices velocities = {};               ///< n×3 [m/s]; empty where nobody has asked for them
-  std::optional<Energies> energies = {};  ///< likewise absent
+  Vertices velocities = {};               ///< n×3 [m/s]; empty unless asked for
+  std::optional<Energies> energies = {};  ///< absent unless asked for
   int iterations = 0;                     ///< of the step that it is in, or ends with
 };
 

@@ -16,7 +16,7 @@ std::vector<std::string> instruction_sets();
 /// The one that is used: the fastest that this processor runs, unless it is limited.
 std::string instruction_set();
 
-/// Has every simulation of the process use at most this one from now on: the bits are the same with all. Not while
+/// Limits every simulation of the process to at most this one: the bits are the same with all. Not while
 /// another thread computes.
 /// @throws UsageError if there is none of that name
 void limit_instruction_set(std::string_view name);

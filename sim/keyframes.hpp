@@ -11,13 +11,13 @@
 
 namespace drape {
 
-/// How a value gets from one keyframe to the next.
+/// How a value moves from one keyframe to the next.
 enum class Interpolation {
   linear,  ///< at a steady speed
-  smooth   ///< without a jump of the speed
+  smooth   ///< with a continuous speed
 };
 
-/// A value over time that goes through keyframes and has their very bits there.
+/// A value over time that passes through keyframes, and equals them to the bit there.
 ///
 /// Smooth is a cubic Hermite curve in each coordinate, whose slope at a keyframe is 0 at the ends and where the value
 /// turns round, and otherwise the weighted harmonic mean of the slopes on both sides (Fritsch and Butland 1984): it
@@ -28,10 +28,10 @@ class Keyframes {
   /// @throws std::invalid_argument otherwise
   Keyframes(std::vector<Keyframe> keyframes, Interpolation interpolation);
 
-  /// The value at a time [s]; before the first and after the last keyframe that of it.
+  /// The value at a time [s]; before the first keyframe and after the last it is constant.
   [[nodiscard]] Eigen::Vector3d at(double time) const;
 
-  /// How fast it changes [1/s]; where that jumps, at a keyframe, as it does before.
+  /// Its rate of change [1/s]; where that jumps, at a keyframe, the rate just before it.
   [[nodiscard]] Eigen::Vector3d velocity(double time) const;
 
  private:

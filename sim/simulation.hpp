@@ -25,7 +25,7 @@
 
 namespace drape {
 
-/// Whether a simulation measures what its effects take.
+/// Whether a simulation measures the computing time of its effects.
 enum class Timing { none, effects };
 
 /// A cloth in motion: owns its state, what acts on it, and the scheme by which it advances. No threads, no files. The
@@ -43,7 +43,7 @@ class Simulation {
   ///         nothing, see StabilityGuard
   StepReport step();
 
-  /// Goes on from another state of the same cloth, at any step.
+  /// Continues from another state of the same cloth, at any step.
   void restore(const State& state);
 
   /// All that the rest of the motion depends on, to the bit: also the step in which it diverges.
@@ -52,7 +52,7 @@ class Simulation {
     std::optional<EnergyMemory> books;  ///< where something watches the energy
   };
   [[nodiscard]] Checkpoint checkpoint() const;
-  /// Goes on where a simulation of the same settings was, as that would have gone on.
+  /// Continues where another simulation of the same settings was, exactly as that one would have.
   void restore(const Checkpoint& checkpoint);
 
   [[nodiscard]] const State& state() const;
@@ -65,7 +65,7 @@ class Simulation {
   [[nodiscard]] const SimulationSettings& settings() const;
   /// All springs, those of effects included.
   [[nodiscard]] const std::vector<Spring>& springs() const;
-  /// What each effect of the settings has taken within the steps so far [s]; empty unless it is measured. The springs
+  /// The computing time of each effect in the steps so far [s]; empty unless it is measured. The springs
   /// that an effect adds are not in it: they are computed together with the cloth's.
   [[nodiscard]] const std::vector<double>& effect_seconds() const;
 
@@ -80,7 +80,7 @@ class Simulation {
   [[nodiscard]] double weight() const;
   /// When a step is accurate enough; nothing where nothing is minimised.
   [[nodiscard]] std::optional<Accuracy> accuracy() const;
-  /// Where everything that the cloth can touch is at a time [s].
+  /// Everything that the cloth can touch, where it is at a time [s].
   [[nodiscard]] std::vector<Collider> colliders(double time) const;
 
  private:

@@ -18,7 +18,7 @@ class SphereTrack {
   [[nodiscard]] virtual SphereShape at(double time) const = 0;
 };
 
-/// A circle that is run through at a steady speed.
+/// A circle, followed at constant speed.
 struct Orbit {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< a point of its axis [m]
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< of any length but 0; counterclockwise seen from its tip

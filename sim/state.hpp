@@ -20,7 +20,7 @@ struct State {
 };
 
 /// A hash of a state to the bit: of its step, its positions and its velocities. Two runs that agree in it agree in all
-/// that follows; it tells states apart, but withstands nobody who wants two of the same hash.
+/// that follows; it tells states apart, but is not cryptographic.
 std::uint64_t hash_of(const State& state);
 
 /// What a simulation remembers of the energy of its motion, to recognise one that blows up.

@@ -9,11 +9,11 @@
 
 namespace drape {
 
-/// Resistance to bending: an energy of the curvature, "cross" springs, or both. One of them must be given.
+/// Resistance to bending: an energy of the curvature, "cross" springs, or both; at least one must be given.
 struct Bending {
   static constexpr std::string_view name = "bending";
 
-  /// D [N·m], above 0: rolled to the radius R, an area A holds ½·D·A/R².
+  /// D [N·m], above 0: rolled to the radius R, an area A stores ½·D·A/R².
   std::optional<double> rigidity = {};
   /// Of springs between the vertices opposite to each inner edge [N/m], above 0.
   std::optional<double> cross_stiffness = {};

@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// Takes the same part of every velocity in the same time: v *= factor^h at the end of a step of h seconds.
+/// Reduces every velocity by the same fraction in the same time: v *= factor^h at the end of a step of h seconds.
 struct Damping {
   static constexpr std::string_view name = "damping";
 

@@ -21,13 +21,14 @@ class Keys;
 struct SimulationSettings;
 struct System;
 
-/// Takes what is wrong with an effect: the key to blame (empty: the whole table) and a sentence, once for each problem.
+/// Receives what is wrong with an effect: the key to blame (empty: the whole table) and a sentence, once for each
+/// problem.
 using ProblemSink = std::function<void(std::string_view key, const std::string& sentence)>;
 
 /// A type of effect: a struct whose public members say what it is like, with their defaults and units. They are what
 /// a scene's table [effects.NAME] can say, and code writes it as a value, Damping{.factor = 0.2}. It has
 ///   static constexpr std::string_view name            the NAME of its table
-///   static constexpr bool repeatable = true           where [[effects.NAME]] may be there several times
+///   static constexpr bool repeatable = true           where [[effects.NAME]] may occur several times
 ///   void describe(Keys&)                              lists the table's keys; their values are written to the members
 ///   void check(const SimulationSettings&, const ProblemSink&) const
 ///                                                     says what is wrong with the values taken together and with
@@ -58,7 +59,7 @@ class Effect {
   void check(const SimulationSettings& settings, const ProblemSink& problem) const { held_->check(settings, problem); }
   void install(System& system) const { held_->install(system); }
 
-  /// The effect as what it is, null if it is of another type.
+  /// The effect as one of this type; null if it is of another.
   template <EffectValue T>
   [[nodiscard]] const T* as() const {
     const auto* held = dynamic_cast<const Held<T>*>(held_.get());

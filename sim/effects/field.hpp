@@ -18,7 +18,7 @@ struct Field {
 
   /// Of a vertex along x, y and z, each a formula in x, y, z, t, vx, vy and vz, see FormulaField [m/s²].
   std::array<std::string, 3> acceleration = {"0", "0", "0"};
-  /// By how much the acceleration changes at most with the place, √λ_max of JᵀJ, J its derivative [1/s²]. Explicit
+  /// How fast the acceleration changes with the place at most, √λ_max of JᵀJ, J its derivative [1/s²]. Explicit
   /// methods need it where a formula depends on the place: their largest stable step follows from it.
   std::optional<double> stiffness_bound = {};
 

@@ -7,12 +7,12 @@
 
 namespace drape {
 
-/// Keeps the cloth from going through itself, see SelfContact.
+/// Keeps the cloth from passing through itself, see SelfContact.
 struct SelfCollision {
   static constexpr std::string_view name = "self_collision";
 
-  double thickness = 0.01;  ///< that layers of the cloth keep between them [m]
-  double repulsion = 20;    ///< which part of what is missing to that they part by in a second, at first [1/s]
+  double thickness = 0.01;  ///< the distance that layers of the cloth keep [m]
+  double repulsion = 20;    ///< the part of the missing distance by which they separate per second, at first [1/s]
   double friction = 0.3;    ///< Coulomb's coefficient between layers
   int iterations = 10;      ///< passes over the contacts of a step, and over its collisions before they become rigid
 

@@ -17,7 +17,7 @@ struct StrainLimit {
   double max_stretch = 1.1;                ///< longest, in rest lengths; at least 1
   std::optional<double> min_stretch = {};  ///< shortest, likewise, from 0 to 1; without it there is no such limit
   int iterations = 1000;                   ///< sweeps over the edges in a step, at most
-  double tolerance = 1e-3;                 ///< by which fraction a limit may be exceeded
+  double tolerance = 1e-3;                 ///< the fraction by which a limit may be exceeded
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;

@@ -9,7 +9,7 @@
 
 namespace drape {
 
-/// The same acceleration on every vertex, as the homework has it: a second gravity. What moving air does is Air.
+/// The same acceleration on every vertex, as in the homework: a second gravity. For the force of moving air see Air.
 struct Wind {
   static constexpr std::string_view name = "wind";
 
