@@ -24,6 +24,14 @@ std::vector<double> numbers_of(const Collider& collider) {
   if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
     return {sphere->center[0], sphere->center[1], sphere->center[2], sphere->radius};
   }
+  if (const auto* mesh = std::get_if<MeshShape>(&collider)) {
+    // Three of its vertices: where it is, how it is turned, and mostly what has become of its shape.
+    std::vector<double> numbers;
+    for (const Eigen::Index i : {Eigen::Index{0}, mesh->positions.rows() / 2, mesh->positions.rows() - 1}) {
+      for (int axis = 0; axis < 3; ++axis) numbers.push_back(mesh->positions(i, axis));
+    }
+    return numbers;
+  }
   const auto& ground = std::get<GroundShape>(collider);
   return {ground.normal[0], ground.normal[1], ground.normal[2], ground.height, ground.thickness};
 }
@@ -67,6 +75,7 @@ std::vector<double> body_numbers(const Simulation& simulation) {
 }
 
 const char* body_kind(const Collider& collider) {
+  if (std::holds_alternative<MeshShape>(collider)) return "body";
   return std::holds_alternative<SphereShape>(collider) ? "sphere" : "ground";
 }
 

@@ -31,11 +31,17 @@ std::vector<std::string> names_of(const std::vector<Collider>& colliders) {
   return names;
 }
 
-/// Whether a vertex is where a body pushes.
+/// Whether a vertex is where a body pushes, or in the box around a mesh.
 bool touches(const Vertices& x, const Collider& collider) {
   if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
     const double reach = std::max(sphere->reach, sphere->radius);
     return (x.rowwise() - sphere->center.transpose()).rowwise().squaredNorm().minCoeff() < reach * reach;
+  }
+  if (const auto* mesh = std::get_if<MeshShape>(&collider)) {
+    const Eigen::Array3d low = mesh->positions.colwise().minCoeff().transpose();
+    const Eigen::Array3d high = mesh->positions.colwise().maxCoeff().transpose();
+    const auto within = [&](const auto& p) { return (p.array() >= low).all() && (p.array() <= high).all(); };
+    return std::ranges::any_of(x.rowwise(), [&](const auto& row) { return within(row.transpose().eval()); });
   }
   const auto& ground = std::get<GroundShape>(collider);
   return (x * ground.normal).minCoeff() < ground.height + ground.thickness;

@@ -30,17 +30,22 @@ std::int64_t count(const Json& json, const char* key, std::int64_t least, std::i
   return value;
 }
 
-/// Four numbers that say what of a collider is drawn.
+/// Four numbers that say where a collider is: of a mesh, the ball around the middle of its vertices.
 std::array<double, columns_of_collider> numbers_of(const Collider& collider) {
   if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
     return {sphere->center[0], sphere->center[1], sphere->center[2], sphere->radius};
+  }
+  if (const auto* mesh = std::get_if<MeshShape>(&collider)) {
+    const Eigen::RowVector3d middle = mesh->positions.colwise().mean();
+    const double radius = (mesh->positions.rowwise() - middle).rowwise().norm().maxCoeff();
+    return {middle[0], middle[1], middle[2], radius};
   }
   const auto& ground = std::get<GroundShape>(collider);
   return {ground.normal[0], ground.normal[1], ground.normal[2], ground.height};
 }
 
 Collider collider_of(const std::string& kind, const std::array<double, columns_of_collider>& n) {
-  if (kind == "sphere") return SphereShape{.center = {n[0], n[1], n[2]}, .radius = n[3], .reach = n[3]};
+  if (kind == "sphere" || kind == "body") return SphereShape{.center = {n[0], n[1], n[2]}, .radius = n[3], .reach = n[3]};
   return GroundShape{.normal = {n[0], n[1], n[2]}, .height = n[3]};
 }
 
@@ -49,7 +54,8 @@ Collider collider_of(const std::string& kind, const std::array<double, columns_o
 std::vector<std::string> collider_kinds(const std::vector<Collider>& colliders) {
   std::vector<std::string> kinds;
   for (const Collider& collider : colliders) {
-    kinds.emplace_back(std::holds_alternative<SphereShape>(collider) ? "sphere" : "ground");
+    const bool is_mesh = std::holds_alternative<MeshShape>(collider);
+    kinds.emplace_back(is_mesh ? "body" : std::holds_alternative<SphereShape>(collider) ? "sphere" : "ground");
   }
   return kinds;
 }
@@ -96,7 +102,7 @@ MotionHeader unpack_header(std::string_view payload) {
     throw std::invalid_argument("has a head that is not what it should be");
   }
   for (const std::string& kind : header.colliders) {
-    if (kind != "sphere" && kind != "ground") throw std::invalid_argument("has a collider of an unknown kind");
+    if (kind != "sphere" && kind != "ground" && kind != "body") throw std::invalid_argument("has a collider of an unknown kind");
   }
   return header;
 }

@@ -28,7 +28,7 @@ struct MotionHeader {
   RecordedSteps recorded = {};
   int vertices = 0, triangles = 0;
   bool textured = false;                    ///< whether the cloth has texture coordinates
-  std::vector<std::string> colliders = {};  ///< their kinds: "sphere", "ground"
+  std::vector<std::string> colliders = {};  ///< their kinds: "sphere", "ground", "body"
 };
 
 /// What a header says of this program.

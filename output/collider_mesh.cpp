@@ -76,6 +76,9 @@ Surface surface_of(const std::vector<Collider>& colliders, const GroundPatch& pa
       const int first = append(surface, ground_corners(*ground, patch));
       surface.triangles.push_back({first, first + 1, first + 2});
       surface.triangles.push_back({first, first + 2, first + 3});
+    } else if (const auto* mesh = std::get_if<MeshShape>(&collider)) {
+      const int first = append(surface, mesh->positions);
+      for (const auto& [a, b, c] : *mesh->triangles) surface.triangles.push_back({first + a, first + b, first + c});
     }
   }
   return surface;

@@ -35,7 +35,7 @@ template <class Visit>
 void for_each_ball(const Frame& frame, const Visit& visit) {
   for (Eigen::Index i = 0; i < frame.positions.rows(); ++i) visit(Eigen::Vector3d(frame.positions.row(i)), 0.0);
   for (const Collider& collider : frame.colliders) {
-    if (const auto* sphere = std::get_if<SphereShape>(&collider)) visit(sphere->center, sphere->radius);
+    for_each_ball(collider, visit);
   }
 }
 

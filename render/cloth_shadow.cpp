@@ -31,10 +31,10 @@ ClothShadow::ClothShadow(const GlFunctions& gl) : gl_(gl), texture_(gl) {
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-void ClothShadow::cast(const Shot& shot, const std::vector<Triangle>& triangles) {
+void ClothShadow::cast(const Shot& shot, const Occluders& occluders) {
   const Eigen::Vector3d light = shot.key_direction.cast<double>().normalized();
   map_.look(light, shot.up.cast<double>());
-  map_.draw(shot.frame.positions, triangles, shot.extent / resolution, largest_map);
+  map_.draw(occluders.positions(), occluders.triangles(), shot.extent / resolution, largest_map);
   softness_ = edge_width * map_.texel();
   spheres_.clear();
   for (const Eigen::Vector4f& sphere : shot.spheres) {

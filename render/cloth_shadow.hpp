@@ -6,12 +6,13 @@
 #include "render/depth_map.hpp"
 #include "render/gl/objects.hpp"
 #include "render/gl/program.hpp"
+#include "render/occluders.hpp"
 #include "render/shot.hpp"
 #include "sim/mesh.hpp"
 
 namespace drape {
 
-/// What the cloth takes of the key light: the map of it that the light sees, for the shaders that include shadow.glsl.
+/// What cloth and bodies take of the key light: the map of it that the light sees, for the shaders that include shadow.glsl.
 /// Spheres are not in it, as a shader knows their shadows exactly.
 class ClothShadow {
  public:
@@ -20,11 +21,11 @@ class ClothShadow {
   explicit ClothShadow(const GlFunctions& gl);
 
   /// Draws the map of a frame.
-  void cast(const Shot& shot, const std::vector<Triangle>& triangles);
+  void cast(const Shot& shot, const Occluders& occluders);
 
   [[nodiscard]] const DepthMap& map() const { return map_; }
 
-  /// Whether a triangle of the cloth may have a shadow on it, of the cloth or of a sphere. Most have none.
+  /// Whether a triangle of the cloth may have a shadow on it, of the cloth, a body or a sphere. Most have none.
   [[nodiscard]] bool may_fall_on(const Triangle& triangle) const;
 
   /// Hands the map to a program that is in use.

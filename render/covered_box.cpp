@@ -69,6 +69,7 @@ PixelBox covered_box(const Shot& shot, Eigen::Vector2i picture) {
   Outline outline(shot);
   outline.add(shot.frame.positions);
   for (const Eigen::Vector4f& sphere : shot.spheres) outline.add(cube(sphere));
+  for (const MeshShape* body : shot.bodies) outline.add(body->positions);
   return outline.box(picture, border);
 }
 

@@ -146,7 +146,7 @@ void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
   attribute(normal_attribute, 3, 6 * sizeof(float), 3 * sizeof(float));
 }
 
-void DrawCloth::upload_frame(const Shot& shot) {
+void DrawCloth::upload_frame(const Shot& shot, const Occluders& occluders) {
   const Frame& frame = shot.frame;
   if (frame.positions.rows() != vertex_count_) {
     throw std::invalid_argument("a frame has another number of vertices than its renderer was made for");
@@ -159,12 +159,12 @@ void DrawCloth::upload_frame(const Shot& shot) {
   }
   gl_.BindBuffer(GL_ARRAY_BUFFER, dynamic_buffer_.id());
   gl_.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(dynamic_.size() * sizeof(float)), dynamic_.data());
-  if (occlusion_) upload_occlusion(shot, normals);
+  if (occlusion_) upload_occlusion(shot, occluders, normals);
 }
 
-void DrawCloth::upload_occlusion(const Shot& shot, const Vertices& normals) {
+void DrawCloth::upload_occlusion(const Shot& shot, const Occluders& occluders, const Vertices& normals) {
   const std::vector<AmbientOcclusion::Sides>& open =
-      occlusion_->compute(shot.frame.positions, normals, triangles_, shot.extent / occlusion_resolution);
+      occlusion_->compute(occluders.positions(), normals, occluders.triangles(), shot.extent / occlusion_resolution);
   std::vector<AmbientOcclusion::Sides> of_corners;
   of_corners.reserve(positions_.size());
   for (const int vertex : positions_) of_corners.push_back(open[static_cast<std::size_t>(vertex)]);
@@ -233,8 +233,9 @@ void DrawCloth::upload_indices(const ClothShadow& shadow) {
   gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(lit.size() * sizeof(unsigned)), lit.data());
 }
 
-void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, std::span<const Rgb> colors) {
-  upload_frame(shot);
+void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, const Occluders& occluders,
+                     std::span<const Rgb> colors) {
+  upload_frame(shot, occluders);
   if (!colors.empty()) upload_colors(colors);
   find_programs(shot.spheres.size(), !colors.empty());
   lit_count_ = triangles_.size();

@@ -23,8 +23,9 @@ class DrawCloth {
             const std::vector<std::array<float, 2>>& uvs);
 
   /// @param shadow of the frame, where the look has shadows
+  /// @param occluders of the frame: what hides the sky
   /// @param colors of the vertices, in place of texture and colour; or none
-  void draw(const Shot& shot, const ClothShadow* shadow, std::span<const Rgb> colors = {});
+  void draw(const Shot& shot, const ClothShadow* shadow, const Occluders& occluders, std::span<const Rgb> colors = {});
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
 
@@ -38,8 +39,8 @@ class DrawCloth {
 
   void load_texture();
   void make_corners(const std::vector<std::array<float, 2>>& uvs);
-  void upload_frame(const Shot& shot);
-  void upload_occlusion(const Shot& shot, const Vertices& normals);
+  void upload_frame(const Shot& shot, const Occluders& occluders);
+  void upload_occlusion(const Shot& shot, const Occluders& occluders, const Vertices& normals);
   void upload_colors(std::span<const Rgb> colors);
   void upload_indices(const ClothShadow& shadow);
   void find_programs(std::size_t sphere_count, bool colored);

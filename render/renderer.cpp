@@ -9,6 +9,7 @@
 #include "render/canvas.hpp"
 #include "render/cloth_shadow.hpp"
 #include "render/covered_box.hpp"
+#include "render/draw_body.hpp"
 #include "render/draw_cloth.hpp"
 #include "render/draw_ground.hpp"
 #include "render/draw_sphere.hpp"
@@ -27,7 +28,8 @@ class Renderer::Implementation {
         look_(look),
         device_(borrow_device(data_folder, backend)),
         canvas_(device_->gl(), size, look),
-        cloth_(*device_, look, vertex_count, triangles, uvs) {
+        cloth_(*device_, look, vertex_count, triangles, uvs),
+        occluders_(cloth_.triangles()) {
     if (look.shadows) shadow_.emplace(device_->gl());
   }
 
@@ -50,16 +52,21 @@ class Renderer::Implementation {
     device_->make_current();
     const Shot shot(frame, view_, static_cast<double>(size_.x()) / size_.y());
     canvas_.begin(covered_box(shot, size_));
-    if (shadow_) shadow_->cast(shot, cloth_.triangles());
+    occluders_.take(frame);
+    if (shadow_) shadow_->cast(shot, occluders_);
     const ClothShadow* shadow = shadow_ ? &*shadow_ : nullptr;
     if (!shot.grounds.empty()) {
       if (!grounds_) grounds_.emplace(*device_, look_, shot.spheres.size());
       grounds_->draw(shot, shadow, size_);
     }
-    cloth_.draw(shot, shadow, colors);
+    cloth_.draw(shot, shadow, occluders_, colors);
     if (!shot.spheres.empty()) {  // after the cloth that hides much of them
       if (!spheres_) spheres_.emplace(*device_, look_, shot.spheres.size(), shot.grounds.size());
       spheres_->draw(shot, shadow);
+    }
+    if (!shot.bodies.empty()) {
+      if (!bodies_) bodies_.emplace(*device_, look_, shot.spheres.size(), shot.grounds.size());
+      bodies_->draw(shot, shadow);
     }
     return canvas_.finish();
   }
@@ -77,9 +84,11 @@ class Renderer::Implementation {
   BorrowedDevice device_;  // before all that lives in it
   Canvas canvas_;
   DrawCloth cloth_;
+  Occluders occluders_;
   std::optional<ClothShadow> shadow_;  // absent where the look has none
   std::optional<DrawSphere> spheres_;  // made when a frame first has one
   std::optional<DrawGround> grounds_;  // likewise
+  std::optional<DrawBody> bodies_;     // likewise
 };
 
 Renderer::Renderer(const std::filesystem::path& data_folder, Eigen::Vector2i size, const View& view, const Look& look,

@@ -45,6 +45,7 @@ struct Look {
   std::optional<Rgb> background = {};      ///< at the bottom of the picture, and everywhere without the next
   std::optional<Rgb> background_top = {};  ///< at the top: a gradient; absent, with the other: the grey of a studio
   Rgb sphere_color{0.75, 0.04, 0.04};
+  Rgb body_color{0.47, 0.52, 0.58};
   Rgb ground_color{0.84, 0.83, 0.81};
   double ground_grid = 0.5;  ///< distance of the lines on the ground, 0 without lines [m]
   int samples = 4;           ///< per pixel: 1 (off), 2, 4

@@ -33,6 +33,8 @@ Shot::Shot(const Frame& shown, const View& view, double aspect) : frame(shown) {
       spheres.push_back(packed.cast<float>());
     } else if (const auto* ground = std::get_if<GroundShape>(&collider)) {
       if (ground->normal.dot(view.position) > ground->height) grounds.push_back(*ground);
+    } else if (const auto* mesh = std::get_if<MeshShape>(&collider)) {
+      bodies.push_back(mesh);
     }
   }
 }

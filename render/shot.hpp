@@ -24,6 +24,7 @@ struct Shot {
   Eigen::Vector3f fill_direction;        ///< unit vector towards the fill light
   std::vector<Eigen::Vector4f> spheres;  ///< center and radius of each [m]
   std::vector<GroundShape> grounds;      ///< those that are seen from above
+  std::vector<const MeshShape*> bodies;  ///< of the frame
 
   /// The lights stand with the camera, so that a scene looks alike from every side.
   Shot(const Frame& shown, const View& view, double aspect);

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <stdexcept>
 
 namespace drape {
@@ -30,20 +29,6 @@ Eigen::Vector3d usable_up(const Camera& camera) {
   const double azimuth = radians(camera.azimuth.value_or(Camera::usual_azimuth));
   const double sign = camera.up.dot(back) > 0 ? -1 : 1;
   return {sign * std::cos(azimuth), sign * std::sin(azimuth), 0};
-}
-
-struct Ball {
-  Eigen::Vector3d center;
-  double radius;
-};
-
-std::optional<Ball> bounding_ball(const SphereShape& sphere) { return Ball{sphere.center, sphere.radius}; }
-
-/// It has no end: a picture shows what lies on it.
-std::optional<Ball> bounding_ball(const GroundShape&) { return std::nullopt; }
-
-std::optional<Ball> bounding_ball(const Collider& collider) {
-  return std::visit([](const auto& shape) { return bounding_ball(shape); }, collider);
 }
 
 }  // namespace
@@ -90,7 +75,9 @@ DepthRange depth_range(const View& view, const Frame& frame) {
   int grounds = 0;
   for (const Collider& collider : frame.colliders) {
     grounds += std::holds_alternative<GroundShape>(collider) ? 1 : 0;
-    if (const auto ball = bounding_ball(collider)) add(ball->center.dot(forward) - origin, ball->radius);
+    for_each_ball(collider, [&](const Eigen::Vector3d& center, double radius) {
+      add(center.dot(forward) - origin, radius);
+    });
   }
   if (!(farthest > 0)) return {};  // all of it is behind the camera
   const double room = 0.01 * std::max(farthest - nearest, 1e-3 * farthest);
@@ -133,7 +120,7 @@ void Framing::add(const Vertices& positions) {
 }
 
 void Framing::add(const Collider& collider) {
-  if (const auto ball = bounding_ball(collider)) add_ball(ball->center, ball->radius);
+  for_each_ball(collider, [this](const Eigen::Vector3d& center, double radius) { add_ball(center, radius); });
 }
 
 void Framing::add_ball(const Eigen::Vector3d& center, double radius) {

@@ -51,6 +51,16 @@ bool needs_motion(const Camera& camera);
 /// @throws std::invalid_argument if it is true
 View fixed_view(const Camera& camera);
 
+/// Calls visit(center, radius) for balls whose convex hull holds a collider: a mesh's vertices, [m]. A ground has none,
+/// as it has no end: a picture shows what lies on it.
+template <class Visit>
+void for_each_ball(const Collider& collider, const Visit& visit) {
+  if (const auto* sphere = std::get_if<SphereShape>(&collider)) visit(sphere->center, sphere->radius);
+  if (const auto* mesh = std::get_if<MeshShape>(&collider)) {
+    for (const auto& x : mesh->positions.rowwise()) visit(Eigen::Vector3d(x.transpose()), 0.0);
+  }
+}
+
 /// Finds the view that shows a whole motion, from a camera whose direction is known and whose place is not.
 ///
 /// A point p is inside a perspective frustum if it is on the inner side of four planes, n_k·p ≤ n_k·e for a camera at

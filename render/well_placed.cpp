@@ -55,6 +55,12 @@ class Onlooker {
       low = low.min(scene.cloth.rowwise().minCoeff());
       high = high.max(scene.cloth.rowwise().maxCoeff());
       for (const Collider& collider : frame.colliders) {
+        if (const auto* mesh = std::get_if<MeshShape>(&collider)) {
+          const Eigen::Array3Xd& x = scene.bodies.emplace_back((axes * mesh->positions.transpose()).array());
+          scene.body_triangles.push_back(mesh->triangles.get());
+          low = low.min(x.rowwise().minCoeff());
+          high = high.max(x.rowwise().maxCoeff());
+        }
         const auto* sphere = std::get_if<SphereShape>(&collider);
         if (sphere == nullptr) continue;
         const Ball& ball = scene.balls.emplace_back(Ball{axes * sphere->center, sphere->radius});
@@ -69,6 +75,7 @@ class Onlooker {
     shift.head<2>() += (Eigen::Array2d(columns_, rows) - extent * scale) / 2;
     for (Scene& scene : scenes_) {
       scene.cloth = (scene.cloth * scale).colwise() + shift;
+      for (Eigen::Array3Xd& body : scene.bodies) body = (body * scale).colwise() + shift;
       for (Ball& ball : scene.balls) ball = {ball.center * scale + shift, ball.radius * scale};
     }
   }
@@ -103,6 +110,8 @@ class Onlooker {
   struct Scene {
     Eigen::Array3Xd cloth;  // each vertex
     std::vector<Ball> balls;
+    std::vector<Eigen::Array3Xd> bodies;  // the vertices of each, with its triangles
+    std::vector<const std::vector<Triangle>*> body_triangles;
   };
 
   [[nodiscard]] std::size_t pixel_at(int x, int y) const {
@@ -144,10 +153,18 @@ class Onlooker {
     for (const Ball& ball : scene.balls) {
       for_each_pixel(ball, [&](std::size_t pixel, double depth) { put(pixel, depth, Seen::body); });
     }
-    for (const Triangle& t : triangles_) draw(scene.cloth.col(t[0]), scene.cloth.col(t[1]), scene.cloth.col(t[2]));
+    for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+      const Eigen::Array3Xd& x = scene.bodies[k];
+      for (const Triangle& t : *scene.body_triangles[k]) {
+        draw(x.col(t[0]), x.col(t[1]), x.col(t[2]), Seen::body, Seen::body);
+      }
+    }
+    for (const Triangle& t : triangles_) {
+      draw(scene.cloth.col(t[0]), scene.cloth.col(t[1]), scene.cloth.col(t[2]), Seen::front, Seen::back);
+    }
   }
 
-  void draw(const Eigen::Array3d& a, const Eigen::Array3d& b, const Eigen::Array3d& c) {
+  void draw(const Eigen::Array3d& a, const Eigen::Array3d& b, const Eigen::Array3d& c, Seen front, Seen back) {
     const auto cross = [](double ux, double uy, double vx, double vy) { return ux * vy - uy * vx; };
     const double twice_area = cross(b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
     if (twice_area == 0) return;
@@ -156,7 +173,7 @@ class Onlooker {
       const double u = cross(b[0] - x, b[1] - y, c[0] - x, c[1] - y) / twice_area;
       const double v = cross(c[0] - x, c[1] - y, a[0] - x, a[1] - y) / twice_area;
       if (u < 0 || v < 0 || u + v > 1) return;
-      put(pixel, u * a[2] + v * b[2] + (1 - u - v) * c[2], twice_area > 0 ? Seen::front : Seen::back);
+      put(pixel, u * a[2] + v * b[2] + (1 - u - v) * c[2], twice_area > 0 ? front : back);
     });
   }
 

@@ -9,9 +9,11 @@
 #include "core/nearest.hpp"
 #include "scene/check_settings.hpp"
 #include "scene/color.hpp"
+#include "scene/mesh_file.hpp"
 #include "scene/pins.hpp"
 #include "scene/usd/motion.hpp"
 #include "scene/values.hpp"
+#include "sim/mesh_motion.hpp"
 
 namespace drape {
 namespace {
@@ -42,9 +44,11 @@ std::vector<PixelRectangle> read_rectangles(const TomlValue& value, const std::s
 /// Reads the value of a key into its target, whatever that is.
 class KeyReader {
  public:
-  KeyReader(const TomlValue& value, const Key& key, const std::filesystem::path& folder, const Vertices* vertices,
-            Problems& problems, std::vector<std::filesystem::path>& files)
-      : value_(value),
+  /// @param table that the key is in
+  KeyReader(const TomlTable& table, const TomlValue& value, const Key& key, const std::filesystem::path& folder,
+            const Vertices* vertices, Problems& problems, std::vector<std::filesystem::path>& files)
+      : table_(table),
+        value_(value),
         key_(key),
         range_{key.minimum, key.maximum, key.minimum_excluded},
         folder_(folder),
@@ -81,6 +85,8 @@ class KeyReader {
   void operator()(const OwnForm& form) const {
     if (auto* const* track = std::any_cast<std::shared_ptr<const SphereTrack>*>(&form.target)) {
       read_track(**track);
+    } else if (auto* const* mesh = std::any_cast<std::shared_ptr<const MeshMotion>*>(&form.target)) {
+      read_body(**mesh);
     } else if (auto* const* rectangles = std::any_cast<std::vector<PixelRectangle>*>(&form.target)) {
       **rectangles = read_rectangles(value_, key_.name, problems_);
     } else {
@@ -125,6 +131,18 @@ class KeyReader {
     }
   }
 
+  /// The mesh of a body, of which the key `prim` beside it says which one of the file it is.
+  void read_body(std::shared_ptr<const MeshMotion>& mesh) const {
+    const std::optional<std::string> file = read_string(value_, key_.name, problems_);
+    if (!file) return;
+    files_.push_back(folder_ / *file);
+    try {
+      mesh = std::make_shared<MeshMotion>(MeshMotion{.mesh = read_mesh(folder_ / *file)});
+    } catch (const UsageError& error) {
+      problems_.add(value_.place, fmt::format("{}: '{}' cannot be read:\n{}", key_.name, *file, error.what()));
+    }
+  }
+
   [[nodiscard]] std::optional<Rgb> read_color() const {
     const std::optional<std::string> text = read_string(value_, key_.name, problems_);
     if (!text) return std::nullopt;
@@ -139,6 +157,7 @@ class KeyReader {
     return color;
   }
 
+  const TomlTable& table_;
   const TomlValue& value_;
   const Key& key_;
   Range range_;
@@ -214,7 +233,7 @@ void TableReader::read_entries(const TomlTable& table, const TableType& type,
   for (const TomlEntry& entry : table.entries) {
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == entry.name; });
     if (key != keys.end()) {
-      std::visit(KeyReader(entry.value, *key, folder_, vertices_, problems_, files_), key->target);
+      std::visit(KeyReader(table, entry.value, *key, folder_, vertices_, problems_, files_), key->target);
     } else if (!contains(subtables, entry.name)) {
       report_unknown(entry, type, subtables);
     }

@@ -136,6 +136,7 @@ Keys look_keys(Look& look) {
   keys.add("background", &look.background, "", "Background colour. Default: studio grey.");
   keys.add("background_top", &look.background_top, "", "Colour at the top of the picture, for a gradient.");
   keys.add("sphere_color", &look.sphere_color, "", "Colour of the spheres.");
+  keys.add("body_color", &look.body_color, "", "Colour of the bodies.");
   keys.add("ground_color", &look.ground_color, "", "Colour of the ground, which fades into the background.");
   keys.add("ground_grid", &look.ground_grid, "m", "Spacing of the lines on the ground; 0 draws none.").at_least(0);
   keys.add("shadows", &look.shadows, "", "Cloth and spheres cast shadows.");

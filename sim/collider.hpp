@@ -5,7 +5,11 @@
 //   if (const auto* sphere = std::get_if<drape::SphereShape>(&ball)) std::printf("%g m", sphere->radius);
 
 #include <Eigen/Core>
+#include <memory>
 #include <variant>
+#include <vector>
+
+#include "sim/mesh.hpp"
 
 namespace drape {
 
@@ -23,7 +27,14 @@ struct GroundShape {
   double thickness = 0;                               ///< of the layer above it in which it pushes [m]
 };
 
+/// A triangle mesh at one moment.
+struct MeshShape {
+  std::shared_ptr<const std::vector<Triangle>> triangles;  ///< the same ones at every moment
+  Vertices positions;                                      ///< n×3 [m]
+  double thickness = 0;                                    ///< of the layer around it in which it pushes [m]
+};
+
 /// The shape of something the cloth can touch, at one moment: what a drawing shows of it.
-using Collider = std::variant<SphereShape, GroundShape>;
+using Collider = std::variant<SphereShape, GroundShape, MeshShape>;
 
 }  // namespace drape

@@ -9,11 +9,6 @@ namespace {
 
 Box around(const Box& a, const Box& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
 
-FourPoints gather(const std::vector<Point>& points, const std::array<int, 4>& v) {
-  return {points[static_cast<std::size_t>(v[0])], points[static_cast<std::size_t>(v[1])],
-          points[static_cast<std::size_t>(v[2])], points[static_cast<std::size_t>(v[3])]};
-}
-
 /// Whether a plane across the axis lies between the two features, further than the distance from both together.
 bool separated(Feature feature, const Point& axis, const FourPoints& p, double distance) {
   const double a = axis.dot(p[0]), b = axis.dot(p[1]), c = axis.dot(p[2]), d = axis.dot(p[3]);
@@ -27,6 +22,17 @@ Point from_second_to_first(Feature feature, const FourPoints& p) {
 }
 
 }  // namespace
+
+bool may_come_near(Feature feature, const FourPoints& from, FourPoints to, double reach) {
+  // On straight lines a distance along a fixed axis changes linearly: what it separates at both ends, it separates in
+  // between.
+  const Point axis = from_second_to_first(feature, from);
+  const double far = reach * axis.norm();
+  if (separated(feature, axis, from, far) && separated(feature, axis, to, far)) return false;
+  for (std::size_t i = 0; i < 4; ++i) to[i] -= from[i];
+  const double near = reach + largest_change(feature, to);
+  return nearest(feature, from).squared <= near * near;
+}
 
 CollisionCandidates::CollisionCandidates(const Cloth& cloth)
     : edges_(unique_edges(cloth.triangles)), pinned_(static_cast<std::size_t>(cloth.vertex_count()), false) {
@@ -75,17 +81,7 @@ void CollisionCandidates::add(const FeaturePair& pair, const std::vector<Point>&
                               double reach) {
   const auto& v = pair.vertices;
   if (std::all_of(v.begin(), v.end(), [&](int i) { return pinned_[static_cast<std::size_t>(i)]; })) return;
-  // On straight lines a distance along a fixed axis changes linearly: what it separates at both ends, it separates in
-  // between.
-  const FourPoints start = gather(from, v);
-  FourPoints end = gather(to, v);
-  const Point axis = from_second_to_first(pair.feature, start);
-  const double far = reach * axis.norm();
-  if (separated(pair.feature, axis, start, far) && separated(pair.feature, axis, end, far)) return;
-  for (std::size_t i = 0; i < 4; ++i) end[i] -= start[i];
-  const double near = reach + largest_change(pair.feature, end);
-  if (nearest(pair.feature, start).squared > near * near) return;
-  pairs_.push_back(pair);
+  if (may_come_near(pair.feature, gather(from, v), gather(to, v), reach)) pairs_.push_back(pair);
 }
 
 }  // namespace drape

@@ -17,6 +17,16 @@ struct FeaturePair {
   auto operator<=>(const FeaturePair&) const = default;
 };
 
+/// The four points of a pair.
+inline FourPoints gather(const std::vector<Point>& points, const std::array<int, 4>& v) {
+  return {points[static_cast<std::size_t>(v[0])], points[static_cast<std::size_t>(v[1])],
+          points[static_cast<std::size_t>(v[2])], points[static_cast<std::size_t>(v[3])]};
+}
+
+/// Whether two features may come nearer than `reach` [m] while their points go on straight lines; never misses any that
+/// do.
+bool may_come_near(Feature feature, const FourPoints& from, FourPoints to, double reach);
+
 /// Finds the pairs of features of a cloth that may come near each other while its vertices move on straight lines.
 class CollisionCandidates {
  public:

@@ -22,10 +22,10 @@ double largest_change(Feature feature, const FourPoints& move) {
   return feature == Feature::vertex_triangle ? a + std::max({b, c, d}) : std::max(a, b) + std::max(c, d);
 }
 
-std::optional<double> time_of_impact(Feature feature, FourPoints p, FourPoints move) {
+std::optional<double> time_of_impact(Feature feature, FourPoints p, FourPoints move, double widest) {
   const double speed = largest_change(feature, move);
   double distance = std::sqrt(nearest(feature, p).squared);
-  const double gap = kept_gap * distance;
+  const double gap = std::min(kept_gap * distance, widest);
   if (!(distance > 0) || speed <= distance - gap) return std::nullopt;
   const Point together = mean(move);
   for (Point& m : move) m -= together;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "sim/collision/distance.hpp"
@@ -19,6 +20,8 @@ double largest_change(Feature feature, const FourPoints& move);
 /// too short for anything to happen within them (Li, Kaufman and Jiang 2021, "Codimensional incremental potential
 /// contact", section 5.2), so coplanar, parallel and degenerate features need no cases of their own, as they do where
 /// the times are roots of a cubic. Features that touch at t = 0 do not collide: there is no side to keep them on.
-std::optional<double> time_of_impact(Feature feature, FourPoints p, FourPoints move);
+/// @param widest if given, what they may come near to is no more than this [m]
+std::optional<double> time_of_impact(Feature feature, FourPoints p, FourPoints move,
+                                     double widest = std::numeric_limits<double>::infinity());
 
 }  // namespace drape

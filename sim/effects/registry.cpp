@@ -6,6 +6,7 @@
 #ifndef DRAPE_ONLY_GRAVITY
 #include "sim/effects/air.hpp"
 #include "sim/effects/bending.hpp"
+#include "sim/effects/body.hpp"
 #include "sim/effects/damping.hpp"
 #include "sim/effects/field.hpp"
 #include "sim/effects/ground.hpp"
@@ -46,6 +47,7 @@ std::span<const EffectType> effect_types() {
       row<Sphere>(),
       row<Ground>(),
       row<StrainLimit>(),
+      row<Body>(),
       row<SelfCollision>(),
       row<Damping>(),
 #endif

@@ -4,6 +4,7 @@
 
 #include "core/keys.hpp"
 #include "sim/effects/contact.hpp"
+#include "sim/effects/motion_keys.hpp"
 
 namespace drape {
 namespace {
@@ -58,15 +59,7 @@ void Sphere::describe(Keys& keys) {
   keys.add("radius", &radius, "m", "Its radius, as drawn.").must_be_given_unless({"track"}).above(0);
   keys.add("scale", &scale, "", "Reach of the push: within scale·radius of the centre.").at_least(1);
   describe_contact(keys, stiffness, response, friction, restitution, "; if omitted, the push acts as a spring");
-  keys.add("velocity", &velocity, "m/s", "Constant velocity, starting from `center`.");
-  keys.add("orbit_period", &orbit_period, "s",
-           "Period of a circular orbit that starts from `center`; negative reverses it.");
-  keys.add("orbit_center", &orbit_center, "m", "A point on the axis of the orbit.");
-  keys.add("orbit_axis", &orbit_axis, "",
-           "Direction of that axis; the motion is counterclockwise as seen from its tip.");
-  keys.add("keyframes", KeyframeList{{"center"}, &keyframes}, "s, m", "Positions of its centre over time.");
-  keys.choice("interpolation", interpolation, {"linear", "smooth"},
-              "Interpolation between keyframes: at constant speed, or with continuous velocity.");
+  describe_motion(keys, "center", velocity, orbit_period, orbit_center, orbit_axis, keyframes, interpolation);
   keys.add("track", OwnForm{"file", &track}, "",
            "ASCII USD file whose first moving Mesh or Sphere it follows, position and size. The file's start time code "
            "is 0 s.");
@@ -85,8 +78,7 @@ void Sphere::check(const SimulationSettings& settings, const ProblemSink& proble
   if (!radius && track && !(track->at(0).radius > 0)) {
     problem("track", "the moving object in this file has no size: also give the 'radius'");
   }
-  if (orbit_period && *orbit_period == 0) problem("orbit_period", "expected a time other than 0");
-  if (orbit_axis.isZero(0)) problem("orbit_axis", "expected a direction, found [0, 0, 0]");
+  check_orbit(orbit_period, orbit_axis, problem);
   law().check(settings, problem);
 }
 

@@ -1,6 +1,9 @@
 #include "sim/solvers/accuracy.hpp"
 
+
 #include <algorithm>
+
+#include "sim/system.hpp"
 
 namespace drape {
 namespace {

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sim/collision/contacts.hpp"
+#include "sim/moving_body.hpp"
+#include "sim/system.hpp"
+
+namespace drape {
+
+/// What a body does to a cloth beside pushing its vertices.
+struct BodyLaw {
+  double thickness;  ///< of the layer around it in which it pushes [m]
+  double friction;   ///< Coulomb's coefficient
+  double rate;       ///< at which what is too near leaves, as a part of what is missing [1/s]
+};
+
+/// Keeps a cloth from going through a body however far either moves in a step, and a body's corners and edges from
+/// poking through a cloth that is coarser than it (after Bridson, Fedkiw and Anderson 2002, as SelfContact): features
+/// of cloth and body that come nearer than `kept_part` of the thickness are contacts with friction, solved for by
+/// projected Gauss-Seidel, and so is what collides on its way all the same (time_of_impact). What still collides after
+/// a few passes goes with the body.
+///
+/// All of it is in the body's own coordinates: a rigid body stands still there, so that its tree is built once. A
+/// contact's normal is that of the triangle or of the two edges that meet, so that what slides on a flat face meets no
+/// edges in it.
+class BodyContact final : public MotionFilter {
+ public:
+  /// What is kept free by contacts, as a part of the thickness. The rest is the push's.
+  static constexpr double kept_part = 0.25;
+
+  BodyContact(std::shared_ptr<const MovingBody> body, const BodyLaw& law, const Cloth& cloth);
+
+  void apply(const Vertices& x, double time, double h, Vertices& v) override;
+  [[nodiscard]] bool converged() const override { return converged_; }
+
+ private:
+  /// A triangle with the vertices and edges that it has and none before it has.
+  struct Patch {
+    Triangle corners;
+    std::array<bool, 3> own_vertex, own_edge;  // the edge from corner c to c + 1
+  };
+  /// Features that may meet, and which of the body's it is: a triangle, or a corner of it or the edge that begins there.
+  struct BodyPair {
+    FeaturePair pair;
+    int triangle, corner;
+  };
+  struct Impact {
+    BodyPair met;
+    double time;  // as a part of the step
+  };
+
+  static std::vector<Patch> patches(const std::vector<Triangle>& triangles, int first, int vertex_count);
+  [[nodiscard]] Box swept_box(const Patch& patch, double margin) const;
+  void load(const Vertices& x, double time, double h, const Vertices& v);
+  /// Whether the places are so exact that cloth and body can be told apart.
+  [[nodiscard]] bool resolved() const;
+  void store(const Vertices& x, Vertices& v) const;
+  void find_candidates();
+  void add_pairs(const Patch& cloth, int triangle);
+  void add(const BodyPair& met);
+  [[nodiscard]] bool is_free(int vertex) const { return moving_.inverse_mass(vertex) > 0; }
+  /// A contact of two features as they are at a part of the step; nothing if they meet from a solid's inside.
+  /// @param near only if they are opposite each other and too near at the end of the step
+  [[nodiscard]] std::optional<Contact> contact(const BodyPair& met, double time, bool near) const;
+  /// The way out of a solid where a pair meets it, in the direction from its second feature to its first; zero on a
+  /// shell.
+  [[nodiscard]] Point outwards(const BodyPair& met) const;
+  [[nodiscard]] FourPoints moves(const FeaturePair& pair) const;
+  void repel();
+  void stop_impacts();
+  void go_with_body();
+  void solve();
+  void find_impacts();
+  /// The target of every vertex whose velocity has changed; finds the candidates anew if one went further than they
+  /// were found for.
+  void move_targets();
+
+  std::shared_ptr<const MovingBody> body_;
+  BodyLaw law_;
+  int cloth_count_;  // the body's vertices are numbered on from the cloth's
+  std::vector<Patch> cloth_patches_, body_patches_;
+  std::vector<Box> boxes_;  // of the body's patches
+  TriangleTree tree_;       // of those
+
+  double h_ = 0;
+  BodyAt start_, end_;
+  MovingVertices moving_;
+  std::vector<Point> x_, target_, found_for_;  // in the body's coordinates
+  std::vector<char> changed_;                  // vertices whose targets changed since impacts were last looked for
+  std::vector<char> moved_, held_;             // vertices of other velocities than they came with; with the body's
+  std::vector<BodyPair> pairs_;
+  std::vector<Contact> contacts_;
+  std::vector<Impact> impacts_;
+  bool converged_ = true;
+};
+
+}  // namespace drape

@@ -1,0 +1,170 @@
+#include "sim/collision/placed_mesh.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace drape {
+namespace {
+
+using Index = std::size_t;
+
+/// An edge as a triangle runs along it.
+struct Run {
+  Edge edge;
+  bool forwards;  // from the smaller number to the larger
+  int triangle;
+  Index corner;  // that it begins at
+};
+
+std::vector<Run> sorted_runs(const std::vector<Triangle>& triangles) {
+  std::vector<Run> runs;
+  runs.reserve(3 * triangles.size());
+  for (Index t = 0; t < triangles.size(); ++t) {
+    for (Index c = 0; c < 3; ++c) {
+      const int p = triangles[t][c], q = triangles[t][(c + 1) % 3];
+      runs.push_back({{std::min(p, q), std::max(p, q)}, p < q, static_cast<int>(t), c});
+    }
+  }
+  std::ranges::sort(runs, {}, [](const Run& r) { return std::tuple(r.edge, r.triangle); });
+  return runs;
+}
+
+}  // namespace
+
+MeshTopology::MeshTopology(const std::vector<Triangle>& all, int vertex_count) {
+  for (const Triangle& t : all) {
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
+  }
+  across.assign(triangles.size(), {-1, -1, -1});
+  const std::vector<Run> runs = sorted_runs(triangles);
+  closed = !triangles.empty();
+  for (Index r = 0; r < runs.size();) {
+    Index end = r;
+    while (end < runs.size() && runs[end].edge == runs[r].edge) ++end;
+    if (end - r == 2) {
+      across[Index(runs[r].triangle)][runs[r].corner] = runs[r + 1].triangle;
+      across[Index(runs[r + 1].triangle)][runs[r + 1].corner] = runs[r].triangle;
+    }
+    closed = closed && end - r == 2 && runs[r].forwards != runs[r + 1].forwards;
+    r = end;
+  }
+  starts.assign(Index(vertex_count) + 1, 0);
+  for (const Triangle& t : triangles) {
+    for (const int v : t) ++starts[Index(v) + 1];
+  }
+  for (Index v = 1; v < starts.size(); ++v) starts[v] += starts[v - 1];
+  std::vector<int> next(starts.begin(), starts.end() - 1);
+  around.resize(3 * triangles.size());
+  for (Index t = 0; t < triangles.size(); ++t) {
+    for (const int v : triangles[t]) around[Index(next[Index(v)]++)] = static_cast<int>(t);
+  }
+}
+
+PlacedMesh::PlacedMesh(std::shared_ptr<const MeshTopology> topology, const Vertices& x)
+    : topology_(std::move(topology)),
+      points_(Index(x.rows())),
+      normals_(topology_->triangles.size()),
+      boxes_(topology_->triangles.size()) {
+  update(x);
+  tree_.build(boxes_);
+}
+
+void PlacedMesh::place(const Vertices& x) {
+  update(x);
+  tree_.refit(boxes_);
+}
+
+void PlacedMesh::update(const Vertices& x) {
+  for (Eigen::Index i = 0; i < x.rows(); ++i) points_[Index(i)] = x.row(i).transpose();
+  double volume = 0;
+  const Point origin = points_.empty() ? Point(Point::Zero()) : points_.front();
+  for (Index t = 0; t < normals_.size(); ++t) {
+    const Triangle& corners = topology_->triangles[t];
+    const Point &a = points_[Index(corners[0])], &b = points_[Index(corners[1])], &c = points_[Index(corners[2])];
+    boxes_[t] = {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+    const Point area = (b - a).cross(c - a);
+    volume += area.dot(a - origin);
+    const double length = area.norm();
+    normals_[t] = length > 0 ? Point(area / length) : Point(Point::Zero());
+  }
+  if (solid() && volume < 0) {
+    for (Point& normal : normals_) normal = -normal;
+  }
+}
+
+const Point& PlacedMesh::corner(int triangle, std::size_t c) const {
+  return points_[Index(topology_->triangles[Index(triangle)][c])];
+}
+
+Point PlacedMesh::normal_at(int triangle, const Point& weights) const {
+  const Triangle& corners = topology_->triangles[Index(triangle)];
+  const auto zeros = (weights.array() == 0).count();
+  if (zeros == 0) return normals_[Index(triangle)];
+  if (zeros == 1) {
+    // The edge that is opposite to the corner of no weight begins after it.
+    const Index from = weights[0] == 0 ? 1 : weights[1] == 0 ? 2 : 0;
+    const int other = topology_->across[Index(triangle)][from];
+    return normals_[Index(triangle)] + (other < 0 ? Point(Point::Zero()) : normals_[Index(other)]);
+  }
+  const Index own = weights[0] != 0 ? 0 : weights[1] != 0 ? 1 : 2;
+  const int vertex = corners[own];
+  Point sum = Point::Zero();
+  for (int k = topology_->starts[Index(vertex)]; k < topology_->starts[Index(vertex) + 1]; ++k) {
+    const int t = topology_->around[Index(k)];
+    const Triangle& triple = topology_->triangles[Index(t)];
+    const Index at = triple[0] == vertex ? 0 : triple[1] == vertex ? 1 : 2;
+    const Point ahead = corner(t, (at + 1) % 3) - corner(t, at), behind = corner(t, (at + 2) % 3) - corner(t, at);
+    sum += std::atan2(ahead.cross(behind).norm(), ahead.dot(behind)) * normals_[Index(t)];
+  }
+  return sum;
+}
+
+Foot PlacedMesh::foot(const Point& point, int triangle, const Nearest& near) const {
+  Foot foot{.triangle = triangle, .weights = {-near.weights[1], -near.weights[2], -near.weights[3]}};
+  const Point away = point - foot.weights[0] * corner(triangle, 0) - foot.weights[1] * corner(triangle, 1) -
+                     foot.weights[2] * corner(triangle, 2);
+  const Point out = normal_at(triangle, foot.weights);
+  const double side = out.dot(away);
+  if ((foot.weights.array() != 0).all() && !out.isZero(0)) {
+    // Along the triangle's own normal: what lies on a flat face is pushed in one direction.
+    foot.distance = out.dot(point - corner(triangle, 0));
+    foot.normal = out;
+  } else {
+    const double length = std::sqrt(near.squared);
+    foot.distance = side < 0 ? -length : length;
+    foot.normal = length > 0 ? Point(away / foot.distance) : Point(out.stableNormalized());
+  }
+  if (!solid() && foot.distance < 0) {
+    foot.distance = -foot.distance;
+    foot.normal = -foot.normal;
+  }
+  return foot;
+}
+
+std::optional<Foot> PlacedMesh::find(const Point& point, double reach, int hint) const {
+  const Box& bounds = tree_.bounds();
+  if (!((point - bounds.low).array() >= -reach).all() || !((bounds.high - point).array() >= -reach).all()) {
+    return std::nullopt;
+  }
+  double limit = solid() ? std::numeric_limits<double>::infinity() : reach * reach;
+  Nearest best{};
+  int found = -1;
+  const auto look_at = [&](int t) {
+    const Nearest near = nearest(Feature::vertex_triangle, {point, corner(t, 0), corner(t, 1), corner(t, 2)});
+    if (!(near.squared < limit || (near.squared == limit && (found < 0 || t < found)))) return;
+    best = near;
+    found = t;
+    limit = near.squared;
+  };
+  if (hint >= 0) look_at(hint);
+  tree_.for_nearest(point, limit, look_at);
+  if (found < 0) return std::nullopt;
+  const Foot result = foot(point, found, best);
+  return result.distance <= reach ? std::optional(result) : std::nullopt;
+}
+
+}  // namespace drape

@@ -1,0 +1,65 @@
+#pragma once
+
+// Example:
+//   drape::Effects effects{drape::Body{.box = Eigen::Vector3d(0.6, 0.6, 0.2), .center = {0, 0, -0.5}}};
+//   drape::MeshMotion pyramid{.mesh = drape::make_box({0.2, 0.2, 0.2})};
+//   effects.add(drape::Body{.mesh = std::make_shared<drape::MeshMotion>(pyramid), .thickness = 0.005});
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/effects/effect.hpp"
+#include "sim/effects/response.hpp"
+#include "sim/keyframes.hpp"
+#include "sim/mesh_motion.hpp"
+#include "sim/sphere_track.hpp"
+
+namespace drape {
+
+class MovingBody;
+struct ContactLaw;
+
+/// A triangle mesh that the cloth collides with: it pushes the cloth's vertices out of a layer around it as a sphere
+/// does, and lets nothing through, however far it moves in a step, see BodyContact. A closed mesh is solid, another is
+/// a shell with two sides that are alike. It rests at `center`, or moves as a whole in one of three ways: straight on,
+/// on an orbit with which it turns, or on keyframes; and it may change its shape.
+struct Body {
+  static constexpr std::string_view name = "body";
+  static constexpr bool repeatable = true;
+
+  std::optional<Eigen::Vector3d> box = {};      ///< sides of a box around `center`, all above 0 [m]
+  std::shared_ptr<const MeshMotion> mesh = {};  ///< or any other shape, around its own origin [m]
+  std::string prim = {};                        ///< which mesh of its file it is; for whoever reads that
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< where the shape's origin is at 0 s [m]
+  Eigen::Vector3d rotate = Eigen::Vector3d::Zero();  ///< about the fixed x axis, then y, then z [degrees]
+  double thickness = 0.01;                           ///< of the layer around it in which it pushes [m]
+
+  double stiffness = 8000;  ///< of the push [1/s²]
+  Response response = Response::explicit_force;
+  double friction = 0.5;                  ///< Coulomb's coefficient
+  std::optional<double> restitution = 0;  ///< of impacts, 0 to 1; without one the push gives back what it takes
+
+  std::optional<Eigen::Vector3d> velocity = {};   ///< straight on [m/s]
+  std::optional<double> orbit_period = {};        ///< of a turn, not 0; negative: the other way round [s]
+  Eigen::Vector3d orbit_center = Orbit{}.center;  ///< a point of the axis [m]
+  Eigen::Vector3d orbit_axis = Orbit{}.axis;      ///< of any length but 0; counterclockwise seen from its tip
+  std::vector<Keyframe> keyframes = {};           ///< of `center`, at increasing times from 0 s on [s, m]
+  Interpolation interpolation = Interpolation::linear;
+
+  void describe(Keys& keys);
+  void check(const SimulationSettings& settings, const ProblemSink& problem) const;
+  void install(System& system) const;
+
+ private:
+  [[nodiscard]] ContactLaw law() const;
+  [[nodiscard]] std::shared_ptr<const MovingBody> body() const;
+};
+
+/// A box around the origin: eight vertices, two triangles a side, seen counterclockwise from outside.
+/// @param size of its sides [m]
+Mesh make_box(const Eigen::Vector3d& size);
+
+}  // namespace drape

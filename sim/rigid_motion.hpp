@@ -1,0 +1,42 @@
+#pragma once
+
+// Example:
+//   const drape::RigidMotion spinning(drape::straight_track({.center = {0, 0, 1}}, {0, 0, 0}),
+//                                     Eigen::Matrix3d::Identity(), drape::Orbit{.center = {0, 0, 1}, .period = 2});
+//   const Eigen::Vector3d corner = spinning.at(0.5).out({0.1, 0, 0});  // a quarter of a turn later: (0, 0.1, 1)
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+
+#include "sim/sphere_track.hpp"
+
+namespace drape {
+
+/// Where a body is: its own coordinates turned, then moved.
+struct Pose {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< a rotation
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< of the body's origin [m]
+
+  /// From the body's coordinates to the world's, and back.
+  [[nodiscard]] Eigen::Vector3d out(const Eigen::Vector3d& p) const { return turn * p + place; }
+  [[nodiscard]] Eigen::Vector3d in(const Eigen::Vector3d& p) const { return turn.transpose() * (p - place); }
+};
+
+/// How a body moves as a whole, as a function of time alone.
+class RigidMotion {
+ public:
+  /// @param path  of the body's origin; its radius does not matter
+  /// @param turn  of the body at 0 s
+  /// @param orbit if given, the body turns with it: what faces its axis goes on facing it
+  RigidMotion(std::shared_ptr<const SphereTrack> path, const Eigen::Matrix3d& turn, std::optional<Orbit> orbit);
+
+  [[nodiscard]] Pose at(double time) const;
+
+ private:
+  std::shared_ptr<const SphereTrack> path_;
+  Eigen::Matrix3d turn_;
+  std::optional<Orbit> orbit_;
+};
+
+}  // namespace drape
