@@ -9,6 +9,7 @@
 #include "bench/subject.hpp"
 #include "sim/effects/air.hpp"
 #include "sim/effects/bending.hpp"
+#include "sim/effects/body.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/effects/self_collision.hpp"
@@ -46,6 +47,37 @@ Cloth make_folded_cloth(int cells) {
   return cloth;
 }
 
+/// A cushion under all of the cloth, of 10 000 triangles that it lies on.
+Body make_cushion() {
+  constexpr int cells = 70;
+  Mesh mesh = make_grid(cells, cells);
+  for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
+    mesh.positions(i, 2) = 0.1 * std::cos(2 * mesh.positions(i, 0)) * std::cos(3 * mesh.positions(i, 1));
+  }
+  return {.mesh = std::make_shared<MeshMotion>(MeshMotion{.mesh = mesh})};
+}
+
+/// The same, which changes its shape in every step.
+Body make_breathing_cushion() {
+  Body body = make_cushion();
+  MeshMotion motion = *body.mesh;
+  motion.times = {0, 100};
+  motion.samples = {motion.mesh.positions, 1.01 * motion.mesh.positions};
+  body.mesh = std::make_shared<MeshMotion>(std::move(motion));
+  return body;
+}
+
+/// A cloth on that.
+Cloth make_lying_cloth(int cells) {
+  Cloth cloth = make_moving_cloth(cells);
+  cloth.positions = cloth.rest;
+  cloth.velocities.setZero();
+  for (Eigen::Index i = 0; i < cloth.positions.rows(); ++i) {
+    cloth.positions(i, 2) = 0.008 + 0.1 * std::cos(2 * cloth.positions(i, 0)) * std::cos(3 * cloth.positions(i, 1));
+  }
+  return cloth;
+}
+
 std::vector<Case> cases() {
   const Sphere sphere{.center = Eigen::Vector3d(0, 0, -0.5), .radius = 0.4};
   Sphere solved_for = sphere;
@@ -58,6 +90,9 @@ std::vector<Case> cases() {
       {"wind", Wind{.acceleration = {1, 0, 0}}, make_moving_cloth},
       {"air", Air{}, make_moving_cloth},
       {"ground", Ground{.height = -1}, make_moving_cloth},
+      {"body", make_cushion(), make_lying_cloth},
+      {"body_deforming", make_breathing_cushion(), make_lying_cloth},
+      {"body_far_away", Body{.box = Eigen::Vector3d(1, 1, 1), .center = Eigen::Vector3d(0, 0, -9)}, make_moving_cloth},
       {"strain_limit", StrainLimit{.max_stretch = 1.1}, make_moving_cloth},
       {"self_collision", SelfCollision{.thickness = 0.012}, make_moving_cloth},
       {"self_collision_folded", SelfCollision{.thickness = 0.012}, make_folded_cloth},

@@ -18,6 +18,7 @@
 #include "sim/make_system.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/simulation.hpp"
+#include "sim/start_overlap.hpp"
 
 namespace drape {
 namespace {
@@ -49,6 +50,11 @@ void SceneRun::announce() const {
   if (scene_.simulation.integrator.allow_unstable) {
     if (const auto problem = stability_problem(scene_.simulation, make_system(scene_.simulation))) {
       spdlog::warn("{}: {}", scene_.file.string(), *problem);
+    }
+  }
+  if (!options_.recorded) {
+    for (const StartOverlap& overlap : start_overlaps(scene_.simulation)) {
+      spdlog::warn("{}: {}", scene_.file.string(), describe(overlap));
     }
   }
   if (options_.motion) {

@@ -76,6 +76,8 @@ void UsdWriter::add_first(const Frame& frame) {
           Ball{UsdSamples(file_, "its spheres' places"), UsdSamples(file_, "its spheres' radii")}));
     } else if (const auto* ground = std::get_if<GroundShape>(&collider)) {
       grounds_.push_back(*ground);
+    } else if (const auto* mesh = std::get_if<MeshShape>(&collider)) {
+      bodies_.push_back(std::make_unique<Body>(Body{mesh->triangles, UsdSamples(file_, "its bodies' points")}));
     }
   }
 }
@@ -84,8 +86,11 @@ void UsdWriter::add(const Frame& frame) {
   if (count_++ == 0) add_first(frame);
   points_.add(frame.index, point_list(frame.positions));
   extent_.add(frame.index, box(frame.positions));
-  std::size_t ball = 0;
+  std::size_t ball = 0, body = 0;
   for (const Collider& collider : frame.colliders) {
+    if (const auto* mesh = std::get_if<MeshShape>(&collider)) {
+      bodies_.at(body++)->points.add(frame.index, point_list(mesh->positions));
+    }
     const auto* sphere = std::get_if<SphereShape>(&collider);
     if (sphere == nullptr) continue;
     const Eigen::Vector3d& c = sphere->center;
@@ -109,11 +114,8 @@ void UsdWriter::write_header() {
                   1 / film_.seconds_per_frame, film_.fps, film_.first_frame, film_.first_frame + count_ - 1));
 }
 
-void UsdWriter::write_cloth() {
-  const std::vector<Triangle>& triangles = film_.triangles();
-  const auto& uvs = film_.texture_coordinates();
+void UsdWriter::write_faces(const std::vector<Triangle>& triangles) {
   const std::string indent(8, ' ');
-  file_.write("    def Mesh \"Cloth\" (\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n    )\n    {\n");
   file_.write(indent + "uniform token subdivisionScheme = \"none\"\n" + indent +
               "uniform token orientation = \"rightHanded\"\n" + indent + "uniform bool doubleSided = 1\n");
   file_.write(indent + "int[] faceVertexCounts = " +
@@ -121,6 +123,24 @@ void UsdWriter::write_cloth() {
   file_.write(indent + "int[] faceVertexIndices = " +
               list(triangles.size(), [&](std::size_t t) { return fmt::format("{}", fmt::join(triangles[t], ", ")); }) +
               "\n");
+}
+
+void UsdWriter::write_bodies(const std::string& color) {
+  const std::string indent(8, ' ');
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    file_.write(fmt::format("\n    def Mesh \"Body{}\"\n    {{\n", i + 1));
+    write_faces(*bodies_[i]->triangles);
+    bodies_[i]->points.write(file_, indent, "point3f[] points");
+    file_.write(indent + "color3f[] primvars:displayColor = [" + color + "]\n    }\n");
+  }
+}
+
+void UsdWriter::write_cloth() {
+  const std::vector<Triangle>& triangles = film_.triangles();
+  const auto& uvs = film_.texture_coordinates();
+  const std::string indent(8, ' ');
+  file_.write("    def Mesh \"Cloth\" (\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n    )\n    {\n");
+  write_faces(triangles);
   points_.write(file_, indent, "point3f[] points");
   extent_.write(file_, indent, "float3[] extent");
   if (!uvs.empty()) {
@@ -141,6 +161,7 @@ void UsdWriter::write_colliders() {
     file_.write(indent + "uniform token[] xformOpOrder = [\"xformOp:translate\"]\n" + indent +
                 "color3f[] primvars:displayColor = [" + usd_color(look.sphere_color) + "]\n    }\n");
   }
+  write_bodies(usd_color(look.body_color));
   for (std::size_t i = 0; i < grounds_.size(); ++i) {
     const GroundShape& ground = grounds_[i];
     const Eigen::Vector3d middle = ground_corners(ground, patch_).colwise().mean().transpose();
@@ -169,7 +190,7 @@ std::vector<OutputFile> UsdWriter::finish(Ending ending) {
 
 OutputFormat usda_format() {
   return {.extension = ".usda",
-          .help = "the motion as ASCII USD [m, z up]: cloth, material, spheres and grounds",
+          .help = "the motion as ASCII USD [m, z up]: cloth, material, spheres, bodies and grounds",
           .made_by = {},
           .packages = {},
           .make = FilmMaker<Frame>([](const std::filesystem::path& file, const FilmInfo& film) {

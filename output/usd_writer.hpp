@@ -28,7 +28,7 @@ class UsdSamples {
 };
 
 /// The motion as an ASCII USD file: in metres with z up; the cloth a Mesh whose points have a sample for every frame,
-/// with texture coordinates and a material; spheres, and grounds as Planes. The time codes are the frames' numbers, of
+/// with texture coordinates and a material; spheres, bodies as Meshes, and grounds as Planes. The time codes are the frames' numbers, of
 /// which timeCodesPerSecond pass in a second of the scene. Points in single precision, as USD has them. Memory does not
 /// grow with the motion.
 class UsdWriter final : public MotionWriter {
@@ -42,15 +42,23 @@ class UsdWriter final : public MotionWriter {
   struct Ball {
     UsdSamples place, radius;
   };
+  /// A mesh with the samples of its points.
+  struct Body {
+    std::shared_ptr<const std::vector<Triangle>> triangles;
+    UsdSamples points;
+  };
   void add_first(const Frame& frame);
   void write_header();
   void write_cloth();
+  void write_faces(const std::vector<Triangle>& triangles);
   void write_colliders();
+  void write_bodies(const std::string& color);
 
   FilmInfo film_;
   PartialFile file_;
   UsdSamples points_, extent_;
   std::vector<std::unique_ptr<Ball>> balls_;
+  std::vector<std::unique_ptr<Body>> bodies_;
   std::vector<GroundShape> grounds_;
   GroundPatch patch_;
   int count_ = 0;

@@ -89,7 +89,7 @@ void Body::describe(Keys& keys) {
   keys.add("file", OwnForm{"file", &mesh}, "",
            "Mesh file instead, as for a cloth; its coordinates are relative to `center`.");
   keys.add("prim", &prim, "", "Which mesh of a USD file, where there are several: \"/World/arm\".");
-  keys.add("center", &center, "m", "Position of the box's centre, or the file's origin, at the start.");
+  keys.add("center", &center, "m", "Position of the box's centre, or the file's origin, at the start. Default: [0, 0, 0].");
   keys.add("rotate", &rotate, "degrees", "Rotates it about the fixed x axis, then y, then z, around `center`.");
   keys.add("thickness", &thickness, "m", "Reach of the push: within this distance of the drawn surface.").above(0);
   describe_contact(keys, stiffness, response, friction, restitution, "");
@@ -103,6 +103,7 @@ void Body::check(const SimulationSettings& settings, const ProblemSink& problem)
   if (int{velocity.has_value()} + int{orbit_period.has_value()} + int{!keyframes.empty()} > 1) {
     problem("", "give only one of 'velocity', 'orbit_period' and 'keyframes': each defines the motion");
   }
+  if (center && !keyframes.empty()) problem("center", "'keyframes' already says where its centre is");
   check_orbit(orbit_period, orbit_axis, problem);
   law().check(settings, problem);
 }
@@ -119,7 +120,7 @@ ContactLaw Body::law() const { return {stiffness, response, friction, restitutio
 
 std::shared_ptr<const MovingBody> Body::body() const {
   const auto shape = box ? std::make_shared<const MeshMotion>(MeshMotion{.mesh = make_box(*box)}) : mesh;
-  const SphereShape start{center};
+  const SphereShape start{center.value_or(Eigen::Vector3d::Zero())};
   if (!keyframes.empty()) {
     const auto path = keyframed_track(1, Keyframes(keyframes, interpolation));
     return std::make_shared<MovingBody>(shape, RigidMotion(path, rotation(rotate), std::nullopt));

@@ -1,7 +1,7 @@
 #pragma once
 
 // Example:
-//   drape::Effects effects{drape::Body{.box = Eigen::Vector3d(0.6, 0.6, 0.2), .center = {0, 0, -0.5}}};
+//   drape::Effects effects{drape::Body{.box = Eigen::Vector3d(0.6, 0.6, 0.2), .center = Eigen::Vector3d(0, 0, -0.5)}};
 //   drape::MeshMotion pyramid{.mesh = drape::make_box({0.2, 0.2, 0.2})};
 //   effects.add(drape::Body{.mesh = std::make_shared<drape::MeshMotion>(pyramid), .thickness = 0.005});
 
@@ -33,7 +33,7 @@ struct Body {
   std::optional<Eigen::Vector3d> box = {};      ///< sides of a box around `center`, all above 0 [m]
   std::shared_ptr<const MeshMotion> mesh = {};  ///< or any other shape, around its own origin [m]
   std::string prim = {};                        ///< which mesh of its file it is; for whoever reads that
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< where the shape's origin is at 0 s [m]
+  std::optional<Eigen::Vector3d> center = {};        ///< where the shape's origin is at 0 s; usually the world's [m]
   Eigen::Vector3d rotate = Eigen::Vector3d::Zero();  ///< about the fixed x axis, then y, then z [degrees]
   double thickness = 0.01;                           ///< of the layer around it in which it pushes [m]
 

@@ -27,14 +27,21 @@ struct Ball {
   [[nodiscard]] Eigen::Vector3d normal(const Eigen::Vector3d& point) const { return (point - center).normalized(); }
 };
 
+/// How far beyond its centre a sphere pushes: scale·radius + thickness, of which one is 1 or 0.
+struct Reach {
+  double scale, thickness;
+
+  [[nodiscard]] double of(double radius) const { return scale * radius + thickness; }
+};
+
 /// The homework's penalty, a = k·max(s·r − ‖x−c‖, 0)·(x−c)/‖x−c‖, comes from the ball of s·r around c.
 struct SphereSurface {
   std::shared_ptr<const SphereTrack> track;
-  double scale;
+  Reach reach;
 
   [[nodiscard]] Ball at(double time) const {
     const SphereShape shape = track->at(time);
-    return {shape.center, scale * shape.radius};
+    return {shape.center, reach.of(shape.radius)};
   }
   [[nodiscard]] Eigen::Vector3d displacement(double from, double to) const {
     return track->at(to).center - track->at(from).center;
@@ -43,11 +50,11 @@ struct SphereSurface {
 
 struct TrackedSphere final : ColliderMotion {
   std::shared_ptr<const SphereTrack> track;
-  double scale;
-  TrackedSphere(std::shared_ptr<const SphereTrack> t, double s) : track(std::move(t)), scale(s) {}
+  Reach reach;
+  TrackedSphere(std::shared_ptr<const SphereTrack> t, const Reach& r) : track(std::move(t)), reach(r) {}
   [[nodiscard]] Collider at(double time) const override {
     SphereShape shape = track->at(time);
-    shape.reach = scale * shape.radius;
+    shape.reach = reach.of(shape.radius);
     return shape;
   }
 };
@@ -57,7 +64,8 @@ struct TrackedSphere final : ColliderMotion {
 void Sphere::describe(Keys& keys) {
   keys.add("center", &center, "m", "Position of its centre at the start.").must_be_given_unless({"keyframes", "track"});
   keys.add("radius", &radius, "m", "Its radius, as drawn.").must_be_given_unless({"track"}).above(0);
-  keys.add("scale", &scale, "", "Reach of the push: within scale·radius of the centre.").at_least(1);
+  keys.add("scale", &scale, "", "Reach of the push: within scale·radius of the centre. Default: 1.1.").at_least(1);
+  keys.add("thickness", &thickness, "m", "Or its reach beyond the radius, whatever that is, in place of `scale`.").at_least(0);
   describe_contact(keys, stiffness, response, friction, restitution, "; if omitted, the push acts as a spring");
   describe_motion(keys, "center", velocity, orbit_period, orbit_center, orbit_axis, keyframes, interpolation);
   keys.add("track", OwnForm{"file", &track}, "",
@@ -75,6 +83,9 @@ void Sphere::check(const SimulationSettings& settings, const ProblemSink& proble
   if (center && placed) {
     problem("center", std::string("'") + (track ? "track" : "keyframes") + "' already says where its centre is");
   }
+  if (scale && thickness) {
+    problem("thickness", "give only one of 'scale' and 'thickness': each says how far the push reaches");
+  }
   if (!radius && track && !(track->at(0).radius > 0)) {
     problem("track", "the moving object in this file has no size: also give the 'radius'");
   }
@@ -84,8 +95,9 @@ void Sphere::check(const SimulationSettings& settings, const ProblemSink& proble
 
 void Sphere::install(System& system) const {
   const std::shared_ptr<const SphereTrack> moving = motion();
-  system.colliders.push_back(std::make_unique<TrackedSphere>(moving, scale));
-  install_contact(SphereSurface{moving, scale}, law(), system);
+  const Reach reach = thickness ? Reach{1, *thickness} : Reach{scale.value_or(usual_scale), 0};
+  system.colliders.push_back(std::make_unique<TrackedSphere>(moving, reach));
+  install_contact(SphereSurface{moving, reach}, law(), system);
 }
 
 ContactLaw Sphere::law() const { return {stiffness, response, friction, restitution}; }

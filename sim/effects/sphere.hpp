@@ -17,8 +17,8 @@ namespace drape {
 
 struct ContactLaw;
 
-/// A sphere that pushes the cloth out of it with the acceleration stiffness·(scale·radius − ‖x − center‖), the
-/// homework's penalty. It rests at `center`, or moves in one of four ways: straight on, on an orbit, on keyframes, or
+/// A sphere that pushes the cloth out of it with the acceleration stiffness·(reach − ‖x − center‖), the homework's
+/// penalty, whose reach is scale·radius or radius + thickness. It rests at `center`, or moves in one of four ways: straight on, on an orbit, on keyframes, or
 /// on a track.
 struct Sphere {
   static constexpr std::string_view name = "sphere";
@@ -26,7 +26,8 @@ struct Sphere {
 
   std::optional<Eigen::Vector3d> center = {};  ///< at 0 s [m]; without one, keyframes or a track say where it is
   std::optional<double> radius = {};           ///< as it is drawn, above 0 [m]; may be left to a track
-  double scale = 1.1;                          ///< it pushes within scale·radius of the centre; at least 1
+  std::optional<double> scale = {};            ///< it pushes within scale·radius of the centre; at least 1, usually 1.1
+  std::optional<double> thickness = {};        ///< or this far beyond its radius [m]
 
   double stiffness = 8000;  ///< of the push [1/s²]
   Response response = Response::explicit_force;
@@ -44,6 +45,8 @@ struct Sphere {
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;
   void install(System& system) const;
+
+  static constexpr double usual_scale = 1.1;  ///< where neither scale nor thickness says how far it pushes
 
  private:
   [[nodiscard]] ContactLaw law() const;

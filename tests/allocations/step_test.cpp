@@ -9,6 +9,7 @@
 
 #include "sim/effects/air.hpp"
 #include "sim/effects/bending.hpp"
+#include "sim/effects/body.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/effects/moving_pins.hpp"
 #include "sim/effects/self_collision.hpp"
@@ -89,6 +90,10 @@ SimulationSettings eventful(Solver solver) {
   SimulationSettings settings = falling(solver);
   const bool implicit = !solver.is_explicit();
   const Response response = implicit ? Response::implicit_energy : Response::explicit_force;
+  auto sheet = std::make_shared<MeshMotion>(MeshMotion{.mesh = make_grid(3, 3)});
+  sheet->mesh.positions.col(2).array() -= 0.03;
+  sheet->times = {0, 4};
+  sheet->samples = {sheet->mesh.positions, 1.5 * sheet->mesh.positions};
   settings.effects = {
       Gravity{},
       Wind{.acceleration = {1, 0, 0}},
@@ -99,6 +104,8 @@ SimulationSettings eventful(Solver solver) {
       Sphere{.center = Vector3d(0, 0, -0.3), .radius = 0.3, .response = response, .friction = 0.3},
       Ground{.height = -0.05, .response = response, .restitution = 0.5},
       StrainLimit{.max_stretch = 1.1},
+      Body{.box = Vector3d(0.3, 0.3, 0.1), .center = Vector3d(0.5, 0.5, -0.04), .response = response, .orbit_period = 3},
+      Body{.mesh = sheet, .response = response, .restitution = 0.5},
       SelfCollision{.thickness = 0.02},
       Damping{.factor = 0.5}};
   return settings;

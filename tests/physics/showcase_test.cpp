@@ -13,7 +13,7 @@ namespace drape::test {
 namespace {
 
 class Showcase : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Of, Showcase, testing::Values("ground", "moving_pins", "self_collision"),
+INSTANTIATE_TEST_SUITE_P(Of, Showcase, testing::Values("body", "ground", "moving_pins", "self_collision"),
                          [](const auto& tested) { return std::string(tested.param); });
 
 TEST_P(Showcase, NeverShowsAClothThatCutsThroughItself) {

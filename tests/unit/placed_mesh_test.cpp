@@ -1,0 +1,107 @@
+// Where a point is beside a mesh, and the tree that finds it.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "sim/collision/placed_mesh.hpp"
+#include "sim/effects/body.hpp"
+
+namespace drape::test {
+namespace {
+
+constexpr double anywhere = std::numeric_limits<double>::infinity();
+
+PlacedMesh placed(const Mesh& mesh) {
+  return {std::make_shared<MeshTopology>(mesh.triangles, static_cast<int>(mesh.positions.rows())), mesh.positions};
+}
+
+/// The signed distance from a box around the origin.
+double box_distance(const Point& half, const Point& p) {
+  const Point d = p.cwiseAbs() - half;
+  return d.cwiseMax(0).norm() + std::min(d.maxCoeff(), 0.0);
+}
+
+TEST(PlacedMesh, KnowsTheDistanceFromABoxAndTheWayOutOfIt) {
+  const Point half(0.5, 0.3, 0.2);
+  const PlacedMesh box = placed(make_box(2 * half));
+  ASSERT_TRUE(box.solid());
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(-1, 1);
+  for (int k = 0; k < 2000; ++k) {
+    const Point p(place(random), place(random), place(random));
+    const double expected = box_distance(half, p);
+    const auto foot = box.find(p, anywhere);
+    ASSERT_TRUE(foot);
+    EXPECT_NEAR(foot->distance, expected, 1e-12);
+    EXPECT_NEAR(foot->normal.norm(), 1, 1e-12);
+    // A little further along the normal it is as much further away.
+    EXPECT_NEAR(box_distance(half, p + 1e-6 * foot->normal), expected + 1e-6, 1e-9);
+    EXPECT_EQ(box.find(p, 0.1).has_value(), expected <= 0.1);
+  }
+}
+
+TEST(PlacedMesh, IsTheSameWhicheverTriangleIsLookedAtFirst) {
+  const PlacedMesh box = placed(make_box({1, 1, 1}));
+  std::mt19937 random(2);
+  std::uniform_int_distribution<int> eighths(-8, 8);  // many of them are equally near to several triangles
+  for (int k = 0; k < 300; ++k) {
+    const Point p(eighths(random) / 8.0, eighths(random) / 8.0, eighths(random) / 8.0);
+    const auto plain = box.find(p, anywhere);
+    for (int hint = 0; hint < 12; ++hint) {
+      const auto hinted = box.find(p, anywhere, hint);
+      EXPECT_EQ(hinted->triangle, plain->triangle);
+      EXPECT_EQ(hinted->distance, plain->distance);
+      EXPECT_EQ(hinted->normal, plain->normal);
+    }
+  }
+}
+
+TEST(PlacedMesh, IsAShellUnlessItIsClosedAndRunsOneWay) {
+  Mesh box = make_box({1, 1, 1});
+  EXPECT_TRUE(placed(box).solid());
+  Mesh open = box;
+  open.triangles.pop_back();
+  EXPECT_FALSE(placed(open).solid());
+  Mesh twisted = box;
+  std::swap(twisted.triangles[3][0], twisted.triangles[3][1]);
+  EXPECT_FALSE(placed(twisted).solid());
+  const auto inside = placed(open).find(Point(0, 0, 0.45), anywhere);
+  EXPECT_NEAR(inside->distance, 0.05, 1e-15);
+  EXPECT_LT(inside->normal.z(), 0);
+}
+
+TEST(TriangleTree, FindsAllThatOverlapsBeforeAndAfterItMoves) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-1, 1), size(0, 0.2);
+  std::vector<Box> boxes(300);
+  TriangleTree tree;
+  for (int round = 0; round < 2; ++round) {
+    for (Box& box : boxes) {
+      box.low = Point(place(random), place(random), place(random));
+      box.high = box.low + Point(size(random), size(random), size(random));
+    }
+    if (round == 0) {
+      tree.build(boxes);
+    } else {
+      tree.refit(boxes);
+    }
+    for (const Box& box : boxes) {
+      std::vector<int> found, expected;
+      tree.for_overlapping(box, [&](int k) {
+        if (boxes[static_cast<std::size_t>(k)].overlaps(box)) found.push_back(k);
+      });
+      for (int k = 0; k < 300; ++k) {
+        if (boxes[static_cast<std::size_t>(k)].overlaps(box)) expected.push_back(k);
+      }
+      std::ranges::sort(found);
+      EXPECT_EQ(found, expected);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace drape::test

@@ -1,0 +1,108 @@
+// What scenes say of bodies, and what they are told about a cloth that starts inside of something.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "sim/effects/body.hpp"
+#include "sim/effects/sphere.hpp"
+#include "sim/simulation.hpp"
+#include "sim/start_overlap.hpp"
+#include "tests/support/scene_folder.hpp"
+
+namespace drape {
+namespace {
+
+using Eigen::RowVector3d;
+using Eigen::Vector3d;
+using test::least_scene;
+using test::SceneFolder;
+
+std::string with_body(const std::string& lines) { return least_scene + "[[effects.body]]\n" + lines + "\n"; }
+
+MeshShape shape_at(const Scene& scene, double time) {
+  return std::get<MeshShape>(Simulation(scene.simulation).colliders(time).at(0));
+}
+
+TEST(SceneBodies, AreBoxesOrMeshesOfAFile) {
+  const SceneFolder folder;
+  const MeshShape box = shape_at(folder.load(with_body("box = [2, 4, 6]\ncenter = [0, 0, 5]")), 0);
+  EXPECT_EQ(box.triangles->size(), 12U);
+  EXPECT_EQ(RowVector3d(box.positions.colwise().minCoeff()), RowVector3d(-1, -2, 2));
+  EXPECT_EQ(RowVector3d(box.positions.colwise().maxCoeff()), RowVector3d(1, 2, 8));
+  folder.write("roof.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n");
+  const MeshShape roof = shape_at(folder.load(with_body("file = \"roof.obj\"\ncenter = [7, 0, 0]")), 0);
+  EXPECT_EQ(roof.triangles->size(), 2U);
+  EXPECT_EQ(RowVector3d(roof.positions.row(1)), RowVector3d(8, 0, 0));
+}
+
+TEST(SceneBodies, MoveStraightOnKeyframesOrTurnWithTheirOrbit) {
+  const SceneFolder folder;
+  const auto corner = [&](const std::string& lines, double time) {
+    return RowVector3d(shape_at(folder.load(with_body("box = [2, 2, 2]\n" + lines)), time).positions.row(7));
+  };
+  EXPECT_EQ(corner("velocity = [0, 2, 0]", 3), RowVector3d(1, 7, 1));
+  EXPECT_EQ(corner("keyframes = [{ time = 0, center = [0, 0, 0] }, { time = 2, center = [4, 0, 0] }]", 1),
+            RowVector3d(3, 1, 1));
+  // A quarter of a turn about z, with the body and around its own centre: (1, 1) becomes (−1, 1).
+  EXPECT_LT((corner("orbit_period = 4", 1) - RowVector3d(-1, 1, 1)).norm(), 1e-14);
+  EXPECT_LT((corner("center = [3, 0, 0]\norbit_period = 4", 1) - RowVector3d(-1, 4, 1)).norm(), 1e-14);
+  EXPECT_LT((corner("rotate = [0, 0, 90]", 0) - RowVector3d(-1, 1, 1)).norm(), 1e-14);
+}
+
+TEST(SceneBodies, SayWhatIsWrong) {
+  const SceneFolder folder;
+  EXPECT_EQ(folder.problems(with_body("thickness = 0.1")), "scene.toml:6:1: missing key 'box' in [effects.body]");
+  EXPECT_EQ(folder.problems(with_body("box = [1, 1, 0]")).substr(0, 20), "scene.toml:7:14: box");
+  EXPECT_EQ(folder.problems(with_body("box = [1, 1, 1]\nprim = \"/a\"")),
+            "scene.toml:8:8: prim: names a mesh in a 'file', and there is none");
+  EXPECT_NE(folder.problems(with_body("file = \"none.obj\"")).find("'none.obj' cannot be read"), std::string::npos);
+}
+
+TEST(SphereThickness, IsHowFarBeyondItsRadiusItPushes) {
+  const SceneFolder folder;
+  const auto reach = [&](const std::string& line) {
+    const Scene scene = folder.load(least_scene + "[effects.sphere]\ncenter = [0, 0, -3]\nradius = 0.15\n" + line);
+    return std::get<SphereShape>(Simulation(scene.simulation).colliders(0).at(0)).reach;
+  };
+  EXPECT_DOUBLE_EQ(reach(""), 0.165);
+  EXPECT_DOUBLE_EQ(reach("thickness = 0.04"), 0.19);
+  EXPECT_DOUBLE_EQ(reach("scale = 2"), 0.3);
+  EXPECT_EQ(folder.problems(least_scene +
+                            "[effects.sphere]\ncenter = [0, 0, -3]\nradius = 1\nscale = 1.1\nthickness = 0.04"),
+            "scene.toml:10:13: thickness: give only one of 'scale' and 'thickness': each says how far the push reaches");
+}
+
+TEST(StartOverlap, CountsVerticesInsideAndHowDeepTheyAre) {
+  // Nine vertices at z = 0, at 0 and ±1.
+  const SceneFolder folder;
+  const auto of = [&](const std::string& effects) {
+    return start_overlaps(folder.load(least_scene + effects).simulation);
+  };
+  const auto sphere = of("[effects.sphere]\ncenter = [0, 0, -0.4]\nradius = 0.5\nscale = 3\n");
+  ASSERT_EQ(sphere.size(), 1U);
+  EXPECT_EQ(sphere[0].vertices, 1);
+  EXPECT_NEAR(sphere[0].depth, 0.1, 1e-12);
+  const auto ground = of("[effects.ground]\nheight = 0.25\n");
+  ASSERT_EQ(ground.size(), 1U);
+  EXPECT_EQ(ground[0].vertices, 9);
+  EXPECT_NEAR(ground[0].depth, 0.25, 1e-12);
+  const auto box = of("[effects.ground]\nheight = -2\n[[effects.body]]\nbox = [1, 4, 1]\ncenter = [0, 0, 0.3]\n");
+  ASSERT_EQ(box.size(), 1U);
+  EXPECT_EQ(box[0].vertices, 3);
+  EXPECT_NEAR(box[0].depth, 0.2, 1e-12);
+  EXPECT_NE(describe(box[0]).find("3 vertices of the cloth start inside the body"), std::string::npos);
+  // The layer in which something pushes is not its inside, nor is its surface.
+  EXPECT_TRUE(of("[effects.ground]\nheight = 0\n[[effects.body]]\nbox = [1, 1, 1]\ncenter = [0, 0, 0.5]\n").empty());
+}
+
+TEST(StartOverlap, DoesNotCountPins) {
+  const SceneFolder folder;
+  const std::string pinned = "[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 10\npins = [4]\n[time]\nstep = 0.01\n";
+  const Scene scene = folder.load(pinned + "[effects.sphere]\ncenter = [0, 0, 0]\nradius = 0.5\n");
+  EXPECT_TRUE(start_overlaps(scene.simulation).empty());
+}
+
+}  // namespace
+}  // namespace drape
