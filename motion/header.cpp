@@ -45,7 +45,8 @@ std::array<double, columns_of_collider> numbers_of(const Collider& collider) {
 }
 
 Collider collider_of(const std::string& kind, const std::array<double, columns_of_collider>& n) {
-  if (kind == "sphere" || kind == "body") return SphereShape{.center = {n[0], n[1], n[2]}, .radius = n[3], .reach = n[3]};
+  if (kind == "sphere" || kind == "body")
+    return SphereShape{.center = {n[0], n[1], n[2]}, .radius = n[3], .reach = n[3]};
   return GroundShape{.normal = {n[0], n[1], n[2]}, .height = n[3]};
 }
 
@@ -102,7 +103,8 @@ MotionHeader unpack_header(std::string_view payload) {
     throw std::invalid_argument("has a head that is not what it should be");
   }
   for (const std::string& kind : header.colliders) {
-    if (kind != "sphere" && kind != "ground" && kind != "body") throw std::invalid_argument("has a collider of an unknown kind");
+    if (kind != "sphere" && kind != "ground" && kind != "body")
+      throw std::invalid_argument("has a collider of an unknown kind");
   }
   return header;
 }

@@ -28,9 +28,9 @@ class UsdSamples {
 };
 
 /// The motion as an ASCII USD file: in metres with z up; the cloth a Mesh whose points have a sample for every frame,
-/// with texture coordinates and a material; spheres, bodies as Meshes, and grounds as Planes. The time codes are the frames' numbers, of
-/// which timeCodesPerSecond pass in a second of the scene. Points in single precision, as USD has them. Memory does not
-/// grow with the motion.
+/// with texture coordinates and a material; spheres, bodies as Meshes, and grounds as Planes. The time codes are the
+/// frames' numbers, of which timeCodesPerSecond pass in a second of the scene. Points in single precision, as USD has
+/// them. Memory does not grow with the motion.
 class UsdWriter final : public MotionWriter {
  public:
   UsdWriter(const std::filesystem::path& file, const FilmInfo& film);

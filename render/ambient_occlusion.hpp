@@ -9,9 +9,10 @@
 
 namespace drape {
 
-/// How much of the light from all around the cloth itself, and what is beside it, leaves to each of its vertices. Light comes in from the 14
-/// directions of Lebedev's quadrature of degree 5 (to the faces and corners of a cube), by Lambert's cosine; from which
-/// of them a vertex is hidden say maps of the cloth as it is seen along each, every one of which serves both its ends.
+/// How much of the light from all around the cloth itself, and what is beside it, leaves to each of its vertices. Light
+/// comes in from the 14 directions of Lebedev's quadrature of degree 5 (to the faces and corners of a cube), by
+/// Lambert's cosine; from which of them a vertex is hidden say maps of the cloth as it is seen along each, every one of
+/// which serves both its ends.
 class AmbientOcclusion {
  public:
   AmbientOcclusion();

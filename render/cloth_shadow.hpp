@@ -12,8 +12,8 @@
 
 namespace drape {
 
-/// What cloth and bodies take of the key light: the map of it that the light sees, for the shaders that include shadow.glsl.
-/// Spheres are not in it, as a shader knows their shadows exactly.
+/// What cloth and bodies take of the key light: the map of it that the light sees, for the shaders that include
+/// shadow.glsl. Spheres are not in it, as a shader knows their shadows exactly.
 class ClothShadow {
  public:
   static constexpr GLint texture_unit = 1;

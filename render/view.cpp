@@ -75,9 +75,8 @@ DepthRange depth_range(const View& view, const Frame& frame) {
   int grounds = 0;
   for (const Collider& collider : frame.colliders) {
     grounds += std::holds_alternative<GroundShape>(collider) ? 1 : 0;
-    for_each_ball(collider, [&](const Eigen::Vector3d& center, double radius) {
-      add(center.dot(forward) - origin, radius);
-    });
+    for_each_ball(collider,
+                  [&](const Eigen::Vector3d& center, double radius) { add(center.dot(forward) - origin, radius); });
   }
   if (!(farthest > 0)) return {};  // all of it is behind the camera
   const double room = 0.01 * std::max(farthest - nearest, 1e-3 * farthest);

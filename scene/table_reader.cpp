@@ -135,9 +135,12 @@ class KeyReader {
   void read_body(std::shared_ptr<const MeshMotion>& mesh) const {
     const std::optional<std::string> file = read_string(value_, key_.name, problems_);
     if (!file) return;
-    files_.push_back(folder_ / *file);
+    MeshOptions options;
+    if (const TomlValue* prim = table_.find("prim"); prim != nullptr && prim->as<std::string>() != nullptr) {
+      options.prim = *prim->as<std::string>();
+    }
     try {
-      mesh = std::make_shared<MeshMotion>(MeshMotion{.mesh = read_mesh(folder_ / *file)});
+      mesh = std::make_shared<MeshMotion>(read_mesh_motion(folder_ / *file, options, &files_));
     } catch (const UsageError& error) {
       problems_.add(value_.place, fmt::format("{}: '{}' cannot be read:\n{}", key_.name, *file, error.what()));
     }

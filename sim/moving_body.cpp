@@ -8,8 +8,8 @@ namespace drape {
 MovingBody::MovingBody(std::shared_ptr<const MeshMotion> shape, RigidMotion motion)
     : shape_(std::move(shape)),
       motion_(std::move(motion)),
-      topology_(std::make_shared<MeshTopology>(shape_->mesh.triangles, static_cast<int>(shape_->mesh.positions.rows()))) {
-}
+      topology_(
+          std::make_shared<MeshTopology>(shape_->mesh.triangles, static_cast<int>(shape_->mesh.positions.rows()))) {}
 
 std::shared_ptr<const PlacedMesh> MovingBody::mesh_at(double time) const {
   const auto known = std::ranges::find_if(shapes_, [&](const Shape& s) { return !deforms() || s.time == time; });

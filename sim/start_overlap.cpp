@@ -66,10 +66,11 @@ std::vector<StartOverlap> start_overlaps(const SimulationSettings& settings) {
 }
 
 std::string describe(const StartOverlap& overlap) {
-  return fmt::format("{} of the cloth start{} inside the {} (obstacle {} of the scene), up to {:.3g} m deep: it is "
-                     "thrown out of there",
-                     overlap.vertices == 1 ? "1 vertex" : fmt::format("{} vertices", overlap.vertices),
-                     overlap.vertices == 1 ? "s" : "", overlap.kind, overlap.collider + 1, overlap.depth);
+  return fmt::format(
+      "{} of the cloth start{} inside the {} (obstacle {} of the scene), up to {:.3g} m deep: it is "
+      "thrown out of there",
+      overlap.vertices == 1 ? "1 vertex" : fmt::format("{} vertices", overlap.vertices),
+      overlap.vertices == 1 ? "s" : "", overlap.kind, overlap.collider + 1, overlap.depth);
 }
 
 }  // namespace drape

@@ -42,7 +42,8 @@ class BodyContact final : public MotionFilter {
     Triangle corners;
     std::array<bool, 3> own_vertex, own_edge;  // the edge from corner c to c + 1
   };
-  /// Features that may meet, and which of the body's it is: a triangle, or a corner of it or the edge that begins there.
+  /// Features that may meet, and which of the body's it is: a triangle, or a corner of it or the edge that begins
+  /// there.
   struct BodyPair {
     FeaturePair pair;
     int triangle, corner;

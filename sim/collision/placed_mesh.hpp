@@ -24,10 +24,10 @@ struct MeshTopology {
 
 /// Where a point is beside a mesh.
 struct Foot {
-  int triangle = -1;                         ///< the nearest one
-  Point weights = Point::Zero();             ///< of its corners, at its nearest point
-  Point normal = Point::Zero();              ///< unit vector away from the mesh, out of it where it is solid
-  double distance = 0;                       ///< negative inside of what is solid [m]
+  int triangle = -1;              ///< the nearest one
+  Point weights = Point::Zero();  ///< of its corners, at its nearest point
+  Point normal = Point::Zero();   ///< unit vector away from the mesh, out of it where it is solid
+  double distance = 0;            ///< negative inside of what is solid [m]
 };
 
 /// A mesh at one place. A closed one is solid, whichever way round its triangles are; another is a shell, whose two

@@ -42,9 +42,8 @@ void TriangleTree::split(std::span<const Box> boxes, int first, int count) {
     Eigen::Index axis = 0;
     (middles.high - middles.low).maxCoeff(&axis);
     const int half = count / 2;
-    std::nth_element(begin, begin + half, end, [&](int k, int l) {
-      return std::pair(middle_of(k)[axis], k) < std::pair(middle_of(l)[axis], l);
-    });
+    std::nth_element(begin, begin + half, end,
+                     [&](int k, int l) { return std::pair(middle_of(k)[axis], k) < std::pair(middle_of(l)[axis], l); });
     split(boxes, first, half);
     split(boxes, first + half, count - half);
   }

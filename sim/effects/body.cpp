@@ -58,8 +58,12 @@ struct DrawnBody final : ColliderMotion {
   std::shared_ptr<const std::vector<Triangle>> triangles;
   double thickness;
   DrawnBody(std::shared_ptr<const MovingBody> b, double t)
-      : body(std::move(b)), triangles(std::make_shared<std::vector<Triangle>>(body->topology().triangles)), thickness(t) {}
-  [[nodiscard]] Collider at(double time) const override { return MeshShape{triangles, body->positions(time), thickness}; }
+      : body(std::move(b)),
+        triangles(std::make_shared<std::vector<Triangle>>(body->topology().triangles)),
+        thickness(t) {}
+  [[nodiscard]] Collider at(double time) const override {
+    return MeshShape{triangles, body->positions(time), thickness};
+  }
 };
 
 Eigen::Matrix3d rotation(const Eigen::Vector3d& degrees) {
@@ -87,9 +91,12 @@ Mesh make_box(const Eigen::Vector3d& size) {
 void Body::describe(Keys& keys) {
   keys.add("box", &box, "m", "Sides of a box around `center`.").must_be_given_unless({"file"}).above(0);
   keys.add("file", OwnForm{"file", &mesh}, "",
-           "Mesh file instead, as for a cloth; its coordinates are relative to `center`.");
+           "Mesh file instead, as for a cloth, or an OBJ sequence, \"arm/{frame:04}.obj\", of 24 per second; it may "
+           "move. Its "
+           "coordinates are relative to `center`.");
   keys.add("prim", &prim, "", "Which mesh of a USD file, where there are several: \"/World/arm\".");
-  keys.add("center", &center, "m", "Position of the box's centre, or the file's origin, at the start. Default: [0, 0, 0].");
+  keys.add("center", &center, "m",
+           "Position of the box's centre, or the file's origin, at the start. Default: [0, 0, 0].");
   keys.add("rotate", &rotate, "degrees", "Rotates it about the fixed x axis, then y, then z, around `center`.");
   keys.add("thickness", &thickness, "m", "Reach of the push: within this distance of the drawn surface.").above(0);
   describe_contact(keys, stiffness, response, friction, restitution, "");

@@ -30,9 +30,9 @@ struct Body {
   static constexpr std::string_view name = "body";
   static constexpr bool repeatable = true;
 
-  std::optional<Eigen::Vector3d> box = {};      ///< sides of a box around `center`, all above 0 [m]
-  std::shared_ptr<const MeshMotion> mesh = {};  ///< or any other shape, around its own origin [m]
-  std::string prim = {};                        ///< which mesh of its file it is; for whoever reads that
+  std::optional<Eigen::Vector3d> box = {};           ///< sides of a box around `center`, all above 0 [m]
+  std::shared_ptr<const MeshMotion> mesh = {};       ///< or any other shape, around its own origin [m]
+  std::string prim = {};                             ///< which mesh of its file it is; for whoever reads that
   std::optional<Eigen::Vector3d> center = {};        ///< where the shape's origin is at 0 s; usually the world's [m]
   Eigen::Vector3d rotate = Eigen::Vector3d::Zero();  ///< about the fixed x axis, then y, then z [degrees]
   double thickness = 0.01;                           ///< of the layer around it in which it pushes [m]

@@ -65,7 +65,8 @@ void Sphere::describe(Keys& keys) {
   keys.add("center", &center, "m", "Position of its centre at the start.").must_be_given_unless({"keyframes", "track"});
   keys.add("radius", &radius, "m", "Its radius, as drawn.").must_be_given_unless({"track"}).above(0);
   keys.add("scale", &scale, "", "Reach of the push: within scale·radius of the centre. Default: 1.1.").at_least(1);
-  keys.add("thickness", &thickness, "m", "Or its reach beyond the radius, whatever that is, in place of `scale`.").at_least(0);
+  keys.add("thickness", &thickness, "m", "Or its reach beyond the radius, whatever that is, in place of `scale`.")
+      .at_least(0);
   describe_contact(keys, stiffness, response, friction, restitution, "; if omitted, the push acts as a spring");
   describe_motion(keys, "center", velocity, orbit_period, orbit_center, orbit_axis, keyframes, interpolation);
   keys.add("track", OwnForm{"file", &track}, "",

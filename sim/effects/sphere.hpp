@@ -18,16 +18,16 @@ namespace drape {
 struct ContactLaw;
 
 /// A sphere that pushes the cloth out of it with the acceleration stiffness·(reach − ‖x − center‖), the homework's
-/// penalty, whose reach is scale·radius or radius + thickness. It rests at `center`, or moves in one of four ways: straight on, on an orbit, on keyframes, or
-/// on a track.
+/// penalty, whose reach is scale·radius or radius + thickness. It rests at `center`, or moves in one of four ways:
+/// straight on, on an orbit, on keyframes, or on a track.
 struct Sphere {
   static constexpr std::string_view name = "sphere";
   static constexpr bool repeatable = true;
 
   std::optional<Eigen::Vector3d> center = {};  ///< at 0 s [m]; without one, keyframes or a track say where it is
   std::optional<double> radius = {};           ///< as it is drawn, above 0 [m]; may be left to a track
-  std::optional<double> scale = {};            ///< it pushes within scale·radius of the centre; at least 1, usually 1.1
-  std::optional<double> thickness = {};        ///< or this far beyond its radius [m]
+  std::optional<double> scale = {};      ///< it pushes within scale·radius of the centre; at least 1, usually 1.1
+  std::optional<double> thickness = {};  ///< or this far beyond its radius [m]
 
   double stiffness = 8000;  ///< of the push [1/s²]
   Response response = Response::explicit_force;

@@ -1,6 +1,5 @@
 #include "sim/solvers/accuracy.hpp"
 
-
 #include <algorithm>
 
 #include "sim/system.hpp"

@@ -104,7 +104,8 @@ SimulationSettings eventful(Solver solver) {
       Sphere{.center = Vector3d(0, 0, -0.3), .radius = 0.3, .response = response, .friction = 0.3},
       Ground{.height = -0.05, .response = response, .restitution = 0.5},
       StrainLimit{.max_stretch = 1.1},
-      Body{.box = Vector3d(0.3, 0.3, 0.1), .center = Vector3d(0.5, 0.5, -0.04), .response = response, .orbit_period = 3},
+      Body{
+          .box = Vector3d(0.3, 0.3, 0.1), .center = Vector3d(0.5, 0.5, -0.04), .response = response, .orbit_period = 3},
       Body{.mesh = sheet, .response = response, .restitution = 0.5},
       SelfCollision{.thickness = 0.02},
       Damping{.factor = 0.5}};

@@ -16,16 +16,17 @@ namespace {
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-constexpr double earth_gravity = 9.8;        // the default [m/s²]
-constexpr double push_stiffness = 4000;    // [1/s²]
-constexpr double layer_thickness = 0.02;         // thickness [m]
+constexpr double earth_gravity = 9.8;     // the default [m/s²]
+constexpr double push_stiffness = 4000;   // [1/s²]
+constexpr double layer_thickness = 0.02;  // thickness [m]
 
 /// A sphere of triangles that divide those of an octahedron, with the vertices on it.
 Mesh ball(double radius, int divisions) {
   Mesh mesh;
   std::vector<RowVector3d> points;
   for (int side = 0; side < 8; ++side) {
-    const Vector3d a((side & 1) != 0 ? -1 : 1, 0, 0), b(0, (side & 2) != 0 ? -1 : 1, 0), c(0, 0, (side & 4) != 0 ? -1 : 1);
+    const Vector3d a((side & 1) != 0 ? -1 : 1, 0, 0), b(0, (side & 2) != 0 ? -1 : 1, 0),
+        c(0, 0, (side & 4) != 0 ? -1 : 1);
     const bool mirrored = ((side & 1) + (side >> 1 & 1) + (side >> 2 & 1)) % 2 != 0;
     const auto number = [&](int i, int j) {
       const Vector3d p = (i * a + j * b + (divisions - i - j) * c).normalized();
@@ -71,7 +72,9 @@ class Bodies : public testing::TestWithParam<ContactCase> {
     result.effects = {Gravity{}};
     return result;
   }
-  Body body() const { return {.thickness = layer_thickness, .stiffness = push_stiffness, .response = GetParam().response}; }
+  Body body() const {
+    return {.thickness = layer_thickness, .stiffness = push_stiffness, .response = GetParam().response};
+  }
 };
 INSTANTIATE_TEST_SUITE_P(With, Bodies, testing::ValuesIn(contact_cases()), contact_case_name);
 
@@ -221,7 +224,8 @@ TEST_P(Bodies, AShapeThatChangesCarriesAlong) {
   motion->samples = {motion->mesh.positions, motion->mesh.positions};
   motion->samples[1].col(0) *= 1.6;
   motion->samples[1].col(2).array() += 0.3;
-  SimulationSettings s = settings(loose(RowVector3d(0.5, 0.1, layer_thickness - earth_gravity / push_stiffness)), 0.005);
+  SimulationSettings s =
+      settings(loose(RowVector3d(0.5, 0.1, layer_thickness - earth_gravity / push_stiffness)), 0.005);
   Body sheet = body();
   sheet.mesh = motion;
   sheet.friction = 1;
@@ -237,7 +241,8 @@ TEST(Body, PushesToBothSidesOfAShell) {
   Vertices x(2, 3);
   x << 0.1, 0.2, 0.5 * layer_thickness, 0.1, 0.2, -0.5 * layer_thickness;
   SimulationSettings s = setup(loose(x), {Method::semi_implicit}, 0.01);
-  s.effects = {Body{.mesh = still(make_grid(2, 2)), .thickness = layer_thickness, .stiffness = push_stiffness, .restitution = {}}};
+  s.effects = {Body{
+      .mesh = still(make_grid(2, 2)), .thickness = layer_thickness, .stiffness = push_stiffness, .restitution = {}}};
   Simulation simulation(s);
   simulation.step();
   EXPECT_NEAR(simulation.state().v(0, 2), 0.01 * push_stiffness * 0.5 * layer_thickness, 1e-12);
@@ -252,7 +257,8 @@ TEST(Body, PushesOutWhatIsDeepInsideOfIt) {
       if (mirrored) std::swap(t[1], t[2]);
     }
     SimulationSettings s = setup(loose(RowVector3d(0.1, 0.05, 0.3)), {Method::semi_implicit}, 0.01);
-    s.effects = {Body{.mesh = still(box), .thickness = layer_thickness, .stiffness = push_stiffness, .restitution = {}}};
+    s.effects = {
+        Body{.mesh = still(box), .thickness = layer_thickness, .stiffness = push_stiffness, .restitution = {}}};
     Simulation simulation(s);
     simulation.step();
     EXPECT_NEAR(simulation.state().v(0, 2), 0.01 * push_stiffness * (0.2 + layer_thickness), 1e-12);

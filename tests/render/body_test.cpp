@@ -35,8 +35,8 @@ Mesh tube(int segments) {
 }
 
 int brightness(const Image& image, int x, int y) {
-  const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                              static_cast<std::size_t>(x));
+  const std::size_t at =
+      3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
   return image.pixels[at] + image.pixels[at + 1] + image.pixels[at + 2];
 }
 
@@ -88,15 +88,14 @@ TEST(BodyPicture, ThrowsAShadowOnTheClothAndTakesOne) {
   // A plate beside the camera's view, between the cloth and the light, which comes from the upper left and the camera.
   const MeshShape beside = plate(1, 1.5);
   MeshShape moved = beside;
-  moved.positions.col(0).array() -= 2.6;
+  moved.positions.rowwise() += Eigen::RowVector3d(-2.25, 2.4, 0);  // along the light's way
   Look dark = look;
   dark.shadows = false;
   const Mesh cloth = make_grid(8, 8);
   EXPECT_LT(sum(draw(cloth, from_above(), look, {60, 60}, {moved})),
             sum(draw(cloth, from_above(), dark, {60, 60}, {moved})) * 0.995);
   Mesh above = make_grid(8, 8);
-  above.positions.col(2).array() += 1.5;
-  above.positions.col(0).array() -= 2.6;
+  above.positions.rowwise() += Eigen::RowVector3d(-2.25, 2.4, 1.5);
   EXPECT_LT(sum(draw(above, from_above(), look, {60, 60}, {plate(1, 0)})),
             sum(draw(above, from_above(), dark, {60, 60}, {plate(1, 0)})) * 0.995);
 }
@@ -115,7 +114,8 @@ TEST(BodyFraming, HasAllOfABodyInView) {
   framing.add(plate(5, 0));
   const View view = framing.view();
   for (const double x : {-5.0, 5.0}) {
-    const Eigen::Vector4d clip = view.projection_matrix(1, {1, 100}) * view.view_matrix() * Eigen::Vector4d(x, -5, 0, 1);
+    const Eigen::Vector4d clip =
+        view.projection_matrix(1, {1, 100}) * view.view_matrix() * Eigen::Vector4d(x, -5, 0, 1);
     EXPECT_LT(std::abs(clip[0] / clip[3]), 1);
   }
 }

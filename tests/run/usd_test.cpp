@@ -114,25 +114,6 @@ TEST(Usd, ItsGroundLiesWhereItLies) {
   EXPECT_NEAR(0.6 * m[12] + 0.8 * m[14], -1.25, 1e-15);
 }
 
-TEST(Usd, ItsBodiesAreMeshesThatMove) {
-  const test::SceneFolder folder;
-  const Scene scene = folder.load(
-      test::moving_scene + "[[effects.body]]\nbox = [0.5, 0.4, 0.1]\ncenter = [0, 0, -2]\nvelocity = [1, 0, 0]\n");
-  const auto [result, frames] = test::write_motion(scene, {folder.path("x.usda")});
-  const UsdLayer layer = parse_usd(SourceText::read(folder.path("x.usda")));
-  for (const UsdPrim& prim : layer.prims.at(0).children) {
-    if (prim.name != "Body1") continue;
-    EXPECT_EQ(prim.find("faceVertexIndices")->first()->numbers.size(), 36U);
-    const UsdAttribute* points = prim.find("points");
-    ASSERT_EQ(points->samples.size(), frames.size());
-    for (std::size_t k = 0; k < frames.size(); ++k) {
-      EXPECT_NEAR(points->samples[k].value.numbers[0], -0.25 + frames[k].time, 1e-6);
-    }
-    return;
-  }
-  FAIL() << "no body";
-}
-
 TEST(Usd, NamesTheTextureAsSeenFromItsFolder) {
   const test::SceneFolder folder;
   folder.write("pictures/mine.png", "");

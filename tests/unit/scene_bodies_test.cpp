@@ -69,9 +69,9 @@ TEST(SphereThickness, IsHowFarBeyondItsRadiusItPushes) {
   EXPECT_DOUBLE_EQ(reach(""), 0.165);
   EXPECT_DOUBLE_EQ(reach("thickness = 0.04"), 0.19);
   EXPECT_DOUBLE_EQ(reach("scale = 2"), 0.3);
-  EXPECT_EQ(folder.problems(least_scene +
-                            "[effects.sphere]\ncenter = [0, 0, -3]\nradius = 1\nscale = 1.1\nthickness = 0.04"),
-            "scene.toml:10:13: thickness: give only one of 'scale' and 'thickness': each says how far the push reaches");
+  EXPECT_EQ(
+      folder.problems(least_scene + "[effects.sphere]\ncenter = [0, 0, -3]\nradius = 1\nscale = 1.1\nthickness = 0.04"),
+      "scene.toml:10:13: thickness: give only one of 'scale' and 'thickness': each says how far the push reaches");
 }
 
 TEST(StartOverlap, CountsVerticesInsideAndHowDeepTheyAre) {
