@@ -39,9 +39,8 @@ TEST(Arm, AClothThatHangsOnItStaysOutOfIt) {
     SimulationSettings s = setup(make_cloth(sheet, sheet, 1, 100, pins), {method}, 0.01);
     s.effects = {Gravity{}, Damping{.factor = 0.5}, Body{.mesh = arm, .thickness = thickness}};
     for (const int pin : pins) {
-      s.effects.add(MovingPins{.pins = {pin},
-                               .keyframes = way_of(*arm, sheet.positions.row(pin)),
-                               .path = MovingPins::Path::position});
+      s.effects.add(MovingPins{
+          .pins = {pin}, .keyframes = way_of(*arm, sheet.positions.row(pin)), .path = MovingPins::Path::position});
     }
     Simulation simulation(s);
     const auto topology =
