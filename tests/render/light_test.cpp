@@ -100,6 +100,21 @@ TEST(Light, LetsNoClothVanishBeforeTheDefaultBackground) {
   }
 }
 
+TEST(Light, ComesFromAboveOnTheLeft) {
+  // The same sheet, leaning by 40° towards where the light may come from.
+  const auto leaning = [](double x, double y) {
+    Mesh mesh = make_grid(4, 4);
+    const Vector3d normal = Vector3d(std::sin(0.7) * x, std::sin(0.7) * y, std::cos(0.7));
+    const auto turned = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal).toRotationMatrix();
+    mesh.positions *= turned.transpose();
+    Look look;
+    look.color = {0.5, 0.5, 0.5};
+    return lightness(draw(mesh, from_above(), look, {101, 101}).at(50, 50));
+  };
+  EXPECT_GT(leaning(-1, 0), leaning(1, 0) + 15);
+  EXPECT_GT(leaning(0, 1), leaning(0, -1) + 15);
+}
+
 TEST(Light, OnAFlatSheetIsThatOfItsFormula) {
   // Lambert's cosine of the key light, a fill light that wraps around, sky and floor by the normal, and the film's
   // shoulder: from the eye's direction there is neither sheen nor highlight worth a byte.

@@ -120,6 +120,37 @@ TEST(Shadow, IsNotThereOnAFlatSheetHoweverItLies) {
   }
 }
 
+TEST(Shadow, IsNotOfASurfaceOnItself) {
+  // For the sake of a speck above one corner all of a sheet is drawn as what may be in a shadow; far from there, none
+  // is.
+  const Mesh flat = make_grid(1, 1);
+  Frame frame;
+  frame.positions = flat.positions;
+  const Vector3d light = Shot(frame, from_above(), 1).key_direction.cast<double>().normalized();
+  for (int turn = 0; turn < 14; ++turn) {
+    const Eigen::AngleAxisd lean(0.15 * turn - 1, Vector3d(std::cos(turn), std::sin(turn), 0));
+    Mesh mesh = flat;
+    mesh.positions.conservativeResize(7, 3);
+    mesh.positions.topRows<4>() = flat.positions * lean.toRotationMatrix().transpose();
+    const Vector3d corner = mesh.positions.row(0);
+    for (int k = 0; k < 3; ++k) mesh.positions.row(4 + k) = corner + 0.4 * light + 0.05 * Vector3d::Unit(k);
+    mesh.triangles.push_back({4, 5, 6});
+    mesh.uvs.clear();
+    const Eigen::Vector2d around(80 * (1 + corner.x()), 80 * (1 - corner.y()));
+    const Image with = draw(mesh, from_above(), only_shadows(), {160, 160});
+    const Image without = draw(mesh, from_above(), only_shadows(false), {160, 160});
+    int near = 0, far = 0;
+    for (int y = 0; y < 160; ++y) {
+      for (int x = 0; x < 160; ++x) {
+        const bool darker = with.at(x, y)[1] < without.at(x, y)[1];
+        ((Eigen::Vector2d(x, y) - around).norm() < 40 ? near : far) += darker ? 1 : 0;
+      }
+    }
+    EXPECT_GT(near, 0) << "the speck casts no shadow, leaning " << lean.angle();
+    EXPECT_EQ(far, 0) << "leaning " << lean.angle();
+  }
+}
+
 TEST(Shadow, OfAClothTakesTheSpheresHighlight) {
   Mesh roof = make_grid(8, 8);
   const std::vector<Collider> ball{SphereShape{{0, 0, 0}, 0.4}};
