@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -129,6 +131,32 @@ TEST_F(Gif, DoesNotFlickerWhereNothingMoves) {
   }
   EXPECT_EQ(changes, 0);
   EXPECT_GT(resting, 19 * 60 * height);  // more than what never moves
+}
+
+TEST_F(Gif, PutsAFrameRightWhenItIsShownAgain) {
+  // Noise costs so many bytes that pixels are shown as others, for one frame.
+  std::vector<Image> film;
+  std::uint32_t random = 1;
+  for (int k = 0; k < 12; ++k) {
+    Image& image = film.emplace_back(120, 100);
+    for (std::uint8_t& value : image.pixels) {
+      random = random * 1664525 + 1013904223;
+      value = static_cast<std::uint8_t>(50 * ((random >> 16) % 6));  // 216 colours
+    }
+  }
+  film.push_back(film.back());
+  write(film);
+  const std::vector<Image> shown = decoded_film(path("x.gif"));
+  ASSERT_EQ(shown.size(), film.size());
+  const auto most_off = [&](std::size_t k) {
+    int most = 0;
+    for (std::size_t i = 0; i < film[k].pixels.size(); ++i) {
+      most = std::max(most, std::abs(film[k].pixels[i] - shown[k].pixels[i]));
+    }
+    return most;
+  };
+  EXPECT_GT(most_off(film.size() - 2), 20) << "nothing is to be put right";
+  EXPECT_LE(most_off(film.size() - 1), 6);  // 4, weighted by how much a channel makes of the brightness
 }
 
 TEST_F(Gif, IsExactForAFilmOfFewColors) {

@@ -98,11 +98,13 @@ TEST(CoveredBox, ForgetsTheFrameBefore) {
     return Renderer(data_folder(), {120, 100}, view, Look{}, static_cast<int>(mesh.positions.rows()), mesh.triangles,
                     mesh.uvs);
   };
-  Frame small, large;
+  Frame small, large, away;
   large.positions = mesh.positions;
   small.positions = 0.2 * mesh.positions;
+  away.positions = mesh.positions.rowwise() + Eigen::RowVector3d(100, 0, 0);
   Renderer used = renderer();
-  for (const Frame* frame : {&large, &small, &large}) EXPECT_EQ(used.draw(*frame), renderer().draw(*frame));
+  for (const Frame* frame : {&large, &small, &large, &away, &small})
+    EXPECT_EQ(used.draw(*frame), renderer().draw(*frame));
 }
 
 TEST(CoveredBox, IsTightAndEndsAtThePicture) {

@@ -41,9 +41,10 @@ std::vector<Image> pictures(GlBackend backend, Between between) {
     mesh.positions(i, 2) += 0.1 * std::sin(5.0 * static_cast<double>(i));
   }
   const View view{{2, -4, 2}, {0, 0, 0}, {0, 0, 1}, 30};
-  Look blue, striped, flat;
+  Look blue, red, striped, flat;
   blue.color = Rgb{0.1, 0.2, 0.9};
   blue.translucency = 0.9;
+  red.color = Rgb{0.9, 0.2, 0.1};
   striped.mesh_lines = true;
   striped.line_color = Rgb{1, 0, 0};
   striped.sphere_color = Rgb{0, 1, 0};
@@ -52,7 +53,7 @@ std::vector<Image> pictures(GlBackend backend, Between between) {
   flat.ground_color = Rgb{0.5, 0.1, 0.1};
   const std::vector<Collider> ball{SphereShape{{0, 0, -0.5}, 0.4}}, both{ball[0], GroundShape{.height = -1}};
   std::vector<Image> images;
-  for (const Look& look : {blue, striped, flat}) {
+  for (const Look& look : {blue, red, striped, flat}) {
     for (const std::vector<Collider>& colliders : {std::vector<Collider>{}, ball, both}) {
       images.push_back(draw(mesh, view, look, {120, 100}, colliders, backend));
       between();

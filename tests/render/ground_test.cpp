@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
+#include <vector>
 
 #include "render/ground_shadow.hpp"
 #include "render/shot.hpp"
@@ -158,6 +161,27 @@ TEST(Ground, ShadowsEndSoftly) {
       }
     }
     EXPECT_GT(darker, 200) << height;
+  }
+}
+
+// Specks far away, whose shadows nobody sees, stretch the part that is drawn with shadows to all of the picture. The
+// cloth is hidden in the ball.
+TEST(Ground, HasAllOfABallsShadow) {
+  const View view = from_the_side();
+  const Vector3d light = Shot(Frame{}, view, 1.2).key_direction.cast<double>().normalized();
+  for (const double height : {0.5, 2.0, 4.0}) {
+    const Vector3d center = Vector3d(0, 0, -1) + height / light[2] * light;
+    Mesh within = make_grid(4, 4);
+    within.positions = (0.05 * within.positions).rowwise() + center.transpose();
+    std::vector<Collider> colliders{level, SphereShape{center, 0.4}};
+    const Image part = draw(within, view, Look{}, {240, 200}, colliders);
+    for (const double side : {-50.0, 50.0}) colliders.emplace_back(SphereShape{{side, side, -1}, 1e-6});
+    const Image whole = draw(within, view, Look{}, {240, 200}, colliders);
+    int most = 0;
+    for (std::size_t i = 0; i < part.pixels.size(); ++i) {
+      most = std::max(most, std::abs(part.pixels[i] - whole.pixels[i]));
+    }
+    EXPECT_LE(most, 1) << "at a height of " << height << " m";
   }
 }
 

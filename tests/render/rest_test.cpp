@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <numbers>
+#include <vector>
 
 #include "tests/render/drawing.hpp"
 #include "tests/support/random.hpp"
@@ -58,6 +60,29 @@ TEST(Rest, NoPixelOfLayersThatTouchFlickersAtAnyDistance) {
       for (double& coordinate : frame.positions.reshaped()) coordinate += random.between(-1e-7, 1e-7);
       EXPECT_EQ(flipped_pixels(renderer.draw(frame), first), 0) << "from " << distance << " m, frame " << k;
     }
+  }
+}
+
+TEST(Rest, TheTopmostLayerIsSeenFromAnyDistance) {
+  const Mesh mesh = pile();
+  const auto layer = static_cast<std::size_t>(mesh.positions.rows()) / 3;
+  std::vector<Rgb> colors(3 * layer, Rgb{0, 0, 1});
+  std::fill(colors.begin() + static_cast<std::ptrdiff_t>(2 * layer), colors.end(), Rgb{1, 0, 0});
+  Frame frame;
+  frame.positions = mesh.positions;
+  frame.colliders = {GroundShape{{0, 0, 1}, 0, 0.01}};
+  Look look;
+  look.shadows = false;  // or else what is in a shadow is drawn last, and what is below others cannot cover them
+  for (const double distance : {4.0, 40.0, 400.0, 3000.0}) {
+    const View view{{0, 0, distance}, {0, 0, 0}, {0, 1, 0}, 2 * std::atan(1.2 / distance) * 180 / std::numbers::pi};
+    const Image image = Renderer(data_folder(), {200, 200}, view, look, static_cast<int>(mesh.positions.rows()),
+                                 mesh.triangles, mesh.uvs)
+                            .draw(frame, colors);
+    int others = 0;
+    for (int y = 50; y < 110; ++y) {  // -0.36 to 0.36 m, and 0.6 to -0.12 m
+      for (int x = 70; x < 130; ++x) others += image.at(x, y)[0] > image.at(x, y)[2] + 30 ? 0 : 1;
+    }
+    EXPECT_EQ(others, 0) << "from " << distance << " m";
   }
 }
 
