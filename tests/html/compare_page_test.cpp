@@ -9,11 +9,11 @@ namespace {
 
 class ComparePage : public test::InBrowser {
  protected:
-  static std::string page() {
+  static std::string page(const std::vector<std::string>& methods = {"liu13", "liu13"}) {
     CompareResult result;
     std::vector<PageMoment> moments;
     for (const char* label : {"liu13, tolerance = 0.001", "implicit <exact>"}) {
-      result.motions.push_back({label, {}, {}, {}, {}, {}});
+      result.motions.push_back({label, {}, {}, {}, {}, {}, methods[result.motions.size()]});
     }
     result.differences = {{"integrator.method", {"liu13", "implicit"}}};
     for (int k = 0; k < 4; ++k) {
@@ -48,6 +48,18 @@ TEST_F(ComparePage, ShowsOneMomentOfAllMotions) {
   EXPECT_EQ(shown(), (nlohmann::json{"1", "1"}));
   EXPECT_EQ(browser_->run("return document.querySelector('.film output').textContent"), "t = 0.10 s");
   keep_screenshots("compare");
+}
+
+// As on the pages of studies: see method_series().
+TEST_F(ComparePage, GivesMotionsTheColoursOfTheirMethods) {
+  const auto colours = [&] {
+    return browser_->run(
+        "return [...document.querySelector('.chart').querySelectorAll('.series')].map((s) => s.classList[1])");
+  };
+  open(page({"quasi-newton", "implicit"}));
+  EXPECT_EQ(colours(), (nlohmann::json{"s3", "s1"}));
+  open(page());
+  EXPECT_EQ(colours(), (nlohmann::json{"s0", "s1"})) << "one method does not tell motions apart";
 }
 
 TEST_F(ComparePage, PlaysAndPauses) {

@@ -45,7 +45,7 @@ class InBrowser : public InScratchFolder {
     }
   }
 
-  /// Pictures of the page as it is now: narrow and wide, light and dark.
+  /// Pictures of the page as it is now: narrow and wide, light and dark, and on paper.
   void keep_screenshots(const std::string& name) {
     const char* folder = std::getenv("DRAPE_SCREENSHOTS");
     if (folder == nullptr) return;
@@ -57,8 +57,13 @@ class InBrowser : public InScratchFolder {
                                   (name + (dark ? "-dark-" : "-light-") + std::to_string(width) + ".png"));
       }
     }
+    browser_->set_print(false);
+    browser_->set_width(paper_width);
+    browser_->save_screenshot(std::filesystem::path(folder) / (name + "-paper.png"));
     browser_->set_theme(false);
   }
+
+  static constexpr int paper_width = 688;  // between the margins of A4 [CSS pixels]
 
   std::unique_ptr<Browser> browser_;
 };

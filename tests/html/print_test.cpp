@@ -18,8 +18,6 @@ namespace {
 
 class Paper : public test::InBrowser {
  protected:
-  static constexpr int paper_width = 688;  // between the margins of A4 [CSS pixels]
-
   void open_page(const Markup& content) { open(render({"kind", "title", "heading", {}, content, {}})); }
 
   void print(bool dark = false) {
