@@ -94,6 +94,7 @@ std::vector<Case> cases() {
       {"body_deforming", make_breathing_cushion(), make_lying_cloth},
       {"body_far_away", Body{.box = Eigen::Vector3d(1, 1, 1), .center = Eigen::Vector3d(0, 0, -9)}, make_moving_cloth},
       {"strain_limit", StrainLimit{.max_stretch = 1.1}, make_moving_cloth},
+      {"self_collision_smooth", SelfCollision{.thickness = 0.012}, make_resting_cloth},
       {"self_collision", SelfCollision{.thickness = 0.012}, make_moving_cloth},
       {"self_collision_folded", SelfCollision{.thickness = 0.012}, make_folded_cloth},
   };

@@ -14,13 +14,15 @@ using Index = std::size_t;
 // How far a vertex may go from where it was expected before candidates are searched anew, in thicknesses. More finds
 // more pairs that never touch, less searches more often.
 constexpr double slack = 0.25;
+// How much further apart than the thickness everything has to be for a search to be left out: far more than rounding.
+constexpr double clearly = 1.001;
 // After so many rounds all zones are joined: then it ends in as many rounds as there are vertices left outside.
 constexpr int most_zone_rounds = 50;
 
 }  // namespace
 
 SelfContact::SelfContact(const SelfCollision& values, const Cloth& cloth)
-    : values_(values), cloth_(cloth), candidates_(cloth) {
+    : values_(values), cloth_(cloth), candidates_(cloth), sheet_(cloth) {
   const auto count = static_cast<Index>(cloth.vertex_count());
   moving_.velocities.resize(count);
   for (int i = 0; i < cloth.vertex_count(); ++i) moving_.inverse_masses.push_back(1 / cloth.masses[i]);
@@ -35,8 +37,14 @@ void SelfContact::apply(const Vertices& x, double, double h, Vertices& v) {
   converged_ = true;
   if (!x.allFinite() || !v.allFinite()) return;  // diverged: nothing to keep apart
   load(x, h, v);
-  if (!resolved()) {
+  const double rounding = largest_rounding();
+  if (rounding > values_.thickness) {  // far from the origin layers cannot be told apart, and everything would touch
     converged_ = false;
+    return;
+  }
+  // Then there would be pairs to look at, perhaps, but no contact and no impact among them.
+  if (rounding < (clearly - 1) / 100 * values_.thickness &&
+      sheet_.stays_apart(x_, h, moving_.velocities, clearly * values_.thickness)) {
     return;
   }
   find_candidates();
@@ -58,10 +66,10 @@ void SelfContact::load(const Vertices& x, double h, const Vertices& v) {
   }
 }
 
-bool SelfContact::resolved() const {
+double SelfContact::largest_rounding() const {
   double largest = 0;
   for (const Point& target : target_) largest = std::max(largest, target.cwiseAbs().maxCoeff());
-  return largest * std::numeric_limits<double>::epsilon() <= values_.thickness;
+  return largest * std::numeric_limits<double>::epsilon();
 }
 
 void SelfContact::find_candidates() {

@@ -2,6 +2,7 @@
 
 #include "sim/collision/contacts.hpp"
 #include "sim/collision/rigid_zones.hpp"
+#include "sim/collision/smooth_sheet.hpp"
 #include "sim/effects/self_collision.hpp"
 #include "sim/system.hpp"
 
@@ -13,6 +14,7 @@ namespace drape {
 ///    it within the step are slowed down: contacts with friction, solved for by projected Gauss-Seidel.
 /// 2. Features that still collide on the way (time_of_impact) get inelastic impulses, in a few passes.
 /// 3. What collides after that moves as a rigid body, see RigidZones. After this step nothing collides.
+/// A cloth of which nothing can come near anything, see SmoothSheet, is not searched at all, with the same bits.
 /// Every change is by opposite impulses or keeps momentum otherwise, so linear momentum is kept to rounding.
 class SelfContact final : public MotionFilter {
  public:
@@ -23,8 +25,8 @@ class SelfContact final : public MotionFilter {
 
  private:
   void load(const Vertices& x, double h, const Vertices& v);
-  /// Whether the places are so exact that layers can be told apart. Far from the origin, everything would touch.
-  [[nodiscard]] bool resolved() const;
+  /// Of the coordinates of targets [m].
+  [[nodiscard]] double largest_rounding() const;
   void find_candidates();
   void repel();
   void stop_impacts();
@@ -46,6 +48,7 @@ class SelfContact final : public MotionFilter {
   SelfCollision values_;
   const Cloth& cloth_;
   CollisionCandidates candidates_;
+  SmoothSheet sheet_;
   MovingVertices moving_;
   RigidZones zones_;
   double h_ = 0;
