@@ -63,13 +63,25 @@ std::vector<std::string> doubts_of(const ClothTable& table, const ClothAndUvs& r
   if (const auto doubt = shape_of(result.cloth).doubt()) doubts.push_back(*doubt);
   const std::string* file = table.mesh->as<std::string>();  // a table may say which axis is up
   const bool turned = !table.rotate.isZero(0);
-  if (file != nullptr && !turned && is_obj(*file) && seems_y_up(result.unplaced)) {
+  if (file != nullptr && !turned && is_obj(*file) && seems_y_up(result.mesh.positions)) {
     doubts.push_back(
         fmt::format("it looks as if y pointed up in it, and here z does: perhaps {{ file = \"{}\", up = "
                     "\"y\" }} is meant; up = \"z\" ends this hint",
                     *file));
   }
   return doubts;
+}
+
+SelectableMesh selectable_mesh(const Mesh& mesh, const TomlValue& value, const std::filesystem::path& folder) {
+  SelectableMesh selectable{mesh.positions, mesh.triangles, {}, {}};
+  const TomlTable* table = value.as<TomlTable>();
+  if (table != nullptr && table->find("grid") != nullptr) return selectable;
+  Problems told({}, {});  // when the mesh was read
+  const std::optional<MeshName> named = read_mesh_name(value, "mesh", false, told);
+  if (!named) return selectable;
+  selectable.file = folder / named->file;
+  selectable.options = named->options;
+  return selectable;
 }
 
 /// Whether a value is a table with this key.
@@ -121,13 +133,14 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
       problems.add(table.rest->place, "rest: expected the vertices and triangles of mesh, but " + differs);
     }
   }
+  std::optional<SelectableMesh> selectable;
+  if (start) selectable = selectable_mesh(*start, *table.mesh, folder);
   std::vector<int> pins;
-  if (table.pins != nullptr) pins = read_pins(*table.pins, start ? &start->positions : nullptr, problems);
+  if (table.pins != nullptr) pins = read_pins(*table.pins, selectable ? &*selectable : nullptr, problems);
   const std::optional<Eigen::Vector3d> scale = read_scale(table.scale, problems);
   check_said_once(table, value, problems);
   if (!start || !scale || problems.count() != problems_before) return std::nullopt;
 
-  Vertices unplaced = start->positions;
   // Turning and moving would only round the rest lengths, so they are taken before that.
   scale_by(*scale, *start);
   if (!rest) rest = *start;
@@ -148,7 +161,7 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
 
   ClothAndUvs result{make_cloth(*start, *rest, table.mass, table.stiffness.value_or(1), std::move(pins)),
                      std::move(start->uvs),
-                     std::move(unplaced),
+                     std::move(*selectable),
                      std::move(inputs),
                      {}};
   if (!give_material(table, value, result.cloth, problems)) return std::nullopt;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/problems.hpp"
+#include "scene/selection.hpp"
 #include "scene/tables.hpp"
 #include "sim/cloth.hpp"
 
@@ -16,7 +17,7 @@ namespace drape {
 struct ClothAndUvs {
   Cloth cloth;
   std::vector<std::array<float, 2>> uvs;      ///< see Mesh::uvs
-  Vertices unplaced;                          ///< where its vertices were before [cloth.transform] [m]
+  SelectableMesh mesh;                        ///< as it was before [cloth.transform]
   std::vector<std::filesystem::path> inputs;  ///< the files that it was read from
   std::vector<std::string> doubts;            ///< what may not be meant about its mesh, a sentence each
 };

@@ -91,6 +91,18 @@ MeshMotion read_sequence(const std::filesystem::path& file, const MeshOptions& o
 
 bool is_obj(const std::filesystem::path& file) { return ending_of(file) == ".obj"; }
 
+std::vector<int> read_mesh_group(const std::filesystem::path& file, const std::string& group) {
+  if (file.empty() || !is_obj(file)) fail_file(file.empty() ? "grid" : file, "only an OBJ has groups");
+  return read_obj_group(SourceText::read(file), group);
+}
+
+std::vector<int> read_mesh_primvar(const std::filesystem::path& file, const MeshOptions& options,
+                                   const std::string& primvar) {
+  if (file.empty() || is_obj(file)) fail_file(file.empty() ? "grid" : file, "only a USD file has primvars");
+  const SourceText source = SourceText::read(file);
+  return read_usd_primvar(UsdStage(source, {.primvar = primvar}), options.prim, primvar);
+}
+
 Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options, Inputs* inputs) {
   const Format format = format_of(file);
   check_options(file, format, options);

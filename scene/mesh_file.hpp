@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "scene/mesh/options.hpp"
@@ -18,6 +19,15 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshOptions& options = {
 
 /// Whether a name is that of an OBJ, which says neither its unit nor its up axis.
 bool is_obj(const std::filesystem::path& file);
+
+/// The vertices of the faces of a group or an object of an OBJ, ascending.
+/// @throws UsageError if there is no such group, or the file is no OBJ
+std::vector<int> read_mesh_group(const std::filesystem::path& file, const std::string& group);
+
+/// The vertices of a USD file's mesh at which one of its primvars, a number for each point, is not 0; ascending.
+/// @throws UsageError if there is no such primvar, or the file is no USD
+std::vector<int> read_mesh_primvar(const std::filesystem::path& file, const MeshOptions& options,
+                                   const std::string& primvar);
 
 /// Reads a mesh that may move: that of a USD file (see read_usd_mesh_motion), or an OBJ sequence,
 /// "body/{frame:04}.obj": files with the same triangles, the first at 0 s and one every 1/frames_per_second. Any other

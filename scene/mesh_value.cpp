@@ -18,6 +18,7 @@ namespace {
 constexpr std::int64_t most_grid_cells = 4'000'000;
 
 const std::vector<std::string> mesh_name_keys = {"file", "prim", "up"};
+const std::vector<std::string> motion_name_keys = {"file", "prim", "up", "fps"};
 
 std::optional<Mesh> read_grid(const TomlValue& value, const std::string& name, Problems& problems) {
   const TomlTable& table = *value.as<TomlTable>();
@@ -47,7 +48,7 @@ std::optional<Mesh> read_grid(const TomlValue& value, const std::string& name, P
 
 std::optional<Mesh> read_named(const TomlValue& value, const std::string& name, const std::filesystem::path& folder,
                                std::vector<std::filesystem::path>& inputs, Problems& problems) {
-  const std::optional<MeshName> named = read_mesh_name(value, name, problems);
+  const std::optional<MeshName> named = read_mesh_name(value, name, false, problems);
   if (!named) return std::nullopt;
   try {
     Mesh mesh = read_mesh(folder / named->file, named->options, &inputs);
@@ -61,7 +62,8 @@ std::optional<Mesh> read_named(const TomlValue& value, const std::string& name, 
 
 }  // namespace
 
-std::optional<MeshName> read_mesh_name(const TomlValue& value, const std::string& name, Problems& problems) {
+std::optional<MeshName> read_mesh_name(const TomlValue& value, const std::string& name, bool may_move,
+                                       Problems& problems) {
   if (const std::string* file = value.as<std::string>()) return MeshName{.file = *file, .options = {}};
   const TomlTable* table = value.as<TomlTable>();
   if (table == nullptr) {
@@ -70,11 +72,17 @@ std::optional<MeshName> read_mesh_name(const TomlValue& value, const std::string
     return std::nullopt;
   }
   const std::size_t before = problems.count();
+  const std::vector<std::string>& keys = may_move ? motion_name_keys : mesh_name_keys;
   MeshName mesh;
   for (const TomlEntry& entry : table->entries) {
-    if (std::ranges::find(mesh_name_keys, entry.name) == mesh_name_keys.end()) {
+    if (std::ranges::find(keys, entry.name) == keys.end()) {
       problems.add(entry.place, fmt::format("{}: unknown key '{}'{}", name, entry.name,
-                                            did_you_mean(entry.name, mesh_name_keys, "the keys are")));
+                                            did_you_mean(entry.name, keys, "the keys are")));
+      continue;
+    }
+    if (entry.name == "fps") {
+      const Range positive{.minimum = 0, .minimum_excluded = true};
+      mesh.options.frames_per_second = read_number(entry.value, name + ".fps", positive, problems).value_or(1);
       continue;
     }
     const auto text = read_string(entry.value, name + "." + entry.name, problems);

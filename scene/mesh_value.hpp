@@ -19,8 +19,9 @@ struct MeshName {
 };
 
 /// Reads the name of a mesh, "cloth.obj", or { file = "cloth.usda", prim = "/World/cloth" }; `up = "y"` beside `file`
-/// says which axis an OBJ means.
-std::optional<MeshName> read_mesh_name(const TomlValue& value, const std::string& name, Problems& problems);
+/// says which axis an OBJ means, and `fps`, of one that may move, how fast an OBJ sequence is.
+std::optional<MeshName> read_mesh_name(const TomlValue& value, const std::string& name, bool may_move,
+                                       Problems& problems);
 
 /// Reads a mesh: { grid = [columns, rows] }, or one that is named as above.
 /// @param folder the scene's, where its files are

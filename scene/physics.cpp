@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <any>
+#include <memory>
+#include <optional>
 
 #include "core/hash.hpp"
 #include "core/read_file.hpp"
 #include "scene/effects_reader.hpp"
 #include "scene/tables.hpp"
 #include "scene/value_text.hpp"
+#include "sim/mesh_motion.hpp"
 
 namespace drape {
 namespace {
@@ -44,6 +48,24 @@ std::string file_text(const std::filesystem::path& file) {
   return "a file (" + hash.text() + ")";
 }
 
+/// A mesh that moves, wherever it was read from.
+std::string motion_text(const MeshMotion* motion) {
+  if (motion == nullptr) return "";
+  Hash hash;
+  hash.add(hash_of(motion->mesh.triangles.data(), motion->mesh.triangles.size()));
+  hash.add(hash_of(motion->mesh.positions));
+  hash.add(hash_of(motion->times.data(), motion->times.size()));
+  for (const Vertices& sample : motion->samples) hash.add(hash_of(sample));
+  return fmt::format("{} vertices at {} times ({})", motion->mesh.positions.rows(), motion->times.size(), hash.text());
+}
+
+/// What stands for a value of a form of its own; nothing where it is not one that effects have.
+std::optional<std::string> own_text(const Key& key) {
+  const auto* form = std::get_if<OwnForm>(&key.target);
+  auto* const* motion = form == nullptr ? nullptr : std::any_cast<std::shared_ptr<const MeshMotion>*>(&form->target);
+  return motion == nullptr ? std::nullopt : std::optional(motion_text((*motion)->get()));
+}
+
 }  // namespace
 
 std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, const std::vector<ReadEffect>& effects,
@@ -64,6 +86,10 @@ std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, 
     Keys keys;
     effect.describe(keys);
     for (const Key& key : keys.all()) {
+      if (const auto text = own_text(key)) {
+        values.push_back({paths[i] + "." + key.name, *text});
+        continue;
+      }
       const TomlTable* table = effects[i].table->as<TomlTable>();
       const TomlValue* given = table == nullptr ? nullptr : table->find(key.name);
       const std::string* file = given == nullptr ? nullptr : given->as<std::string>();

@@ -171,18 +171,18 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   TableReader reader(folder, problems);
   reader.read_all(document, scene_tables(cloth_table, scene));
   bool cloth_good = false;
-  Vertices unplaced;
+  SelectableMesh mesh;
   std::vector<std::filesystem::path> cloth_inputs;
   if (const TomlValue* value = find_path(document, "cloth")) {
     if (auto cloth = read_cloth(cloth_table, *value, folder, problems)) {
       scene.simulation.cloth = std::move(cloth->cloth);
       scene.uvs = std::move(cloth->uvs);
-      unplaced = std::move(cloth->unplaced);
+      mesh = std::move(cloth->mesh);
       cloth_inputs = std::move(cloth->inputs);
       for (const std::string& doubt : cloth->doubts) {
         scene.doubts.push_back(problems.text(place_of(*value, "mesh")) + ": mesh: " + doubt);
       }
-      reader.set_vertices(&unplaced);
+      reader.set_mesh(&mesh);
       cloth_good = reader.good("cloth") && reader.good("cloth.transform");
     }
   }

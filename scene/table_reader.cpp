@@ -10,6 +10,7 @@
 #include "scene/check_settings.hpp"
 #include "scene/color.hpp"
 #include "scene/mesh_file.hpp"
+#include "scene/mesh_value.hpp"
 #include "scene/pins.hpp"
 #include "scene/usd/motion.hpp"
 #include "scene/values.hpp"
@@ -46,13 +47,13 @@ class KeyReader {
  public:
   /// @param table that the key is in
   KeyReader(const TomlTable& table, const TomlValue& value, const Key& key, const std::filesystem::path& folder,
-            const Vertices* vertices, Problems& problems, std::vector<std::filesystem::path>& files)
+            const SelectableMesh* mesh, Problems& problems, std::vector<std::filesystem::path>& files)
       : table_(table),
         value_(value),
         key_(key),
         range_{key.minimum, key.maximum, key.minimum_excluded},
         folder_(folder),
-        vertices_(vertices),
+        mesh_(mesh),
         problems_(problems),
         files_(files) {}
 
@@ -85,8 +86,8 @@ class KeyReader {
   void operator()(const OwnForm& form) const {
     if (auto* const* track = std::any_cast<std::shared_ptr<const SphereTrack>*>(&form.target)) {
       read_track(**track);
-    } else if (auto* const* mesh = std::any_cast<std::shared_ptr<const MeshMotion>*>(&form.target)) {
-      read_body(**mesh);
+    } else if (auto* const* moving = std::any_cast<std::shared_ptr<const MeshMotion>*>(&form.target)) {
+      read_moving_mesh(**moving);
     } else if (auto* const* rectangles = std::any_cast<std::vector<PixelRectangle>*>(&form.target)) {
       **rectangles = read_rectangles(value_, key_.name, problems_);
     } else {
@@ -94,9 +95,7 @@ class KeyReader {
     }
   }
   void operator()(const KeyframeList& list) const { read_keyframes(value_, key_.name, list, problems_); }
-  void operator()(const VertexSelection& selection) const {
-    *selection.vertices = read_pins(value_, vertices_, problems_);
-  }
+  void operator()(const VertexSelection& selection) const { *selection.vertices = read_pins(value_, mesh_, problems_); }
 
   void operator()(const FormulaList& list) const {
     if (const auto formulas = read_formulas(value_, key_.name, list.problem, problems_)) *list.formulas = *formulas;
@@ -131,18 +130,18 @@ class KeyReader {
     }
   }
 
-  /// The mesh of a body, of which the key `prim` beside it says which one of the file it is.
-  void read_body(std::shared_ptr<const MeshMotion>& mesh) const {
-    const std::optional<std::string> file = read_string(value_, key_.name, problems_);
-    if (!file) return;
-    MeshOptions options;
-    if (const TomlValue* prim = table_.find("prim"); prim != nullptr && prim->as<std::string>() != nullptr) {
-      options.prim = *prim->as<std::string>();
-    }
+  /// A mesh that may move. Where a body names its file alone, the key `prim` beside it says which one of the file it
+  /// is.
+  void read_moving_mesh(std::shared_ptr<const MeshMotion>& mesh) const {
+    std::optional<MeshName> named = read_mesh_name(value_, key_.name, true, problems_);
+    if (!named) return;
+    const TomlValue* prim = value_.as<std::string>() == nullptr ? nullptr : table_.find("prim");
+    if (prim != nullptr && prim->as<std::string>() != nullptr) named->options.prim = *prim->as<std::string>();
     try {
-      mesh = std::make_shared<MeshMotion>(read_mesh_motion(folder_ / *file, options, &files_));
+      mesh = std::make_shared<MeshMotion>(read_mesh_motion(folder_ / named->file, named->options, &files_));
     } catch (const UsageError& error) {
-      problems_.add(value_.place, fmt::format("{}: '{}' cannot be read:\n{}", key_.name, *file, error.what()));
+      problems_.add(value_.place,
+                    fmt::format("{}: '{}' cannot be read:\n{}", key_.name, named->file.string(), error.what()));
     }
   }
 
@@ -165,7 +164,7 @@ class KeyReader {
   const Key& key_;
   Range range_;
   const std::filesystem::path& folder_;
-  const Vertices* vertices_;
+  const SelectableMesh* mesh_;
   Problems& problems_;
   std::vector<std::filesystem::path>& files_;
 };
@@ -236,7 +235,7 @@ void TableReader::read_entries(const TomlTable& table, const TableType& type,
   for (const TomlEntry& entry : table.entries) {
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == entry.name; });
     if (key != keys.end()) {
-      std::visit(KeyReader(table, entry.value, *key, folder_, vertices_, problems_, files_), key->target);
+      std::visit(KeyReader(table, entry.value, *key, folder_, mesh_, problems_, files_), key->target);
     } else if (!contains(subtables, entry.name)) {
       report_unknown(entry, type, subtables);
     }

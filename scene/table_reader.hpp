@@ -6,8 +6,8 @@
 
 #include "scene/document.hpp"
 #include "scene/problems.hpp"
+#include "scene/selection.hpp"
 #include "scene/tables.hpp"
-#include "sim/mesh.hpp"
 
 namespace drape {
 
@@ -18,9 +18,8 @@ class TableReader {
   /// @param problems must outlive this object
   TableReader(std::filesystem::path folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
 
-  /// Says where the cloth's vertices are before it is placed in the world, which selections of vertices refer to. Until
-  /// then, and with null, only the form of a selection is checked.
-  void set_vertices(const Vertices* vertices) { vertices_ = vertices; }
+  /// Says what selections of vertices refer to. Until then, and with null, only their form is checked.
+  void set_mesh(const SelectableMesh* mesh) { mesh_ = mesh; }
 
   /// Reads those of the tables that the document has. Required ones must be there, and below its root there may be
   /// nothing else but a table `effects`, which this does not read.
@@ -46,7 +45,7 @@ class TableReader {
   [[nodiscard]] const Home* home_of(const std::string& key) const;
 
   std::filesystem::path folder_;
-  const Vertices* vertices_ = nullptr;
+  const SelectableMesh* mesh_ = nullptr;
   Problems& problems_;
   std::vector<Home> homes_;  // every key of every table, to say where one belongs
   std::vector<std::filesystem::path> files_;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "sim/keyframes.hpp"
@@ -8,11 +10,17 @@
 
 namespace drape {
 
-/// Pins that move together, without turning: pin k is at base + path(time).
+class MeshAnchors;
+
+/// Pins that move together: pin k is at base + path(time); where they turn, at middle + R(time)·(base − middle) +
+/// path(time), R being a turn about the fixed x axis, then y, then z; or where it holds on to a mesh.
 struct PinMotion {
-  std::vector<int> vertices;  ///< which they are
-  Vertices base;              ///< a row for each of them [m]
-  Keyframes path;             ///< [m]
+  std::vector<int> vertices;                                        ///< which they are
+  Vertices base = {};                                               ///< a row for each of them [m]
+  Keyframes path = Keyframes({Keyframe{}}, Interpolation::linear);  ///< [m]
+  std::optional<Keyframes> turn = {};                               ///< about the axes [degrees]
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();                 ///< about which they turn, as `base` is [m]
+  std::shared_ptr<const MeshAnchors> anchors = {};                  ///< of each of them, instead of all of that
 
   /// Writes where the pins are at a time [s] into their rows of x, n×3 [m].
   void place(double time, Vertices& x) const;
@@ -22,6 +30,12 @@ struct PinMotion {
   void drive(double from, double to, Vertices& v) const;
   /// The same with the velocity that they have at a time, where it jumps that before.
   void drive(double at, Vertices& v) const;
+
+ private:
+  /// Where the k-th pin is, and its velocity, of those that do more than shift.
+  [[nodiscard]] Eigen::Vector3d position(std::size_t k, double time) const;
+  [[nodiscard]] Eigen::Vector3d velocity(std::size_t k, double time) const;
+  [[nodiscard]] bool only_shifts() const { return !turn && !anchors; }
 };
 
 /// Pins that are let go.

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
+#include "core/nearest.hpp"
 #include "scene/mesh/builder.hpp"
 
 namespace drape {
@@ -37,7 +38,9 @@ struct Word {
 /// nothing. So each statement is checked on its own line, and its coordinates are read from there, correctly rounded.
 class ObjReader {
  public:
-  explicit ObjReader(const SourceText& source) : source_(source), buffer_(source.text()) {}
+  /// @param group of which the vertices are collected
+  explicit ObjReader(const SourceText& source, std::string group = {})
+      : source_(source), buffer_(source.text()), group_(std::move(group)) {}
 
   Mesh read() {
     reject_empty_statements();
@@ -47,12 +50,29 @@ class ObjReader {
     callbacks.index_cb = [](void* self, tinyobj::index_t* corners, int count) {
       static_cast<ObjReader*>(self)->face({corners, static_cast<std::size_t>(count)});
     };
+    callbacks.group_cb = [](void* self, const char** names, int count) {
+      static_cast<ObjReader*>(self)->enter({names, names + count}, static_cast<ObjReader*>(self)->in_group_);
+    };
+    callbacks.object_cb = [](void* self, const char* name) {
+      static_cast<ObjReader*>(self)->enter({name}, static_cast<ObjReader*>(self)->in_object_);
+    };
     std::istream stream(&buffer_);
     tinyobj::LoadObjWithCallback(stream, callbacks, this);
     if (builder_.vertex_count() == 0) source_.fail("there is no vertex ('v x y z') in the file");
     add_faces();
     if (builder_.triangle_count() == 0) source_.fail("there is no face ('f 1 2 3') in the file");
     return builder_.finish();
+  }
+
+  /// Of the group, once all is read.
+  [[nodiscard]] std::vector<int> group_vertices() {
+    if (std::ranges::find(groups_, group_) == groups_.end()) {
+      source_.fail(fmt::format("there is no group or object {} in the file{}", in_quotes(group_),
+                               did_you_mean(group_, groups_, "it has")));
+    }
+    std::ranges::sort(group_vertices_);
+    group_vertices_.erase(std::unique(group_vertices_.begin(), group_vertices_.end()), group_vertices_.end());
+    return std::move(group_vertices_);
   }
 
  private:
@@ -162,8 +182,15 @@ class ObjReader {
       corners_.push_back({absolute(found[i].vertex_index, builder_.vertex_count(), "vertices", offset),
                           has_uv ? absolute(found[i].texcoord_index, uvs_.size(), "texture coordinates", offset) : -1,
                           offset});
+      if (in_group_ || in_object_) group_vertices_.push_back(corners_.back().vertex);
     }
     face_sizes_.push_back(corners.size());
+  }
+
+  void enter(const std::vector<std::string>& names, bool& inside) {
+    if (group_.empty()) return;
+    groups_.insert(groups_.end(), names.begin(), names.end());
+    inside = std::ranges::find(names, group_) != names.end();
   }
 
   [[nodiscard]] int absolute(int number, std::size_t so_far, const char* what, std::size_t offset) const {
@@ -209,10 +236,20 @@ class ObjReader {
   std::vector<MeshBuilder::Uv> uvs_;
   std::vector<Corner> corners_;
   std::vector<std::size_t> face_sizes_;
+  std::string group_;
+  bool in_group_ = false, in_object_ = false;
+  std::vector<std::string> groups_;
+  std::vector<int> group_vertices_;
 };
 
 }  // namespace
 
 Mesh read_obj_mesh(const SourceText& source) { return ObjReader(source).read(); }
+
+std::vector<int> read_obj_group(const SourceText& source, const std::string& group) {
+  ObjReader reader(source, group);
+  reader.read();
+  return reader.group_vertices();
+}
 
 }  // namespace drape

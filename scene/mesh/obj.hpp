@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "scene/mesh/source.hpp"
 #include "sim/mesh.hpp"
 
@@ -11,5 +14,9 @@ namespace drape {
 /// lines and curves are passed over.
 /// @throws UsageError "file:line:column: message"
 Mesh read_obj_mesh(const SourceText& source);
+
+/// The vertices of the faces of a group ('g') or an object ('o'), ascending.
+/// @throws UsageError as above, and if there is no such group
+std::vector<int> read_obj_group(const SourceText& source, const std::string& group);
 
 }  // namespace drape

@@ -103,6 +103,21 @@ Mesh read_usd_mesh(const UsdStage& stage, const std::string& prim) {
   return read_mesh_prim(*path.back(), world_transform(stage, path, stage.layer().start_time_code));
 }
 
+std::vector<int> read_usd_primvar(const UsdStage& stage, const std::string& prim, const std::string& primvar) {
+  const UsdPath path = choose_usd_mesh(stage, prim);
+  const std::size_t points = usd_array(*path.back(), "points", 3).numbers.size() / 3;
+  const UsdValue& value = usd_array(*path.back(), "primvars:" + primvar, 1);
+  if (value.numbers.size() != points) {
+    value.place.fail(fmt::format("primvars:{}: expected a number for each of the {} points, found {}", primvar, points,
+                                 value.numbers.size()));
+  }
+  std::vector<int> found;
+  for (std::size_t i = 0; i < points; ++i) {
+    if (value.numbers[i] != 0) found.push_back(static_cast<int>(i));
+  }
+  return found;
+}
+
 Mesh read_usd_mesh(const SourceText& source, const std::string& prim) { return read_usd_mesh(UsdStage(source), prim); }
 
 }  // namespace drape

@@ -25,6 +25,12 @@ UsdPath choose_usd_mesh(const UsdStage& stage, const std::string& prim);
 Mesh read_usd_mesh(const UsdStage& stage, const std::string& prim = {});
 Mesh read_usd_mesh(const SourceText& source, const std::string& prim = {});
 
+/// The points of the same mesh at which a primvar is not 0, ascending.
+/// @param stage   read with this primvar, see UsdReading
+/// @param primvar without "primvars:": one number for each point
+/// @throws UsageError if the mesh has no such primvar, or it is of another shape
+std::vector<int> read_usd_primvar(const UsdStage& stage, const std::string& prim, const std::string& primvar);
+
 /// The same mesh as it moves: by its transform and those of its ancestors, by samples of its points, or by its
 /// skeleton (see UsdSkin). Its samples are at every time at which one of these has one, and where something may turn
 /// also at every time code in between: MeshMotion takes straight lines between them. The time of a sample is

@@ -13,6 +13,12 @@ using Kind = UsdToken::Kind;
 
 // Messages are put together only where they are needed: these run once per number of the file.
 
+/// A bool may be a word.
+std::optional<double> accept_number_or_bool(UsdLexer& lexer) {
+  if (!lexer.at_word("true") && !lexer.at_word("false")) return lexer.accept_number();
+  return lexer.take().text == "true" ? 1 : 0;
+}
+
 /// A number, or `count` > 1 of them between parentheses.
 void parse_tuple(UsdLexer& lexer, UsdValue& value, std::size_t count, const std::string& owner) {
   if (count > 1 && !lexer.accept('(')) lexer.fail_expected(fmt::format("'(' and {} numbers in {}", count, owner));
@@ -20,7 +26,7 @@ void parse_tuple(UsdLexer& lexer, UsdValue& value, std::size_t count, const std:
     if (i > 0 && !lexer.accept(',')) {
       lexer.fail_expected(fmt::format("',' and {} numbers in a tuple of {}", count, owner));
     }
-    const std::optional<double> number = lexer.accept_number();
+    const std::optional<double> number = accept_number_or_bool(lexer);
     if (!number) lexer.fail_expected("a finite number in " + owner);
     value.numbers.push_back(*number);
   }

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "sim/mesh_anchors.hpp"
 #include "sim/settings.hpp"
 #include "sim/system.hpp"
 
@@ -26,9 +29,17 @@ void MovingPins::describe(Keys& keys) {
                         static_cast<std::size_t>(path)},
            "s, m",
            "Positions over time: the displacement from their start, or the position of their centroid. The pins start "
-           "at their place in the cloth at 0 s, do not turn, and stay at the last keyframe.");
+           "at their place in the cloth at 0 s and stay at the last keyframe.");
+  keys.add(
+      "rotations", KeyframeList{{"rotate"}, &turns}, "s, degrees",
+      "Angles over time about the fixed x axis, then y, then z, around the pins' centroid, which `keyframes` moves. "
+      "They start at 0 and are interpolated one by one: 720 is two turns.");
+  keys.add(
+      "follow", OwnForm{"mesh that moves", &follow}, "",
+      "A mesh that they hold on to instead, `\"body/{frame:04}.obj\"` or `{ file, prim }`: each pin keeps its place "
+      "beside the nearest triangle at the start.");
   keys.choice("interpolation", interpolation, {"linear", "smooth"},
-              "Interpolation between keyframes: at constant speed, or with continuous velocity.");
+              "Interpolation between keyframes and between rotations: at constant speed, or with continuous velocity.");
   keys.add("release", &release, "s",
            "Time at which they are released, with the velocity they have then. Default: never.")
       .at_least(0);
@@ -42,7 +53,22 @@ void MovingPins::check(const SimulationSettings& settings, const ProblemSink& pr
     break;
   }
   if (pins.empty()) problem("pins", "expected at least one");
-  if (keyframes.empty() && !release) problem("", "give 'keyframes', 'release' or both; with neither, nothing happens");
+  if (keyframes.empty() && turns.empty() && !follow && !release) {
+    problem("", "give 'keyframes', 'rotations', 'follow' or 'release'; with none of them, nothing happens");
+  }
+  if (follow && !(keyframes.empty() && turns.empty())) {
+    problem("follow", "the mesh already says how they move: omit 'keyframes' and 'rotations'");
+  }
+  if (!turns.empty() && turns.front().time == 0 && !turns.front().value.isZero(0)) {
+    problem("rotations", "the pins start at their place in the cloth: give a rotation at 0 s a later time");
+  }
+  if (follow && !pins.empty()) {
+    try {
+      static_cast<void>(motion(cloth));
+    } catch (const std::invalid_argument& error) {
+      problem("follow", error.what());
+    }
+  }
   for (const Effect& other : settings.effects) {
     const auto* moving = other.as<MovingPins>();
     if (moving == this) break;
@@ -70,7 +96,7 @@ void MovingPins::install(System& system) const {
   const bool held =
       std::ranges::all_of(pins, [&](int vertex) { return std::ranges::binary_search(system.cloth.pins, vertex); });
   if (!held) return;
-  if (!keyframes.empty()) system.pin_motions.push_back(motion(system.cloth));
+  if (!keyframes.empty() || !turns.empty() || follow) system.pin_motions.push_back(motion(system.cloth));
   if (release) {
     // The first step that begins at that time or later; times are products and must not miss it by their rounding.
     const double step = std::ceil(*release / system.step * (1 - 1e-12));
@@ -78,21 +104,32 @@ void MovingPins::install(System& system) const {
   }
 }
 
-Eigen::Vector3d MovingPins::start(const Cloth& cloth) const {
-  if (path == Path::offset) return Eigen::Vector3d::Zero();
+Eigen::Vector3d MovingPins::middle(const Cloth& cloth) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const int vertex : pins) sum += cloth.positions.row(vertex).transpose();
   return sum / static_cast<double>(pins.size());
 }
 
+Eigen::Vector3d MovingPins::start(const Cloth& cloth) const {
+  return path == Path::offset ? Eigen::Vector3d::Zero() : middle(cloth);
+}
+
 PinMotion MovingPins::motion(const Cloth& cloth) const {
-  std::vector<Keyframe> all = keyframes;
-  if (all.front().time > 0) all.insert(all.begin(), {0, start(cloth)});
-  PinMotion motion{pins, Vertices(static_cast<Eigen::Index>(pins.size()), 3), Keyframes(std::move(all), interpolation)};
-  for (std::size_t k = 0; k < pins.size(); ++k) {
-    motion.base.row(static_cast<Eigen::Index>(k)) = cloth.positions.row(pins[k]);
+  PinMotion motion{.vertices = pins, .base = cloth.positions(pins, Eigen::all)};
+  if (follow) {
+    motion.anchors = std::make_shared<MeshAnchors>(*follow, motion.base, 0);
+    return motion;
   }
-  if (path == Path::position) motion.base.rowwise() -= start(cloth).transpose();
+  const auto starting_at = [this](std::vector<Keyframe> all, const Eigen::Vector3d& start) {
+    if (all.empty() || all.front().time > 0) all.insert(all.begin(), {0, start});
+    return Keyframes(std::move(all), interpolation);
+  };
+  const bool to_places = path == Path::position && !keyframes.empty();
+  motion.path = starting_at(keyframes, to_places ? middle(cloth) : Eigen::Vector3d::Zero());
+  if (to_places) motion.base.rowwise() -= middle(cloth).transpose();
+  if (turns.empty()) return motion;
+  motion.turn = starting_at(turns, Eigen::Vector3d::Zero());
+  motion.middle = to_places ? Eigen::Vector3d::Zero() : middle(cloth);
   return motion;
 }
 

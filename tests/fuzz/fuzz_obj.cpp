@@ -14,5 +14,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
     }
   });
+  drape::accepts_or_refuses([&] {
+    for (const int vertex : drape::read_obj_group(source, "g")) {
+      if (vertex < 0) std::abort();
+    }
+  });
   return 0;
 }

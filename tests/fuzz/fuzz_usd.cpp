@@ -31,6 +31,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
   });
   drape::accepts_or_refuses([&] {
+    const drape::UsdStage stage(source, {.primvar = "p"});
+    const auto points = static_cast<int>(drape::read_usd_mesh(stage).positions.rows());
+    for (const int point : drape::read_usd_primvar(stage, "", "p")) {
+      if (point < 0 || point >= points) std::abort();
+    }
+  });
+  drape::accepts_or_refuses([&] {
     const drape::TransformTrack track = drape::read_usd_motion(source);
     for (const double time : {-1.0, 0.0, 0.3, 1e9}) {
       if (!track.sphere_at(time).center.allFinite()) std::abort();

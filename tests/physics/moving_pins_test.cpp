@@ -169,7 +169,9 @@ TEST(MovingPinsChecks, SayWhatIsWrong) {
   };
   EXPECT_EQ(said(moving({0, 1}, path)), "pins: vertex 1 is not pinned; add it to [cloth] pins");
   EXPECT_EQ(said(drape::MovingPins{.pins = {0}}),
-            ": give 'keyframes', 'release' or both; with neither, nothing happens");
+            ": give 'keyframes', 'rotations', 'follow' or 'release'; with none of them, nothing happens");
+  EXPECT_EQ(said(drape::MovingPins{.pins = {0}, .turns = {{0, {0, 0, 10}}}}),
+            "rotations: the pins start at their place in the cloth: give a rotation at 0 s a later time");
   EXPECT_EQ(
       said(moving({0}, {{0, {0, 0, 0.5}}, {1, {0, 0, 0}}})),
       "keyframes: the pins start at their place in the cloth, and the keyframe at 0 s is 0.5 m away from it: give "

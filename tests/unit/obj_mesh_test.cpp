@@ -73,6 +73,19 @@ TEST(ObjReader, TakesAnyLineEnding) {
   }
 }
 
+// What tools that sew write: quads beside pentagons, numbers that count back, lines of their own, and a seam of which
+// both sides are there.
+TEST(ObjReader, ReadsAGarmentOfOtherTools) {
+  const Mesh mesh = parse(
+      "v 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nvt 0 0\r\nvt 1 0\r\nvt 1 1\r\nvt 0 1\r\nf -4/-4 -3/-3 -2/-2 "
+      "-1/-1\r\nv 1 0 0\r\nv 2 0 0\r\nv 2.5 0.5 0\r\nv 2 1 0\r\nv 1 1 0\r\nvv 2 5\r\nvv 3 9\r\ns off\r\nf 5 6 7 8 "
+      "9\r\n");
+  EXPECT_EQ(mesh.positions.rows(), 9);
+  EXPECT_EQ(mesh.triangles.size(), 2U + 3U);
+  EXPECT_EQ(mesh.triangles.front(), (Triangle{0, 1, 2}));
+  EXPECT_EQ(mesh.uvs.size(), 3 * mesh.triangles.size());
+}
+
 TEST(ObjReader, MayNameVerticesFurtherDownTheFile) {
   EXPECT_EQ(parse("f 1 2 3\n" + kCorners).triangles[0], (Triangle{0, 1, 2}));
 }

@@ -1,0 +1,237 @@
+#include "scene/selection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/nearest.hpp"
+#include "scene/mesh_file.hpp"
+#include "scene/values.hpp"
+
+namespace drape {
+namespace {
+
+const std::vector<std::string> selection_keys = {"box", "ball", "circle", "border", "group", "primvar", "every"};
+
+class Selection {
+ public:
+  Selection(const SelectableMesh* mesh, Problems& problems) : mesh_(mesh), problems_(problems) {}
+
+  void read(const TomlEntry& entry, const std::string& name) {
+    const std::size_t before = problems_.count();
+    if (entry.name == "box") read_box(entry.value, name);
+    if (entry.name == "ball") read_ball(entry.value, name);
+    if (entry.name == "circle") read_circle(entry.value, name);
+    if (entry.name == "border") read_border(entry.value, name);
+    if (entry.name == "group" || entry.name == "primvar") read_named(entry, name);
+    if (mesh_ == nullptr || problems_.count() != before || !vertices_.empty()) return;
+    const bool of_space = entry.name == "box" || entry.name == "ball" || entry.name == "circle";
+    problems_.add(entry.value.place, of_space ? fmt::format("{}: no vertex of the mesh is in this {}", name, entry.name)
+                                              : fmt::format("{}: it has no vertex", name));
+  }
+
+  std::vector<int> every(std::size_t n) && {
+    std::vector<int> kept;
+    for (std::size_t i = 0; i < vertices_.size(); i += n) kept.push_back(vertices_[i]);
+    return kept;
+  }
+
+ private:
+  template <class Inside>
+  void add_where(const Inside& inside) {
+    for (Eigen::Index i = 0; mesh_ != nullptr && i < mesh_->positions.rows(); ++i) {
+      if (inside(Eigen::Vector3d(mesh_->positions.row(i)))) vertices_.push_back(static_cast<int>(i));
+    }
+  }
+
+  void read_box(const TomlValue& box, const std::string& name) {
+    const TomlArray* corners = box.as<TomlArray>();
+    if (corners == nullptr || corners->size() != 2) {
+      problems_.add(box.place,
+                    fmt::format("{}: expected two corners, [[x, y, z], [x, y, z]], found {}", name,
+                                corners == nullptr ? box.kind() : fmt::format("an array of {}", corners->size())));
+      return;
+    }
+    const auto a = read_vector((*corners)[0], name + "[0]", {}, problems_);
+    const auto b = read_vector((*corners)[1], name + "[1]", {}, problems_);
+    if (!a || !b) return;
+    const Eigen::Array3d low = a->cwiseMin(*b), high = a->cwiseMax(*b);
+    add_where([&](const Eigen::Vector3d& p) { return (p.array() >= low).all() && (p.array() <= high).all(); });
+  }
+
+  /// The entry of a table, or null after a complaint.
+  const TomlValue* part(const TomlValue& value, const char* key, const std::string& name) {
+    const TomlValue* found = value.as<TomlTable>()->find(key);
+    if (found == nullptr) problems_.add(value.place, fmt::format("{}: missing key '{}'", name, key));
+    return found;
+  }
+
+  /// Whether a value is a table of these keys.
+  bool is_table(const TomlValue& value, const std::vector<std::string>& keys, const std::string& name) {
+    const TomlTable* table = value.as<TomlTable>();
+    if (table == nullptr) {
+      problems_.add(value.place, fmt::format("{}: expected {{ {} = … }}, found {}", name, keys.front(), value.kind()));
+      return false;
+    }
+    const std::size_t before = problems_.count();
+    for (const TomlEntry& entry : table->entries) {
+      if (std::ranges::find(keys, entry.name) != keys.end()) continue;
+      problems_.add(entry.place, fmt::format("{}: unknown key '{}'{}", name, entry.name,
+                                             did_you_mean(entry.name, keys, "the keys are")));
+    }
+    return problems_.count() == before;
+  }
+
+  std::optional<double> length(const TomlValue& value, const char* key, const std::string& name) {
+    const TomlValue* found = part(value, key, name);
+    if (found == nullptr) return std::nullopt;
+    return read_number(*found, fmt::format("{}.{}", name, key), {.minimum = 0, .minimum_excluded = true}, problems_);
+  }
+
+  std::optional<Eigen::Vector3d> center(const TomlValue& value, const std::string& name) {
+    const TomlValue* found = part(value, "center", name);
+    return found == nullptr ? std::nullopt : read_vector(*found, name + ".center", {}, problems_);
+  }
+
+  void read_ball(const TomlValue& ball, const std::string& name) {
+    if (!is_table(ball, {"center", "radius"}, name)) return;
+    const auto middle = center(ball, name);
+    const auto radius = length(ball, "radius", name);
+    if (!middle || !radius) return;
+    add_where([&](const Eigen::Vector3d& p) { return (p - *middle).norm() <= *radius; });
+  }
+
+  void read_circle(const TomlValue& circle, const std::string& name) {
+    if (!is_table(circle, {"center", "radius", "width", "normal"}, name)) return;
+    const auto middle = center(circle, name);
+    const auto radius = length(circle, "radius", name), width = length(circle, "width", name);
+    std::optional<Eigen::Vector3d> normal = Eigen::Vector3d::UnitZ();
+    if (const TomlValue* given = circle.as<TomlTable>()->find("normal")) {
+      normal = read_vector(*given, name + ".normal", {}, problems_);
+      if (normal && !(normal->stableNorm() > 0)) {
+        problems_.add(given->place, name + ".normal: expected a direction, found [0, 0, 0]");
+        return;
+      }
+    }
+    if (!middle || !radius || !width || !normal) return;
+    const Eigen::Vector3d axis = normal->stableNormalized();
+    add_where([&](const Eigen::Vector3d& p) {
+      const double height = (p - *middle).dot(axis);
+      const double out = (p - *middle - height * axis).norm() - *radius;
+      return 2 * std::hypot(height, out) <= *width;
+    });
+  }
+
+  void read_border(const TomlValue& value, const std::string& name) {
+    const std::optional<std::string> which = read_string(value, name, problems_);
+    if (!which) return;
+    const std::optional<Eigen::Vector3d> direction = parse_direction(*which);
+    if (!direction && *which != "all") {
+      problems_.add(value.place, fmt::format("{}: expected 'all' or a direction like 'z+', found '{}'", name, *which));
+      return;
+    }
+    if (mesh_ == nullptr) return;
+    const std::vector<int>* farthest = nullptr;
+    double most = -std::numeric_limits<double>::infinity();
+    const std::vector<std::vector<int>> rings = border_rings(mesh_->triangles);
+    for (const std::vector<int>& ring : rings) {
+      if (!direction) {
+        vertices_.insert(vertices_.end(), ring.begin(), ring.end());
+        continue;
+      }
+      const double distance = mesh_->positions(ring, Eigen::all).colwise().mean().dot(*direction);
+      if (farthest != nullptr && distance <= most) continue;
+      farthest = &ring;
+      most = distance;
+    }
+    if (farthest != nullptr) vertices_ = *farthest;
+  }
+
+  void read_named(const TomlEntry& entry, const std::string& name) {
+    const std::optional<std::string> text = read_string(entry.value, name, problems_);
+    if (!text || mesh_ == nullptr) return;
+    try {
+      vertices_ = entry.name == "group" ? read_mesh_group(mesh_->file, *text)
+                                        : read_mesh_primvar(mesh_->file, mesh_->options, *text);
+    } catch (const UsageError& error) {
+      problems_.add(entry.value.place, fmt::format("{}: {}", name, error.what()));
+    }
+  }
+
+  const SelectableMesh* mesh_;
+  Problems& problems_;
+  std::vector<int> vertices_;
+};
+
+}  // namespace
+
+std::optional<Eigen::Vector3d> parse_direction(std::string_view axes) {
+  if (axes.empty() || axes.size() % 2 != 0) return std::nullopt;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < axes.size(); i += 2) {
+    const std::size_t axis = std::string_view("xyz").find(axes[i]);
+    const char sign = axes[i + 1];
+    if (axis == std::string_view::npos || (sign != '+' && sign != '-')) return std::nullopt;
+    double& component = direction[static_cast<Eigen::Index>(axis)];
+    if (component != 0) return std::nullopt;
+    component = sign == '+' ? 1 : -1;
+  }
+  return direction;
+}
+
+std::vector<std::vector<int>> border_rings(const std::vector<Triangle>& triangles) {
+  std::map<Edge, int> uses;
+  const auto for_edges = [&](const auto& visit) {
+    for (const Triangle& t : triangles) {
+      for (std::size_t i = 0; i < 3; ++i) visit(t[i], t[(i + 1) % 3]);
+    }
+  };
+  const auto edge = [](int a, int b) { return Edge{std::min(a, b), std::max(a, b)}; };
+  for_edges([&](int a, int b) { ++uses[edge(a, b)]; });
+  std::multimap<int, int> next;  // along the border, as its triangles have their edges
+  for_edges([&](int a, int b) {
+    if (a != b && uses[edge(a, b)] == 1) next.emplace(a, b);
+  });
+  std::vector<std::vector<int>> rings;
+  while (!next.empty()) {
+    std::vector<int>& ring = rings.emplace_back();
+    for (auto step = next.begin(); step != next.end();) {
+      ring.push_back(step->first);
+      const int to = step->second;
+      next.erase(step);
+      step = next.find(to);
+    }
+  }
+  return rings;
+}
+
+std::vector<int> read_selection(const TomlValue& value, const std::string& name, const SelectableMesh* mesh,
+                                Problems& problems) {
+  const std::size_t before = problems.count();
+  const TomlEntry* form = nullptr;
+  int every = 1;
+  for (const TomlEntry& entry : value.as<TomlTable>()->entries) {
+    if (std::ranges::find(selection_keys, entry.name) == selection_keys.end()) {
+      problems.add(entry.place, fmt::format("{}: unknown key '{}'{}", name, entry.name,
+                                            did_you_mean(entry.name, selection_keys, "the keys are")));
+    } else if (entry.name == "every") {
+      every = read_int(entry.value, name + ".every", {.minimum = 1}, problems).value_or(1);
+    } else if (form != nullptr) {
+      problems.add(entry.place, fmt::format("{}: a selection has one form, and '{}' is given", name, form->name));
+    } else {
+      form = &entry;
+    }
+  }
+  if (form == nullptr && problems.count() == before) problems.add(value.place, name + ": expected { box = … }");
+  if (form == nullptr) return {};
+  Selection selection(mesh, problems);
+  selection.read(*form, name + "." + form->name);
+  return std::move(selection).every(static_cast<std::size_t>(every));
+}
+
+}  // namespace drape
