@@ -99,8 +99,10 @@ SimulationSettings eventful(Solver solver) {
       Wind{.acceleration = {1, 0, 0}},
       Air{.velocity = {1, 2, 0}, .gusts = {.speed = 1}},
       Bending{.rigidity = 1e-4, .cross_stiffness = 1},
-      MovingPins{
-          .pins = {0, 10}, .keyframes = {{1, {0, 0, 0.2}}, {2, {0.1, 0, 0}}}, .interpolation = Interpolation::smooth},
+      MovingPins{.pins = {0, 10},
+                 .keyframes = {{1, {0, 0, 0.2}}, {2, {0.1, 0, 0}}},
+                 .interpolation = Interpolation::smooth,
+                 .turns = {{1, {0, 0, 30}}}},
       Sphere{.center = Vector3d(0, 0, -0.3), .radius = 0.3, .response = response, .friction = 0.3},
       Ground{.height = -0.05, .response = response, .restitution = 0.5},
       StrainLimit{.max_stretch = 1.1},
