@@ -191,7 +191,10 @@ std::vector<std::string> Browser::requests() {
 }
 
 void Browser::save_screenshot(const std::filesystem::path& png) {
-  const Json picture = command("Page.captureScreenshot", {{"format", "png"}, {"captureBeyondViewport", true}});
+  const Json size = run("return [innerWidth, document.documentElement.scrollHeight]");  // beneath the scrollbar, too
+  const Json whole = {{"x", 0}, {"y", 0}, {"width", size.at(0)}, {"height", size.at(1)}, {"scale", 1}};
+  const Json picture =
+      command("Page.captureScreenshot", {{"format", "png"}, {"captureBeyondViewport", true}, {"clip", whole}});
   std::ofstream(png, std::ios::binary) << decode_base64(picture.at("data"));
 }
 
