@@ -30,10 +30,10 @@ BodyContact::BodyContact(std::shared_ptr<const MovingBody> body, const BodyLaw& 
     : body_(std::move(body)),
       law_(law),
       cloth_count_(cloth.vertex_count()),
-      cloth_patches_(patches(cloth.triangles, 0, cloth.vertex_count())),
+      cloth_patches_(make_patches(cloth.triangles, 0, cloth.vertex_count())),
       end_(body_->at(0)) {
   const Index body_count = end_.mesh->points().size(), count = Index(cloth_count_) + body_count;
-  body_patches_ = patches(body_->topology().triangles, cloth_count_, static_cast<int>(body_count));
+  body_patches_ = make_patches(body_->topology().triangles, cloth_count_, static_cast<int>(body_count));
   for (Eigen::Index i = 0; i < cloth.masses.size(); ++i) moving_.inverse_masses.push_back(1 / cloth.masses[i]);
   for (const int pin : cloth.pins) moving_.inverse_masses[Index(pin)] = 0;
   moving_.inverse_masses.resize(count, 0);
@@ -47,26 +47,9 @@ BodyContact::BodyContact(std::shared_ptr<const MovingBody> body, const BodyLaw& 
   boxes_ = end_.mesh->boxes();
   tree_.build(boxes_);
   start_ = end_;
-}
-
-std::vector<BodyContact::Patch> BodyContact::patches(const std::vector<Triangle>& triangles, int first,
-                                                     int vertex_count) {
-  std::vector<Edge> edges = unique_edges(triangles);
-  std::vector<char> edge_taken(edges.size(), 0), vertex_taken(Index(vertex_count), 0);
-  std::vector<Patch> result;
-  result.reserve(triangles.size());
-  for (const Triangle& t : triangles) {
-    Patch patch{{first + t[0], first + t[1], first + t[2]}, {}, {}};
-    for (Index c = 0; c < 3; ++c) {
-      const int p = t[c], q = t[(c + 1) % 3];
-      patch.own_vertex[c] = std::exchange(vertex_taken[Index(p)], 1) == 0;
-      if (p == q) continue;
-      const auto edge = std::ranges::lower_bound(edges, Edge{std::min(p, q), std::max(p, q)}) - edges.begin();
-      patch.own_edge[c] = std::exchange(edge_taken[Index(edge)], 1) == 0;
-    }
-    result.push_back(patch);
-  }
-  return result;
+  for (Eigen::Index i = 0; i < cloth.rest.rows(); ++i) x_[Index(i)] = target_[Index(i)] = cloth.rest.row(i).transpose();
+  for (const Patch& patch : cloth_patches_) cloth_boxes_.push_back(swept_box(patch, x_, target_, 0));
+  cloth_tree_.build(cloth_boxes_);
 }
 
 void BodyContact::apply(const Vertices& x, double time, double h, Vertices& v) {
@@ -113,33 +96,35 @@ void BodyContact::store(const Vertices& x, Vertices& v) const {
   }
 }
 
-Box BodyContact::swept_box(const Patch& patch, double margin) const {
-  Box box{x_[Index(patch.corners[0])], x_[Index(patch.corners[0])]};
-  for (const int i : patch.corners) {
-    box.low = box.low.cwiseMin(x_[Index(i)]).cwiseMin(target_[Index(i)]);
-    box.high = box.high.cwiseMax(x_[Index(i)]).cwiseMax(target_[Index(i)]);
-  }
-  box.low.array() -= margin;
-  box.high.array() += margin;
-  return box;
-}
-
 void BodyContact::find_candidates() {
   if (body_->deforms()) {
-    for (Index t = 0; t < boxes_.size(); ++t) boxes_[t] = swept_box(body_patches_[t], 0);
+    for (Index t = 0; t < boxes_.size(); ++t) boxes_[t] = swept_box(body_patches_[t], x_, target_, 0);
     tree_.refit(boxes_);
   }
   pairs_.clear();
   const double reach = (kept_part + search_slack) * law_.thickness;
-  for (const Patch& patch : cloth_patches_) {
-    const Box box = swept_box(patch, reach);
-    if (!box.overlaps(tree_.bounds())) continue;
-    tree_.for_overlapping(box, [&](int t) {
-      if (box.overlaps(boxes_[Index(t)])) add_pairs(patch, t);
-    });
-  }
+  for (Index k = 0; k < cloth_patches_.size(); ++k) cloth_boxes_[k] = swept_box(cloth_patches_[k], x_, target_, reach);
+  cloth_tree_.refit(cloth_boxes_);
+  cloth_tree_.for_overlapping(tree_, [&](int k, int t) {
+    const Patch& patch = cloth_patches_[Index(k)];
+    if (cloth_boxes_[Index(k)].overlaps(boxes_[Index(t)]) && !apart(patch, t, reach)) add_pairs(patch, t);
+  });
   found_for_ = target_;
   std::ranges::fill(changed_, 1);
+}
+
+bool BodyContact::apart(const Patch& cloth, int triangle, double reach) const {
+  const Point& axis = start_.mesh->face_normal(triangle);
+  const Triangle &a = cloth.corners, &b = body_patches_[Index(triangle)].corners;
+  double above = std::numeric_limits<double>::infinity(), below = above;
+  for (const std::vector<Point>* at : {&x_, &target_}) {
+    const auto height = [&](int i) { return axis.dot((*at)[Index(i)]); };
+    const double a0 = height(a[0]), a1 = height(a[1]), a2 = height(a[2]);
+    const double b0 = height(b[0]), b1 = height(b[1]), b2 = height(b[2]);
+    above = std::min(above, std::min({a0, a1, a2}) - std::max({b0, b1, b2}));
+    below = std::min(below, std::min({b0, b1, b2}) - std::max({a0, a1, a2}));
+  }
+  return std::max(above, below) > reach;
 }
 
 void BodyContact::add_pairs(const Patch& cloth, int triangle) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/collision/contacts.hpp"
+#include "sim/collision/patches.hpp"
 #include "sim/moving_body.hpp"
 #include "sim/system.hpp"
 
@@ -37,11 +38,6 @@ class BodyContact final : public MotionFilter {
   [[nodiscard]] bool converged() const override { return converged_; }
 
  private:
-  /// A triangle with the vertices and edges that it has and none before it has.
-  struct Patch {
-    Triangle corners;
-    std::array<bool, 3> own_vertex, own_edge;  // the edge from corner c to c + 1
-  };
   /// Features that may meet, and which of the body's it is: a triangle, or a corner of it or the edge that begins
   /// there.
   struct BodyPair {
@@ -53,13 +49,14 @@ class BodyContact final : public MotionFilter {
     double time;  // as a part of the step
   };
 
-  static std::vector<Patch> patches(const std::vector<Triangle>& triangles, int first, int vertex_count);
-  [[nodiscard]] Box swept_box(const Patch& patch, double margin) const;
   void load(const Vertices& x, double time, double h, const Vertices& v);
   /// Whether the places are so exact that cloth and body can be told apart.
   [[nodiscard]] bool resolved() const;
   void store(const Vertices& x, Vertices& v) const;
   void find_candidates();
+  /// Whether a plane along a triangle of the body lies between it and one of the cloth in the whole step, further than
+  /// `reach` [m] from both together.
+  [[nodiscard]] bool apart(const Patch& cloth, int triangle, double reach) const;
   void add_pairs(const Patch& cloth, int triangle);
   void add(const BodyPair& met);
   [[nodiscard]] bool is_free(int vertex) const { return moving_.inverse_mass(vertex) > 0; }
@@ -83,8 +80,8 @@ class BodyContact final : public MotionFilter {
   BodyLaw law_;
   int cloth_count_;  // the body's vertices are numbered on from the cloth's
   std::vector<Patch> cloth_patches_, body_patches_;
-  std::vector<Box> boxes_;  // of the body's patches
-  TriangleTree tree_;       // of those
+  std::vector<Box> cloth_boxes_, boxes_;  // of the cloth's patches, and of the body's
+  TriangleTree cloth_tree_, tree_;        // of those
 
   double h_ = 0;
   BodyAt start_, end_;

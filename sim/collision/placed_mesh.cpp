@@ -74,6 +74,7 @@ PlacedMesh::PlacedMesh(std::shared_ptr<const MeshTopology> topology, const Verti
 }
 
 void PlacedMesh::place(const Vertices& x) {
+  ++moves_;
   update(x);
   tree_.refit(boxes_);
 }
@@ -163,8 +164,7 @@ std::optional<Foot> PlacedMesh::find(const Point& point, double reach, int hint)
   if (hint >= 0) look_at(hint);
   tree_.for_nearest(point, limit, look_at);
   if (found < 0) return std::nullopt;
-  const Foot result = foot(point, found, best);
-  return result.distance <= reach ? std::optional(result) : std::nullopt;
+  return foot(point, found, best);
 }
 
 }  // namespace drape

@@ -40,13 +40,18 @@ class PlacedMesh {
   /// Moves it elsewhere.
   void place(const Vertices& x);
 
-  /// The nearest point of the mesh, of those within `reach` [m] and, where it is solid, of all for a point inside.
+  /// The nearest point of the mesh. Where it is further away than `reach` [m], and not because the point is inside of
+  /// what is solid, it need not be found.
   /// @param hint a triangle that may be the nearest, which makes it fast: it changes nothing about what is found
   [[nodiscard]] std::optional<Foot> find(const Point& point, double reach, int hint = -1) const;
 
   /// Out of the mesh at a feature of a triangle: of an edge or a corner where weights are zero. Not of unit length.
   [[nodiscard]] Point normal_at(int triangle, const Point& weights) const;
 
+  /// Unit vector out of a triangle; zero without an area.
+  [[nodiscard]] const Point& face_normal(int triangle) const { return normals_[static_cast<std::size_t>(triangle)]; }
+  /// How often it has been moved.
+  [[nodiscard]] int moves() const { return moves_; }
   [[nodiscard]] bool solid() const { return topology_->closed; }
   [[nodiscard]] const MeshTopology& topology() const { return *topology_; }
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
@@ -63,6 +68,7 @@ class PlacedMesh {
   std::vector<Point> normals_;  // of the triangles, unit vectors outwards; zero without an area
   std::vector<Box> boxes_;
   TriangleTree tree_;
+  int moves_ = 0;
 };
 
 }  // namespace drape

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -20,6 +21,10 @@ class TriangleTree {
   /// Moves the boxes that it was built for.
   void refit(std::span<const Box> boxes);
 
+  /// How far a point is from the box around all of them [m].
+  [[nodiscard]] double distance(const Eigen::Vector3d& p) const {
+    return std::sqrt(squared_distance(nodes_.front().box, p));
+  }
   /// Around all of them; of none, it overlaps nothing.
   [[nodiscard]] const Box& bounds() const { return nodes_.front().box; }
 
@@ -34,6 +39,33 @@ class TriangleTree {
       }
       for (int k = node.first; k < node.first + node.count; ++k) visit(order_[static_cast<std::size_t>(k)]);
       ++n;
+    }
+  }
+
+  /// Calls visit(k, l) for every box k and box l of another tree that overlap, and some that do not.
+  template <class Visit>
+  void for_overlapping(const TriangleTree& other, Visit&& visit) const {
+    std::array<std::pair<std::size_t, std::size_t>, 2 * most_depth> stack;
+    std::size_t height = 0;
+    stack[height++] = {0, 0};
+    while (height > 0) {
+      const auto [n, m] = stack[--height];
+      const Node &node = nodes_[n], &beside = other.nodes_[m];
+      if (!node.box.overlaps(beside.box)) continue;
+      const bool leaf = node.skip == n + 1, other_leaf = beside.skip == m + 1;
+      if (leaf && other_leaf) {
+        for (int k = node.first; k < node.first + node.count; ++k) {
+          for (int l = beside.first; l < beside.first + beside.count; ++l) {
+            visit(order_[static_cast<std::size_t>(k)], other.order_[static_cast<std::size_t>(l)]);
+          }
+        }
+      } else if (!leaf && (other_leaf || node.skip - n >= beside.skip - m)) {
+        stack[height++] = {nodes_[n + 1].skip, m};
+        stack[height++] = {n + 1, m};
+      } else {
+        stack[height++] = {n, other.nodes_[m + 1].skip};
+        stack[height++] = {n, m + 1};
+      }
     }
   }
 

@@ -1,10 +1,12 @@
 #include "sim/effects/body.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "core/keys.hpp"
 #include "sim/collision/body_contact.hpp"
@@ -14,21 +16,35 @@
 namespace drape {
 namespace {
 
+/// Where vertices were found to be beside a body. It saves time and changes nothing about what is found.
+struct Known {
+  const PlacedMesh* mesh = nullptr;  // of which it is known, while it has not moved
+  int moves = 0;
+  Point point = Point::Zero();  // in the body's coordinates
+  double clear = 0;             // how far from there nothing pushes, at least [m]
+  bool found = false;
+  Foot foot;
+};
+
 /// A body at one moment, with the layer in which it pushes.
 struct BodyLayer {
   BodyAt body;
   double thickness;
-  mutable int hint = -1;  // the triangle that was found last: the next vertex is near it
+  std::vector<Known>& known;  // of each vertex
 
-  bool find(const Eigen::Vector3d& point, SurfaceContact& contact) const {
-    const std::optional<Foot> foot = body.mesh->find(body.pose.in(point), thickness, hint);
-    if (!foot || foot->distance >= thickness) return false;
-    hint = foot->triangle;
-    contact.outward = body.pose.turn * foot->normal;
+  bool find(Eigen::Index vertex, const Eigen::Vector3d& point, SurfaceContact& contact) const {
+    const PlacedMesh& mesh = *body.mesh;
+    Known& k = known[static_cast<std::size_t>(vertex)];
+    const Point place = body.pose.in(point);
+    const bool same = k.mesh == &mesh && k.moves == mesh.moves();
+    if (same && k.clear > 0 && (place - k.point).squaredNorm() < k.clear * k.clear) return false;
+    if (!same || place != k.point) look(mesh, place, k);
+    if (!k.found || k.foot.distance >= thickness) return false;
+    contact.outward = body.pose.turn * k.foot.normal;
     contact.length = 1;
-    contact.gap = foot->distance - thickness;
-    contact.triangle = foot->triangle;
-    contact.weights = foot->weights;
+    contact.gap = k.foot.distance - thickness;
+    contact.triangle = k.foot.triangle;
+    contact.weights = k.foot.weights;
     return true;
   }
   [[nodiscard]] double gap(const Eigen::Vector3d& point) const { return nearest(point).distance - thickness; }
@@ -37,6 +53,13 @@ struct BodyLayer {
   }
 
  private:
+  void look(const PlacedMesh& mesh, const Point& place, Known& k) const {
+    const double reach = 2 * thickness;
+    const std::optional<Foot> foot = mesh.find(place, reach, k.foot.triangle);
+    // A little less than all of it, so that rounding does not matter.
+    const double distance = foot ? foot->distance : std::max(reach, mesh.tree().distance(place));
+    k = {&mesh, mesh.moves(), place, (1 - 1e-9) * (distance - thickness), foot.has_value(), foot.value_or(k.foot)};
+  }
   [[nodiscard]] Foot nearest(const Eigen::Vector3d& point) const {
     return body.mesh->find(body.pose.in(point), std::numeric_limits<double>::infinity()).value_or(Foot{});
   }
@@ -45,8 +68,9 @@ struct BodyLayer {
 struct BodySurface {
   std::shared_ptr<const MovingBody> body;
   double thickness;
+  std::shared_ptr<std::vector<Known>> known;
 
-  [[nodiscard]] BodyLayer at(double time) const { return {body->at(time), thickness}; }
+  [[nodiscard]] BodyLayer at(double time) const { return {body->at(time), thickness, *known}; }
   [[nodiscard]] Eigen::Vector3d displacement(double from, double to) const { return body->displacement(from, to); }
   [[nodiscard]] Eigen::Vector3d displacement(const SurfaceContact& contact, double from, double to) const {
     return body->displacement(contact.triangle, contact.weights, from, to);
@@ -118,7 +142,8 @@ void Body::check(const SimulationSettings& settings, const ProblemSink& problem)
 void Body::install(System& system) const {
   const std::shared_ptr<const MovingBody> moving = body();
   system.colliders.push_back(std::make_unique<DrawnBody>(moving, thickness));
-  install_contact(BodySurface{moving, thickness}, law(), system);
+  const auto known = std::make_shared<std::vector<Known>>(static_cast<std::size_t>(system.cloth.vertex_count()));
+  install_contact(BodySurface{moving, thickness, known}, law(), system);
   const BodyLaw limits{thickness, friction, std::sqrt(stiffness)};
   system.filters.push_back(std::make_unique<BodyContact>(moving, limits, system.cloth));
 }

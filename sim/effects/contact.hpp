@@ -55,7 +55,7 @@ struct PenaltyForce final : Force {
     const auto now = surface.at(time);
     SurfaceContact contact;
     for (Eigen::Index i = 0; i < state.x.rows(); ++i) {
-      if (!now.find(state.x.row(i).transpose(), contact) || arrives(start, i)) continue;
+      if (!find_contact(now, i, state.x.row(i).transpose(), contact) || arrives(start, i)) continue;
       const double pressure = -masses[i] * stiffness * contact.gap / contact.length;
       force.row(i) += pressure * contact.outward.transpose();
     }
@@ -79,7 +79,7 @@ struct PenaltyEnergy final : Energy {
     double total = 0;
     SurfaceContact contact;
     for (Eigen::Index i = 0; i < x.rows(); ++i) {
-      if (!now.find(x.row(i).transpose(), contact) || arrives(start, i)) continue;
+      if (!find_contact(now, i, x.row(i).transpose(), contact) || arrives(start, i)) continue;
       const double pressure = -masses[i] * stiffness * contact.gap;
       gradient.row(i) -= pressure * contact.normal().transpose();
       total -= 0.5 * pressure * contact.gap;
@@ -109,7 +109,7 @@ class PenaltyHessian final : public EnergyHessian {
     const auto now = energy_.surface.at(time);
     SurfaceContact contact;
     for (Eigen::Index i = 0; i < x.rows(); ++i) {
-      if (!now.find(x.row(i).transpose(), contact) || arrives(energy_.start, i)) continue;
+      if (!find_contact(now, i, x.row(i).transpose(), contact) || arrives(energy_.start, i)) continue;
       const Eigen::Vector3d n = contact.normal();
       const double k = energy_.masses[i] * energy_.stiffness;
       contacts_.push_back({i,
@@ -182,7 +182,7 @@ struct ContactFilter final : MotionFilter {
     for (const int i : free) {
       Eigen::Vector3d point = x.row(i).transpose();
       if (at_end) point += h * v.row(i).transpose();
-      if (!now.find(point, contact)) continue;
+      if (!find_contact(now, i, point, contact)) continue;
       if (start && start->was_outside(i)) continue;  // it was not pushed
       const Eigen::Vector3d n = contact.normal();
       const Eigen::Vector3d drift = displacement_at(surface, contact, time, time + h, of_all) / h;

@@ -74,7 +74,7 @@ struct ReboundFilter final : MotionFilter {
     const auto now = surface.at(time);
     SurfaceContact contact;
     for (const int i : free) {
-      start->outside[static_cast<std::size_t>(i)] = !now.find(state.x.row(i).transpose(), contact);
+      start->outside[static_cast<std::size_t>(i)] = !find_contact(now, i, state.x.row(i).transpose(), contact);
     }
     start->v = state.v;
   }
@@ -87,7 +87,7 @@ struct ReboundFilter final : MotionFilter {
     for (const int i : free) {
       if (!start->was_outside(i)) continue;
       const Eigen::Vector3d from = x.row(i).transpose(), mean = v.row(i).transpose();
-      if (!after.find(from + h * mean, contact)) continue;
+      if (!find_contact(after, i, from + h * mean, contact)) continue;
       const Eigen::Vector3d drift = displacement_at(surface, contact, time, time + h, of_all) / h;
       // The gap on the way there is c + b·t + fall/2·t².
       const double fall = gravity.dot(contact.normal()), c = std::max(0.0, before.gap(from));

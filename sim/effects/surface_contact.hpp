@@ -17,6 +17,16 @@ struct SurfaceContact {
   [[nodiscard]] Eigen::Vector3d normal() const { return outward / length; }
 };
 
+/// Whether a vertex is inside a surface, and how: see below. What remembers where vertices were is told which it is.
+template <class Shape>
+bool find_contact(const Shape& shape, Eigen::Index vertex, const Eigen::Vector3d& point, SurfaceContact& contact) {
+  if constexpr (requires { shape.find(vertex, point, contact); }) {
+    return shape.find(vertex, point, contact);
+  } else {
+    return shape.find(point, contact);
+  }
+}
+
 /// How far the part of a surface that a vertex touches goes from one time to another [s], where its parts do not move
 /// alike: then it has a displacement(contact, from, to).
 /// @param of_all its displacement(from, to) [m]
@@ -31,9 +41,9 @@ Eigen::Vector3d displacement_at(const Surface& surface, const SurfaceContact& co
 }
 
 // A moving surface M is a function of time: M.displacement(from, to) is how far it moves in between [m], and M.at(time)
-// is an object of which find(point, contact) says whether the point is inside the surface, and fills in how; gap(point)
-// is how far the point is from it, negative inside [m], and normal(point) the direction outwards. Contact takes the
-// surface as a template parameter, so that the loops over the vertices hold the geometry and no virtual call. The
-// surface is where the push begins, a little outside of what is drawn.
+// is an object of which find(point, contact), or find(vertex, point, contact), says whether the point is inside the
+// surface, and fills in how; gap(point) is how far the point is from it, negative inside [m], and normal(point) the
+// direction outwards. Contact takes the surface as a template parameter, so that the loops over the vertices hold the
+// geometry and no virtual call. The surface is where the push begins, a little outside of what is drawn.
 
 }  // namespace drape
