@@ -8,6 +8,11 @@
 #include "run/outputs.hpp"
 
 namespace drape {
+namespace {
+
+Camera usual_side() { return {.azimuth = Camera::usual_azimuth, .elevation = Camera::usual_elevation}; }
+
+}  // namespace
 
 bool chooses_side(const SweepRequest& request, const Camera& camera) {
   return !request.films.empty() && !camera.position && !(camera.azimuth && camera.elevation);
@@ -22,7 +27,6 @@ std::string key_seen_from(const std::string& key, const std::string& side) {
 
 Camera side_of_films(const SweepPlan& plan, const std::stop_token& stop) {
   struct Stopped {};
-  const Camera usual{.azimuth = Camera::usual_azimuth, .elevation = Camera::usual_elevation};
   const PlannedRun& run = plan.runs.at(plan.side.value());
   try {
     const Scene scene = load_scene(plan.request.scenes[run.scene], overrides_of(plan, run));
@@ -33,11 +37,11 @@ Camera side_of_films(const SweepPlan& plan, const std::stop_token& stop) {
                          if (stop.stop_requested()) throw Stopped();
                        }));
   } catch (const Stopped&) {
-    return usual;  // nothing is drawn any more
+    return usual_side();  // nothing is drawn any more
   } catch (const Error&) {
-    return usual;  // that run's own row says why
+    return usual_side();  // that run's own row says why
   } catch (const std::bad_alloc&) {
-    return usual;
+    return usual_side();
   }
 }
 

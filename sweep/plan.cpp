@@ -175,7 +175,7 @@ std::string run_key(const Scene& scene, const SweepRequest& request, const std::
 }
 
 std::string run_key(const Scene& scene, const SweepPlan& plan) {
-  const std::string key = run_key(scene, plan.request, plan.program);
+  std::string key = run_key(scene, plan.request, plan.program);
   if (!plan.side || !chooses_side(plan.request, scene.camera)) return key;
   return key_seen_from(key, plan.runs[*plan.side].key);
 }

@@ -96,7 +96,7 @@ TEST(SmoothSheet, KnowsNothingOfWhatIsNoRectangle) {
   cloth.triangles.pop_back();
   EXPECT_FALSE(SmoothSheet(cloth).stays_apart(places_of(cloth), 0.01, at_rest(cloth), 0.01)) << "a corner is cut off";
   cloth = square();
-  cloth.triangles.erase(cloth.triangles.begin() + cells * cells);
+  cloth.triangles.erase(cloth.triangles.begin() + std::ptrdiff_t{cells} * cells);
   EXPECT_FALSE(SmoothSheet(cloth).stays_apart(places_of(cloth), 0.01, at_rest(cloth), 0.01)) << "it has a hole";
   cloth = square();
   cloth.rest(cells, 2) = 0.3;
