@@ -18,6 +18,9 @@ constexpr double search_slack = 0.25;
 constexpr int solver_sweeps = 8;   // over all contacts, each time some are added
 constexpr int impact_passes = 10;  // with impulses, before what collides goes with the body
 constexpr int most_hold_rounds = 50;
+// The least of a contact's weight on the cloth that has to be on free vertices: they go as many times as fast as it as
+// this goes into one.
+constexpr double least_free_share = 0.25;
 
 bool opposite(const FeaturePair& pair, const std::array<double, 4>& weights) {
   const Index first = pair.feature == Feature::vertex_triangle ? 1 : 0;
@@ -167,13 +170,21 @@ Point BodyContact::outwards(const BodyPair& met) const {
   return is_corner ? Point(-out) : out;
 }
 
+bool BodyContact::is_at_pin(const FeaturePair& pair, const std::array<double, 4>& weights) const {
+  double share = 0;
+  for (Index i = 0; i < 4; ++i) {
+    if (pair.vertices[i] < cloth_count_ && is_free(pair.vertices[i])) share += std::abs(weights[i]);
+  }
+  return share < least_free_share;
+}
+
 std::optional<Contact> BodyContact::contact(const BodyPair& met, double time, bool near) const {
   const FeaturePair& pair = met.pair;
   const FourPoints start = gather(x_, pair.vertices), move = moves(pair);
   FourPoints p = start;
   for (Index i = 0; i < 4; ++i) p[i] += time * move[i];
   const std::array<double, 4> weights = nearest(pair.feature, p).weights;
-  if (near && !opposite(pair, weights)) return std::nullopt;
+  if (is_at_pin(pair, weights) || (near && !opposite(pair, weights))) return std::nullopt;
   Point before = Point::Zero(), change = Point::Zero();
   for (Index i = 0; i < 4; ++i) {
     before += weights[i] * (start[i] - start[2]);
@@ -226,9 +237,9 @@ void BodyContact::find_impacts() {
     const FeaturePair& pair = met.pair;
     if (std::ranges::none_of(pair.vertices, [&](int i) { return changed_[Index(i)] != 0; })) continue;
     const double widest = 0.5 * kept_part * law_.thickness;
-    if (const auto time = time_of_impact(pair.feature, gather(x_, pair.vertices), moves(pair), widest)) {
-      impacts_.push_back({met, *time});
-    }
+    const auto time = time_of_impact(pair.feature, gather(x_, pair.vertices), moves(pair), widest);
+    if (!time) continue;
+    if (const auto found = contact(met, *time, false)) impacts_.push_back({met, *found});
   }
   std::ranges::fill(changed_, 0);
 }
@@ -236,14 +247,10 @@ void BodyContact::find_impacts() {
 void BodyContact::stop_impacts() {
   find_impacts();
   for (int pass = 0; pass < impact_passes && !impacts_.empty(); ++pass) {
-    const Index before = contacts_.size();
     for (const Impact& impact : impacts_) {
-      const auto found = contact(impact.met, impact.time, false);
-      if (!found) continue;
       for (const int i : impact.met.pair.vertices) changed_[Index(i)] = 1;
-      contacts_.push_back(*found);
+      contacts_.push_back(impact.contact);
     }
-    if (contacts_.size() == before) return impacts_.clear();  // all of them from inside
     solve();
     find_impacts();
   }
@@ -254,7 +261,6 @@ void BodyContact::go_with_body() {
   const auto is_body = [&](int i) { return i >= cloth_count_; };
   for (int round = 0; !impacts_.empty() && round < most_hold_rounds; ++round) {
     for (const Impact& impact : impacts_) {
-      if (!contact(impact.met, impact.time, false)) continue;
       Point velocity = Point::Zero();
       double count = 0;
       for (const int i : impact.met.pair.vertices) {

@@ -46,7 +46,7 @@ class BodyContact final : public MotionFilter {
   };
   struct Impact {
     BodyPair met;
-    double time;  // as a part of the step
+    Contact contact;
   };
 
   void load(const Vertices& x, double time, double h, const Vertices& v);
@@ -60,7 +60,10 @@ class BodyContact final : public MotionFilter {
   void add_pairs(const Patch& cloth, int triangle);
   void add(const BodyPair& met);
   [[nodiscard]] bool is_free(int vertex) const { return moving_.inverse_mass(vertex) > 0; }
-  /// A contact of two features as they are at a part of the step; nothing if they meet from a solid's inside.
+  /// Whether two features meet at a pin, or almost: where that is, nothing else can change.
+  [[nodiscard]] bool is_at_pin(const FeaturePair& pair, const std::array<double, 4>& weights) const;
+  /// A contact of two features as they are at a part of the step; nothing if they meet from a solid's inside or at a
+  /// pin.
   /// @param near only if they are opposite each other and too near at the end of the step
   [[nodiscard]] std::optional<Contact> contact(const BodyPair& met, double time, bool near) const;
   /// The way out of a solid where a pair meets it, in the direction from its second feature to its first; zero on a
@@ -71,6 +74,7 @@ class BodyContact final : public MotionFilter {
   void stop_impacts();
   void go_with_body();
   void solve();
+  /// Of features that collide on their way, with a contact when they do.
   void find_impacts();
   /// The target of every vertex whose velocity has changed; finds the candidates anew if one went further than they
   /// were found for.
