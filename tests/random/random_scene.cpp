@@ -82,9 +82,14 @@ class Writer {
   [[nodiscard]] bool wild() const { return wild_ > 0; }
 
   /// Whether a scene that is meant to be right has the key: there are rules between keys.
-  /// @param motion which of a sphere's motions it has, if any
+  /// @param motion which of a sphere's or body's motions it has, if any
   bool wanted(const std::string& table, const Key& key, std::size_t motion) {
-    if (table == "effects.sphere") {
+    if (table == "effects.sphere" && (key.name == "scale" || key.name == "thickness")) {
+      return motion % 3 == (key.name == "scale" ? 0 : 1);
+    }
+    if (key.name == "box") return true;
+    if (key.name == "prim") return false;
+    if (table == "effects.sphere" || table == "effects.body") {
       constexpr std::array<std::string_view, 4> motions{"velocity", "orbit_period", "keyframes", "track"};
       const auto found = std::ranges::find(motions, key.name);
       if (found != motions.end()) return motion == static_cast<std::size_t>(found - motions.begin()) && motion < 3;
@@ -188,7 +193,10 @@ class Writer {
   std::string value(const Key&, const Eigen::Vector3d* v) {
     return vector(v->isZero(0) ? 1 : v->cwiseAbs().maxCoeff());
   }
-  std::string value(const Key&, const std::optional<Eigen::Vector3d>*) { return vector(1); }
+  std::string value(const Key& key, const std::optional<Eigen::Vector3d>*) {
+    if (!std::isfinite(key.minimum)) return vector(1);
+    return fmt::format("[{}, {}, {}]", positive(0.3), positive(0.3), positive(0.3));
+  }
   std::string value(const Key& key, const std::vector<int>*) { return fmt::format("[{}]", whole(key, 10)); }
 
   Random random_;
