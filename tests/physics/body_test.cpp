@@ -66,11 +66,7 @@ Cloth square(double side, int cells, double height) {
 class Bodies : public testing::TestWithParam<ContactCase> {
  protected:
   SimulationSettings settings(Cloth cloth, double step) const {
-    SimulationSettings result = setup(std::move(cloth), GetParam().method, step);
-    result.integrator.tolerance = 1e-13;
-    result.integrator.max_iterations = 2000;
-    result.effects = {Gravity{}};
-    return result;
+    return contact_settings(GetParam(), std::move(cloth), step);
   }
   Body body() const {
     return {.thickness = layer_thickness, .stiffness = push_stiffness, .response = GetParam().response};

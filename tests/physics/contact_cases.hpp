@@ -4,8 +4,10 @@
 
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "sim/effects/gravity.hpp"
 #include "sim/effects/response.hpp"
 #include "tests/support/setups.hpp"
 
@@ -35,6 +37,15 @@ inline std::vector<ContactCase> contact_cases() {
 /// Ends the name of a parametrised test with the method's and the response's.
 inline std::string contact_case_name(const testing::TestParamInfo<ContactCase>& info) {
   return std::string(info.param.method.name) + "_" + response_name(info.param.response);
+}
+
+/// A cloth under gravity, solved to convergence, so that only the physics is left.
+inline SimulationSettings contact_settings(const ContactCase& how, Cloth cloth, double step) {
+  SimulationSettings result = setup(std::move(cloth), how.method, step);
+  result.integrator.tolerance = 1e-13;
+  result.integrator.max_iterations = 2000;
+  result.effects = {Gravity{}};
+  return result;
 }
 
 /// Vertices that no spring joins, of masses from 0.5 to 2 kg.

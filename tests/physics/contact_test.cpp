@@ -21,13 +21,8 @@ constexpr double thickness = 0.02;  // [m]
 
 class Contact : public testing::TestWithParam<ContactCase> {
  protected:
-  /// Solved to convergence, so that only the physics is left.
   SimulationSettings settings(Cloth cloth, double step) const {
-    SimulationSettings result = setup(std::move(cloth), GetParam().method, step);
-    result.integrator.tolerance = 1e-13;
-    result.integrator.max_iterations = 2000;
-    result.effects = {Gravity{}};
-    return result;
+    return contact_settings(GetParam(), std::move(cloth), step);
   }
 
   /// A ground that goes down by tan θ along x, through the origin.
