@@ -20,13 +20,14 @@ struct EffectCost {
   double evaluated;  ///< where forces are evaluated once
   double solved;     ///< where a step is solved for
 };
-constexpr std::array<EffectCost, 8> effect_costs{{{"wind", 10e-9, 10e-9},
+constexpr std::array<EffectCost, 9> effect_costs{{{"wind", 10e-9, 10e-9},
                                                   {"field", 0.1e-6, 0.3e-6},
                                                   {"air", 0.1e-6, 0.25e-6},
                                                   {"bending", 20e-9, 50e-9},
                                                   {"sphere", 20e-9, 0.1e-6},
                                                   {"ground", 20e-9, 1e-6},
                                                   {"strain_limit", 6e-6, 6e-6},
+                                                  {"body", 1.5e-6, 3.5e-6},
                                                   {"self_collision", 4e-6, 4e-6}}};
 
 double of_a_spring(Method method) {
