@@ -4,13 +4,21 @@
 
 #include <charconv>
 #include <cstdlib>
+#include <mutex>
 #include <string_view>
 
 #include "core/error.hpp"
 
 namespace drape {
+namespace {
 
-void limit_llvmpipe_vector_width() {
+/// Of the environment: renderers may be made at the same time, and nothing else orders setting and reading it.
+std::mutex& environment() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+void limit_vector_width() {
   constexpr int widest = 256;
   const char* given = std::getenv("LP_NATIVE_VECTOR_WIDTH");
   if (given == nullptr) {
@@ -29,7 +37,15 @@ void limit_llvmpipe_vector_width() {
   }
 }
 
+}  // namespace
+
+void limit_llvmpipe_vector_width() {
+  const std::scoped_lock lock(environment());
+  limit_vector_width();
+}
+
 void prepare_llvmpipe() {
+  const std::scoped_lock lock(environment());
   const char* driver = std::getenv("GALLIUM_DRIVER");
   if (driver != nullptr && *driver != '\0' && std::string_view(driver) != "llvmpipe") {
     throw OutputError(fmt::format(
@@ -37,7 +53,7 @@ void prepare_llvmpipe() {
         "renderer: unset it",
         driver));
   }
-  limit_llvmpipe_vector_width();
+  limit_vector_width();
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0);
   setenv("EGL_LOG_LEVEL", "fatal", 0);
 }
