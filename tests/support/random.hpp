@@ -4,6 +4,16 @@
 
 namespace drape::test {
 
+/// How many random cases to try where this is enough: a tenth under a sanitizer, which looks for something else and
+/// takes ten times as long.
+constexpr int tries(int enough) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return enough / 10;
+#else
+  return enough;
+#endif
+}
+
 /// A small generator whose numbers are the same everywhere: Lehmer's, with Park and Miller's constants.
 class Random {
  public:

@@ -65,7 +65,7 @@ TEST(Intersection, IsNotWhereAFlatClothIsTurned) {
 
 TEST(Intersection, IsNotWhereAFlatClothIsPlacedAnywhere) {
   Random random;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < tries(300); ++i) {
     const Mesh grid = make_grid(1 + i % 20, 1 + i % 13);
     EXPECT_FALSE(goes_through_itself(placed(grid, random))) << i;
     EXPECT_FALSE(goes_through_itself(placed(joined(grid, grid), random))) << i << ", folded flat upon itself";
@@ -75,7 +75,7 @@ TEST(Intersection, IsNotWhereAFlatClothIsPlacedAnywhere) {
 // A cell is 0.1 wide, so the tip is behind the sheet by a millionth of that.
 TEST(Intersection, IsFoundHoweverLittleGoesThrough) {
   Random random;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < tries(300); ++i) {
     const double x = random.between(-0.9, 0.9), y = random.between(-0.9, 0.9);
     EXPECT_TRUE(goes_through_itself(placed(pierced_sheet(x, y, 1e-7), random))) << i;
     EXPECT_FALSE(goes_through_itself(placed(pierced_sheet(x, y, -1e-7), random))) << i;
@@ -91,7 +91,7 @@ TEST(Intersection, IsFoundAtASideAndAtACorner) {
     needle.triangles = {{0, 1, 2}};
     const Mesh mesh = joined(make_grid(20, 20), needle);
     EXPECT_TRUE(goes_through_itself(mesh)) << tip.transpose();
-    for (int i = 0; i < 100; ++i) EXPECT_TRUE(goes_through_itself(placed(mesh, random))) << tip.transpose();
+    for (int i = 0; i < tries(100); ++i) EXPECT_TRUE(goes_through_itself(placed(mesh, random))) << tip.transpose();
   }
 }
 
