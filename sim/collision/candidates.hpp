@@ -14,7 +14,7 @@ struct FeaturePair {
   Feature feature;
   std::array<int, 4> vertices;  ///< as in FourPoints
 
-  auto operator<=>(const FeaturePair&) const = default;
+  auto operator<=>(const FeaturePair&) const = default;  // NOLINT(modernize-use-nullptr): it takes <=> for a 0
 };
 
 /// The four points of a pair.
