@@ -73,9 +73,9 @@ bool SmoothSheet::lay_flat(const Cloth& cloth) {
   const double same = flatness * (high - low).maxCoeff();
   if (!((from_origin * normal).cwiseAbs().maxCoeff() <= same)) return false;
 
-  for (const auto& [i, j] : border) {
+  for (const Edge& side : border) {
     const auto both_at = [&](int axis, double place) {
-      return std::abs(flat_(i, axis) - place) <= same && std::abs(flat_(j, axis) - place) <= same;
+      return std::abs(flat_(side[0], axis) - place) <= same && std::abs(flat_(side[1], axis) - place) <= same;
     };
     if (!both_at(0, low[0]) && !both_at(0, high[0]) && !both_at(1, low[1]) && !both_at(1, high[1])) return false;
   }
