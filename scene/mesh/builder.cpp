@@ -97,7 +97,7 @@ bool MeshBuilder::add_polygon(std::span<const int> corners, std::span<const Uv> 
   std::vector<Eigen::Vector3d> points;
   points.reserve(corners.size());
   for (const int corner : corners) points.push_back(positions_[static_cast<std::size_t>(corner)]);
-  if (points.size() > kMaxConcaveCorners && !Outline(points).convex()) return false;
+  if (points.size() > most_concave_corners && !Outline(points).convex()) return false;
   for (const auto& triangle : triangulate(points)) add_triangle(triangle, corners, uvs);
   return true;
 }

@@ -10,7 +10,7 @@
 namespace drape {
 
 /// The most corners a face that is not convex can have: clipping its ears takes time that grows with their cube.
-inline constexpr std::size_t kMaxConcaveCorners = 256;
+inline constexpr std::size_t most_concave_corners = 256;
 
 /// Collects the vertices and polygons of a file into a Mesh.
 class MeshBuilder {
@@ -26,7 +26,7 @@ class MeshBuilder {
   /// Adds a polygon as triangles: a fan from its first corner where it is convex, else by clipping ears.
   /// @param corners at least 3, all below vertex_count()
   /// @param uvs one per corner, or empty
-  /// @return false, and nothing is added, if it is concave with more than kMaxConcaveCorners corners
+  /// @return false, and nothing is added, if it is concave with more than most_concave_corners corners
   [[nodiscard]] bool add_polygon(std::span<const int> corners, std::span<const Uv> uvs);
 
   /// The mesh; polygons without texture coordinates get (0, 0) if others have some.

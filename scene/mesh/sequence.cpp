@@ -14,7 +14,7 @@
 namespace drape {
 namespace {
 
-constexpr std::string_view kOpening = "{frame";
+constexpr std::string_view frame_opening = "{frame";
 
 [[noreturn]] void fail_sequence(const std::filesystem::path& file, const std::string& message) {
   throw UsageError(escape_controls(file.string() + ": " + message));
@@ -33,9 +33,9 @@ struct FrameName {
 /// Nothing unless there is {frame} or {frame:04} in the name.
 std::optional<FrameName> frame_name(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
-  const std::size_t begin = name.find(kOpening), end = name.find('}', begin);
+  const std::size_t begin = name.find(frame_opening), end = name.find('}', begin);
   if (begin == std::string::npos || end == std::string::npos) return std::nullopt;
-  const std::string digits = name.substr(begin + kOpening.size(), end - begin - kOpening.size());
+  const std::string digits = name.substr(begin + frame_opening.size(), end - begin - frame_opening.size());
   const bool padded = digits.size() == 3 && digits.starts_with(":0") && digits[2] >= '1' && digits[2] <= '9';
   if (!digits.empty() && !padded) return std::nullopt;
   return FrameName{name.substr(0, begin), name.substr(end + 1),
@@ -55,7 +55,7 @@ std::int64_t number_of(const FrameName& of, const std::string& name) {
 }  // namespace
 
 bool names_frames(const std::filesystem::path& file) {
-  return file.filename().string().find(kOpening) != std::string::npos;
+  return file.filename().string().find(frame_opening) != std::string::npos;
 }
 
 bool is_frame(const std::filesystem::path& file, const std::filesystem::path& named) {

@@ -13,9 +13,9 @@
 namespace drape {
 namespace {
 
-constexpr int kMaxArcs = 64;                // one within the other
-constexpr std::size_t kMaxPrims = 200;      // one within the other, as in one file
-constexpr std::size_t kMaxSpecs = 1 << 20;  // looked at, of all prims together
+constexpr int most_arcs = 64;                // one within the other
+constexpr std::size_t most_nested = 200;     // one within the other, as in one file
+constexpr std::size_t most_specs = 1 << 20;  // looked at, of all prims together
 
 bool is_within(std::string_view path, std::string_view root) {
   return path.starts_with(root) && (path.size() == root.size() || path[root.size()] == '/');
@@ -132,7 +132,7 @@ class UsdComposer {
   UsdPrim prim(const std::vector<Opinion>& opinions, std::string path, std::size_t depth) {
     UsdPrim prim;
     prim.place = opinions.front().spec->place;
-    if (depth == kMaxPrims) prim.place.fail(fmt::format("prims nested deeper than {}", kMaxPrims));
+    if (depth == most_nested) prim.place.fail(fmt::format("prims nested deeper than {}", most_nested));
     prim.name = path.substr(path.rfind('/') + 1);
     prim.path = std::move(path);
     for (const Opinion& opinion : opinions) {
@@ -167,8 +167,8 @@ class UsdComposer {
   /// @param selections what stronger specs of this prim select
   void expand(const Opinion& opinion, Selections& selections, int depth, std::vector<Opinion>& all) {
     const UsdSpec& spec = *opinion.spec;
-    if (depth == kMaxArcs) spec.place.fail(fmt::format("references nested deeper than {}", kMaxArcs));
-    if (++specs_ > kMaxSpecs) spec.place.fail(fmt::format("references lead to more than {} prims", kMaxSpecs));
+    if (depth == most_arcs) spec.place.fail(fmt::format("references nested deeper than {}", most_arcs));
+    if (++specs_ > most_specs) spec.place.fail(fmt::format("references lead to more than {} prims", most_specs));
     for (const auto& [set, variant] : spec.selections) selections.emplace(set, variant);
     all.push_back(opinion);
     const auto follow = [&](UsdArc::Kind kind) {

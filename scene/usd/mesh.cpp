@@ -13,7 +13,7 @@
 namespace drape {
 namespace {
 
-constexpr std::size_t kMostTold = 20;
+constexpr std::size_t most_told = 20;
 
 /// "/World/cloth (25 vertices, 32 triangles, 2 × 2 × 0 m)"
 std::string described(const UsdStage& stage, const UsdPath& path) {
@@ -40,10 +40,10 @@ std::string described(const UsdStage& stage, const UsdPath& path) {
 
 std::string list_of(const UsdStage& stage, const std::vector<UsdPath>& meshes) {
   std::string list;
-  for (const UsdPath& path : std::span(meshes).first(std::min(kMostTold, meshes.size()))) {
+  for (const UsdPath& path : std::span(meshes).first(std::min(most_told, meshes.size()))) {
     list += (list.empty() ? "" : ", ") + described(stage, path);
   }
-  if (meshes.size() > kMostTold) list += fmt::format(" and {} more", meshes.size() - kMostTold);
+  if (meshes.size() > most_told) list += fmt::format(" and {} more", meshes.size() - most_told);
   return list;
 }
 

@@ -13,11 +13,11 @@ namespace drape {
 namespace {
 
 /// Time codes between samples are left out beyond this many of them, which no film has: the samples are far apart.
-constexpr double kMostBetween = 10'000;
+constexpr double most_between = 10'000;
 /// Whole numbers up to it have their neighbours.
-constexpr double kLastTimeCode = 1e12;
+constexpr double last_time_code = 1e12;
 /// A gigabyte.
-constexpr double kMostNumbers = 1 << 27;
+constexpr double most_numbers = 1 << 27;
 
 /// A mesh whose points, transform or skeleton move it.
 class MovingMesh {
@@ -31,7 +31,7 @@ class MovingMesh {
     MeshMotion motion{.mesh = read_mesh_prim(prim_, to_world)};
     check_points(motion.mesh.positions.rows());
     const std::vector<double> codes = time_codes();
-    if (static_cast<double>(codes.size()) * static_cast<double>(motion.mesh.positions.size()) > kMostNumbers) {
+    if (static_cast<double>(codes.size()) * static_cast<double>(motion.mesh.positions.size()) > most_numbers) {
       prim_.place.fail(fmt::format("{} samples of {} points take too much memory: export fewer of either", codes.size(),
                                    motion.mesh.positions.rows()));
     }
@@ -72,8 +72,8 @@ class MovingMesh {
       codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
     };
     sort();
-    const bool few = turns && codes.front() > -kLastTimeCode && codes.back() < kLastTimeCode;
-    if (!few || codes.back() - codes.front() > kMostBetween) return codes;
+    const bool few = turns && codes.front() > -last_time_code && codes.back() < last_time_code;
+    if (!few || codes.back() - codes.front() > most_between) return codes;
     const std::size_t samples = codes.size();
     for (std::size_t i = 1; i < samples; ++i) {
       for (double code = std::floor(codes[i - 1]) + 1; code < codes[i]; ++code) codes.push_back(code);

@@ -11,7 +11,7 @@ namespace {
 
 using Kind = UsdToken::Kind;
 
-constexpr std::array<std::string_view, 5> kListEdits = {"add", "append", "delete", "prepend", "reorder"};
+constexpr std::array<std::string_view, 5> list_edits = {"add", "append", "delete", "prepend", "reorder"};
 
 /// What stands between the two characters at the ends of a token, or between three @.
 std::string unwrapped(const UsdToken& token) {
@@ -40,7 +40,7 @@ UsdArc arc(const SourceText& source, UsdLexer& lexer, UsdArc::Kind kind) {
 }  // namespace
 
 bool at_list_edit(const UsdLexer& lexer) {
-  return std::any_of(kListEdits.begin(), kListEdits.end(), [&](auto word) { return lexer.at_word(word); });
+  return std::any_of(list_edits.begin(), list_edits.end(), [&](auto word) { return lexer.at_word(word); });
 }
 
 std::vector<UsdMetadatum> usd_metadata(UsdLexer& lexer, const std::string& owner) {
@@ -124,14 +124,15 @@ void read_layer_metadata(const SourceText& source, UsdLexer& lexer, UsdLayer& la
 
 void read_prim_metadata(const SourceText& source, UsdLexer& lexer, const std::string& owner, UsdSpec& prim) {
   using Arc = UsdArc::Kind;
-  constexpr std::array<std::pair<std::string_view, Arc>, 5> kArcs = {{{"inherits", Arc::inherits},
-                                                                      {"references", Arc::reference},
-                                                                      {"payload", Arc::payload},
-                                                                      {"payloads", Arc::payload},
-                                                                      {"specializes", Arc::specializes}}};
+  constexpr std::array<std::pair<std::string_view, Arc>, 5> arc_names = {{{"inherits", Arc::inherits},
+                                                                          {"references", Arc::reference},
+                                                                          {"payload", Arc::payload},
+                                                                          {"payloads", Arc::payload},
+                                                                          {"specializes", Arc::specializes}}};
   for (const UsdMetadatum& datum : usd_metadata(lexer, owner)) {
-    const auto* kind = std::find_if(kArcs.begin(), kArcs.end(), [&](const auto& k) { return k.first == datum.key; });
-    if (kind != kArcs.end()) {
+    const auto* kind =
+        std::find_if(arc_names.begin(), arc_names.end(), [&](const auto& k) { return k.first == datum.key; });
+    if (kind != arc_names.end()) {
       const std::vector<UsdArc> arcs = usd_arcs(source, datum, kind->second);
       const auto where = datum.edit == "prepend" ? prim.arcs.begin() : prim.arcs.end();
       prim.arcs.insert(where, arcs.begin(), arcs.end());

@@ -16,10 +16,10 @@ namespace {
 using Kind = UsdToken::Kind;
 
 /// Real scenes nest a few dozen prims; the cap keeps a hostile file from exhausting the stack.
-constexpr int kMaxDepth = 200;
+constexpr int most_depth = 200;
 
 /// Of joints that move a point there are rarely more than eight.
-constexpr double kMostPerElement = 1000;
+constexpr double most_per_element = 1000;
 
 bool is_specifier(const UsdLexer& lexer) {
   return lexer.at_word("def") || lexer.at_word("over") || lexer.at_word("class");
@@ -27,14 +27,15 @@ bool is_specifier(const UsdLexer& lexer) {
 
 /// Whether an attribute is one that UsdLayer keeps.
 bool is_kept(std::string_view name, std::string_view type, const UsdReading& reading) {
-  constexpr std::array<std::string_view, 14> kNames = {
+  constexpr std::array<std::string_view, 14> kept_names = {
       "points",         "faceVertexCounts", "faceVertexIndices", "orientation",        "radius",
       "xformOpOrder",   "joints",           "bindTransforms",    "translations",       "rotations",
       "restTransforms", "scales",           "skel:joints",       "skel:skinningMethod"};
-  constexpr std::string_view kPrimvars = "primvars:";
-  if (std::find(kNames.begin(), kNames.end(), name) != kNames.end() || name.starts_with("xformOp:")) return true;
-  if (!name.starts_with(kPrimvars)) return false;
-  const std::string_view primvar = name.substr(kPrimvars.size());
+  constexpr std::string_view primvars_prefix = "primvars:";
+  if (std::find(kept_names.begin(), kept_names.end(), name) != kept_names.end() || name.starts_with("xformOp:"))
+    return true;
+  if (!name.starts_with(primvars_prefix)) return false;
+  const std::string_view primvar = name.substr(primvars_prefix.size());
   return type.starts_with("texCoord2") || type.ends_with('2') || name.ends_with(":indices") ||
          primvar.starts_with("skel:") || primvar == reading.primvar;
 }
@@ -95,7 +96,7 @@ class Parser {
 
   /// Metadata and statements, of a prim or of one of its variants.
   void read_body(UsdSpec& prim, const std::string& owner, int depth) {
-    if (depth == kMaxDepth) prim.place.fail(fmt::format("prims nested deeper than {}", kMaxDepth));
+    if (depth == most_depth) prim.place.fail(fmt::format("prims nested deeper than {}", most_depth));
     if (lexer_.accept('(')) read_prim_metadata(source_, lexer_, owner, prim);
     lexer_.expect('{', "'{' after the name of " + owner);
     while (!lexer_.at('}')) {
@@ -175,9 +176,9 @@ class Parser {
 
   void read_element_size(const UsdMetadatum& datum, UsdAttribute& attribute) const {
     const double size = usd_number(source_, datum, true);
-    if (size != std::floor(size) || size > kMostPerElement) {
+    if (size != std::floor(size) || size > most_per_element) {
       source_.fail(datum.value.offset, fmt::format("elementSize: expected a whole number from 1 to {}, found {}",
-                                                   kMostPerElement, datum.value.text));
+                                                   most_per_element, datum.value.text));
     }
     attribute.element_size = static_cast<std::size_t>(size);
   }

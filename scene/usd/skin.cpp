@@ -13,7 +13,7 @@
 namespace drape {
 namespace {
 
-constexpr std::array<const char*, 3> kMotions = {"translations", "rotations", "scales"};
+constexpr std::array<const char*, 3> motion_names = {"translations", "rotations", "scales"};
 
 std::vector<Eigen::Affine3d> matrices(const UsdValue& value) {
   std::vector<Eigen::Affine3d> result;
@@ -96,9 +96,9 @@ void UsdSkin::read_animation() {
   animation_ = prim_at(*stage_, skeleton_, target, "skel:animationSource").back();
   const std::vector<std::string>& names = usd_array(*animation_, "joints", 0).strings;
   for (std::size_t j = 0; j < joints_.size(); ++j) animated_[j] = place_of(names, joints_[j]);
-  for (const char* motion : kMotions) {
-    const std::size_t components = motion == kMotions[1] ? 4 : 3;
-    const bool may_be_left_out = motion == kMotions[2];
+  for (const char* motion : motion_names) {
+    const std::size_t components = motion == motion_names[1] ? 4 : 3;
+    const bool may_be_left_out = motion == motion_names[2];
     if (may_be_left_out && animation_->find(motion) == nullptr) continue;
     usd_array(*animation_, motion, components);
     const UsdAttribute& attribute = *animation_->find(motion);
@@ -150,7 +150,7 @@ void UsdSkin::read_influences(const UsdPath& mesh) {
 
 std::vector<double> UsdSkin::times() const {
   std::vector<double> times = transform_times(skeleton_);
-  for (const char* motion : kMotions) {
+  for (const char* motion : motion_names) {
     const UsdAttribute* attribute = animation_ == nullptr ? nullptr : animation_->find(motion);
     if (attribute == nullptr) continue;
     for (const UsdSample& sample : attribute->samples) times.push_back(sample.time);

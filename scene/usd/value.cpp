@@ -58,13 +58,13 @@ void parse_element(UsdLexer& lexer, UsdValue& value, const UsdType& type, const 
 
 UsdType usd_type(std::string_view name) {
   using enum UsdType::Kind;
-  constexpr std::array<std::string_view, 10> kScalars = {"bool",   "uchar", "int",   "uint",   "int64",
-                                                         "uint64", "half",  "float", "double", "timecode"};
+  constexpr std::array<std::string_view, 10> scalar_types = {"bool",   "uchar", "int",   "uint",   "int64",
+                                                             "uint64", "half",  "float", "double", "timecode"};
   if (name == "string" || name == "token") return {text, 0, 0};
   if (name == "matrix2d") return {number, 2, 2};
   if (name == "matrix3d") return {number, 3, 3};
   if (name == "matrix4d") return {number, 4, 4};
-  if (std::find(kScalars.begin(), kScalars.end(), name) != kScalars.end()) return {number, 1, 1};
+  if (std::find(scalar_types.begin(), scalar_types.end(), name) != scalar_types.end()) return {number, 1, 1};
   for (const std::string_view base : {"int", "half", "float", "double"}) {
     if (!name.starts_with(base)) continue;
     const std::string_view size = name.substr(base.size());

@@ -12,9 +12,9 @@
 namespace drape {
 namespace {
 
-constexpr std::string_view kReset = "!resetXformStack!";
-constexpr std::string_view kInvert = "!invert!";
-constexpr std::string_view kPrefix = "xformOp:";
+constexpr std::string_view reset_stack = "!resetXformStack!";
+constexpr std::string_view invert_prefix = "!invert!";
+constexpr std::string_view operation_prefix = "xformOp:";
 
 Eigen::Affine3d rotation(std::string_view axes, const std::vector<double>& degrees) {
   Eigen::Affine3d result = Eigen::Affine3d::Identity();
@@ -38,9 +38,9 @@ class Operation {
  public:
   /// @param name the `index`-th of xformOpOrder, without !invert!
   Operation(const UsdPrim& prim, std::string_view name, std::size_t index) : attribute_(prim.find(name)) {
-    const std::string_view after = name.substr(std::min(name.size(), kPrefix.size()));
+    const std::string_view after = name.substr(std::min(name.size(), operation_prefix.size()));
     kind_ = after.substr(0, after.find(':'));
-    if (!name.starts_with(kPrefix) || attribute_ == nullptr) {
+    if (!name.starts_with(operation_prefix) || attribute_ == nullptr) {
       usd_value_place(*operation_order(prim), index)
           .fail(fmt::format("the prim {} has no operation {}", in_quotes(prim.name), in_quotes(name)));
     }
@@ -89,7 +89,8 @@ class Operation {
 
 bool resets_stack(const UsdPrim& prim) {
   const UsdValue* order = operation_order(prim);
-  return order != nullptr && std::find(order->strings.begin(), order->strings.end(), kReset) != order->strings.end();
+  return order != nullptr &&
+         std::find(order->strings.begin(), order->strings.end(), reset_stack) != order->strings.end();
 }
 
 /// From a prim's coordinates to its parent's. The last operation of the order acts first.
@@ -99,9 +100,9 @@ Eigen::Affine3d local_transform(const UsdPrim& prim, double time) {
   if (order == nullptr) return result;
   for (std::size_t i = 0; i < order->strings.size(); ++i) {
     std::string_view name = order->strings[i];
-    if (name == kReset) continue;
-    const bool inverted = name.starts_with(kInvert);
-    if (inverted) name.remove_prefix(kInvert.size());
+    if (name == reset_stack) continue;
+    const bool inverted = name.starts_with(invert_prefix);
+    if (inverted) name.remove_prefix(invert_prefix.size());
     const Operation operation(prim, name, i);
     const Eigen::Affine3d matrix = operation.at(time);
     if (inverted && !(std::abs(matrix.linear().determinant()) > 0)) {
@@ -147,7 +148,7 @@ std::vector<double> transform_times(const UsdPath& path) {
   for (auto prim = path.rbegin(); prim != path.rend(); ++prim) {
     if (const UsdValue* order = operation_order(**prim)) {
       for (std::string_view name : order->strings) {
-        if (name.starts_with(kInvert)) name.remove_prefix(kInvert.size());
+        if (name.starts_with(invert_prefix)) name.remove_prefix(invert_prefix.size());
         const UsdAttribute* attribute = (*prim)->find(name);
         if (attribute == nullptr) continue;
         for (const UsdSample& sample : attribute->samples) times.push_back(sample.time);
