@@ -12,7 +12,7 @@ place=$(mktemp -d)
 started=
 end() {
   # shellcheck disable=SC2086 # one word for each process
-  [ -z "$started" ] || kill $started 2>/dev/null || true
+  [ -z "$started" ] || { kill $started && wait $started; } 2>/dev/null || true # they write here until they have ended
   rm -rf "$place"
 }
 trap end EXIT

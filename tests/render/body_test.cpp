@@ -54,8 +54,12 @@ TEST(BodyPicture, CoversWhatItCovers) {
     for (int x = 0; x < 100; ++x) {
       const bool inside = std::abs(x - 49.5) < 23 && std::abs(y - 49.5) < 23;
       const bool outside = std::abs(x - 49.5) > 27 || std::abs(y - 49.5) > 27;
-      if (inside) EXPECT_GT(brightness(image, x, y), 300);
-      if (outside) EXPECT_EQ(brightness(image, x, y), 0);
+      if (inside) {
+        EXPECT_GT(brightness(image, x, y), 300);
+      }
+      if (outside) {
+        EXPECT_EQ(brightness(image, x, y), 0);
+      }
     }
   }
 }
