@@ -42,10 +42,19 @@ inline ExitCode exit_code(const CheckReport& report) {
 
 /// That a run would have had alone.
 inline ExitCode exit_code(const RunRecord& record) {
-  if (record.outcome == "completed") return ExitCode::ok;
-  if (record.outcome == "diverged") return ExitCode::diverged;
-  if (record.outcome == "refused") return ExitCode::usage;
-  return record.outcome == "failed" ? ExitCode::output : ExitCode::interrupted;
+  switch (record.outcome) {
+    case RunOutcome::completed:
+      return ExitCode::ok;
+    case RunOutcome::diverged:
+      return ExitCode::diverged;
+    case RunOutcome::refused:
+      return ExitCode::usage;
+    case RunOutcome::failed:
+      return ExitCode::output;
+    case RunOutcome::not_run:
+      return ExitCode::interrupted;
+  }
+  return ExitCode::interrupted;
 }
 
 /// That of the run that is worst off; interrupted if one was not run.

@@ -56,7 +56,7 @@ ExitCode list_runs(const SweepPlan& plan, const SweepOptions& options) {
     if (!done) total += run.cost;
     text += fmt::format("{:4}  {}  {}\n", i + 1, label_of(plan, run),
                         !run.refusal.empty() ? "refused: " + run.refusal
-                        : done               ? "done: " + before->outcome
+                        : done               ? fmt::format("done: {}", name_of(before->outcome))
                                              : "about " + readable_time(run.cost));
   }
   const double seconds = total / static_cast<double>(options.jobs);
@@ -129,7 +129,7 @@ ExitCode conclude_sweep(const SweepResults& results, const std::filesystem::path
   if (!common.quiet) {
     print_text(stdout, fmt::format("{}\n{}\n", results.headline(), (folder / sweep_page_name).string()));
   }
-  if (const std::size_t left = results.count("not run"); left > 0) {
+  if (const std::size_t left = results.count(RunOutcome::not_run); left > 0) {
     spdlog::error("{} of {} runs were not run: --resume continues", left, results.rows.size());
   }
   return exit_code(results);

@@ -53,8 +53,12 @@ std::optional<html::Strip> strip_of(const SweepResults& results, const SweepRow&
                      .alt = "Film of " + label_of(results.plan, results.planned(row))};
 }
 
-html::Tone tone_of(const std::string& outcome) {
-  return outcome == "completed" ? html::Tone::good : outcome == "not run" ? html::Tone::caution : html::Tone::bad;
+html::Markup outcome_badge(RunOutcome outcome) {
+  using enum RunOutcome;
+  const html::Tone tone = outcome == completed ? html::Tone::good
+                          : outcome == not_run ? html::Tone::caution
+                                               : html::Tone::bad;
+  return html::badge(name_of(outcome), tone);
 }
 
 /// The grids of films.
@@ -108,7 +112,7 @@ class Films {
     } else if (!row.record.moments.empty()) {
       ++left_out_;
     }
-    if (row.record.outcome != "completed") film += html::badge(row.record.outcome, tone_of(row.record.outcome));
+    if (row.record.outcome != RunOutcome::completed) film += outcome_badge(row.record.outcome);
     std::string figures = short_figure(row, "step_us.median");
     if (figures != "–") figures += " µs";
     if (const std::string iterations = short_figure(row, "iterations.mean");
@@ -154,7 +158,7 @@ Markup figures_table(const SweepResults& results) {
     std::vector<Markup> cells{film.empty() ? Markup(number) : html::link(film, number)};
     if (scenes) cells.emplace_back(results.plan.names[planned.scene]);
     for (const std::string& value : planned.values) cells.emplace_back(value);
-    cells.push_back(html::badge(row.record.outcome, tone_of(row.record.outcome)));
+    cells.push_back(outcome_badge(row.record.outcome));
     for (const std::string& name : figures) cells.emplace_back(short_figure(row, name));
     cells.emplace_back(row.record.seconds > 0 ? fmt::format("{:.2f}", row.record.seconds) : "–");
     cells.emplace_back(row.record.timed.empty() ? "–" : row.record.timed);

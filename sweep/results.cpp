@@ -57,14 +57,12 @@ void drop_single_values(SweepResults& results) {
 RunRecord record_of(const PlannedRun& run, const std::filesystem::path& folder) {
   if (!run.refusal.empty()) {
     RunRecord refused;
-    refused.outcome = "refused";
+    refused.outcome = RunOutcome::refused;
     refused.reason = run.refusal;
     return refused;
   }
   if (auto record = read_run(folder, run.key)) return *record;
-  RunRecord none;
-  none.outcome = "not run";
-  return none;
+  return {};
 }
 
 }  // namespace
@@ -92,15 +90,16 @@ std::optional<SweepFile> read_sweep_file(const std::filesystem::path& folder) {
   }
 }
 
-std::size_t SweepResults::count(const std::string& outcome) const {
+std::size_t SweepResults::count(RunOutcome outcome) const {
   return static_cast<std::size_t>(
       std::ranges::count_if(rows, [&](const SweepRow& row) { return row.record.outcome == outcome; }));
 }
 
 std::string SweepResults::headline() const {
   std::vector<std::string> parts;
-  for (const char* outcome : {"completed", "diverged", "refused", "failed", "not run"}) {
-    if (const std::size_t found = count(outcome); found > 0) parts.push_back(fmt::format("{} {}", found, outcome));
+  for (std::size_t i = 0; i < run_outcome_names.size(); ++i) {
+    const std::size_t found = count(static_cast<RunOutcome>(i));
+    if (found > 0) parts.push_back(fmt::format("{} {}", found, run_outcome_names[i]));
   }
   return fmt::format("{} {}: {}", rows.size(), rows.size() == 1 ? "run" : "runs",
                      parts.empty() ? "nothing to do" : fmt::format("{}", fmt::join(parts, ", ")));
@@ -126,7 +125,7 @@ std::vector<std::string> SweepResults::troubles() const {
     const std::string label = label_of(plan, planned(*row));
     sentences.push_back(fmt::format("{}: {}: {}",
                                     count == 1 ? label : fmt::format("{} runs, the first of them {}", count, label),
-                                    row->record.outcome, row->record.reason));
+                                    name_of(row->record.outcome), row->record.reason));
   }
   if (found.size() > most_told) sentences.push_back(fmt::format("and {} more, see runs.csv", found.size() - most_told));
   return sentences;

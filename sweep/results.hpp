@@ -44,7 +44,7 @@ struct SweepResults {
   std::vector<SweepRow> rows;   ///< of the shard's runs, in the order of the plan
 
   [[nodiscard]] const PlannedRun& planned(const SweepRow& row) const { return plan.runs[row.run]; }
-  [[nodiscard]] std::size_t count(const std::string& outcome) const;
+  [[nodiscard]] std::size_t count(RunOutcome outcome) const;
   /// "40 runs: 38 completed, 2 diverged"
   [[nodiscard]] std::string headline() const;
   /// Why runs are not complete, a sentence for each reason: "2 runs diverged, …". Of many the first, and how many more.

@@ -62,7 +62,9 @@ std::optional<RunRecord> read_run(const fs::path& sweep, const std::string& key)
   try {
     const Json json = Json::parse(read_file(file, most_record_bytes));
     if (json.at("format") != 1 || json.at("key") != key) return std::nullopt;
-    RunRecord record{.outcome = json.at("outcome"),
+    const auto* const name = std::ranges::find(run_outcome_names, json.at("outcome").get<std::string>());
+    if (name == run_outcome_names.end()) return std::nullopt;
+    RunRecord record{.outcome = static_cast<RunOutcome>(name - run_outcome_names.begin()),
                      .reason = json.at("reason"),
                      .timed = json.at("timed"),
                      .seconds = json.at("seconds"),
@@ -100,7 +102,7 @@ void RunFolder::commit(const RunRecord& record, const std::string& stats) {
   figures.erase("outcome");
   const Json json{{"format", 1},
                   {"key", key_},
-                  {"outcome", record.outcome},
+                  {"outcome", name_of(record.outcome)},
                   {"reason", record.reason},
                   {"timed", record.timed},
                   {"seconds", record.seconds},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,9 +9,16 @@
 
 namespace drape {
 
+enum class RunOutcome { completed, diverged, refused, failed, not_run };
+
+/// What they are called in files and on pages, in their order.
+inline constexpr std::array run_outcome_names{"completed", "diverged", "refused", "failed", "not run"};
+
+inline const char* name_of(RunOutcome outcome) { return run_outcome_names[static_cast<std::size_t>(outcome)]; }
+
 /// What became of a run.
 struct RunRecord {
-  std::string outcome;             ///< "completed", "diverged", "refused", "failed" or "not run"
+  RunOutcome outcome = RunOutcome::not_run;
   std::string reason;              ///< why it is not complete, a sentence; empty: it is
   std::string timed;               ///< what else ran beside it, as far as its sweep knows: "alone", "beside 3 others"
   double seconds = 0;              ///< that it took, with drawing and encoding
@@ -19,7 +27,7 @@ struct RunRecord {
   std::vector<std::pair<std::string, std::string>> figures;  ///< of its --stats: "step_us.median", "12.5"
 
   /// Whether it need not be run again: it would end in the same way.
-  [[nodiscard]] bool settled() const { return outcome == "completed" || outcome == "diverged"; }
+  [[nodiscard]] bool settled() const { return outcome == RunOutcome::completed || outcome == RunOutcome::diverged; }
   /// The figure of this name; empty: it has none.
   [[nodiscard]] std::string figure(const std::string& name) const;
 };

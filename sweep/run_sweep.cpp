@@ -21,9 +21,6 @@
 namespace drape {
 namespace {
 
-/// What is written of a run that was stopped: nothing.
-constexpr const char* stopped = "";
-
 std::string timed_text(const SweepOptions& options) {
   if (options.jobs > 1) return fmt::format("beside {} others", options.jobs - 1);
   return options.shard.whole() ? "alone" : "in a shard";
@@ -55,25 +52,23 @@ RunRecord record_of(const Scene& scene, const RunResult& result) {
   record.moments = moments_of(scene, result);
   record.seconds = result.elapsed_seconds;
   record.files = file_names(result);
-  if (result.outcome == Outcome::interrupted) {
-    record.outcome = stopped;
-  } else if (!result.problems.empty()) {
-    record.outcome = "failed";
+  if (!result.problems.empty()) {
+    record.outcome = RunOutcome::failed;
     record.reason = fmt::format("{}", fmt::join(result.problems, "; "));
   } else if (result.outcome == Outcome::diverged) {
-    record.outcome = "diverged";
+    record.outcome = RunOutcome::diverged;
     record.reason = result.divergence;
   } else {
-    record.outcome = "completed";
+    record.outcome = RunOutcome::completed;
   }
   return record;
 }
 
 RunRecord record_of(const Error& error) {
   RunRecord record;
-  record.outcome = error.kind() == ErrorKind::usage      ? "refused"
-                   : error.kind() == ErrorKind::diverged ? "diverged"
-                                                         : "failed";
+  record.outcome = error.kind() == ErrorKind::usage      ? RunOutcome::refused
+                   : error.kind() == ErrorKind::diverged ? RunOutcome::diverged
+                                                         : RunOutcome::failed;
   record.reason = error.what();
   return record;
 }
@@ -116,16 +111,15 @@ class Sweep {
 
   void run_one(std::size_t place) {
     const PlannedRun& run = plan_.runs[place];
-    RunRecord record;
     try {
       RunFolder folder(options_.folder, run.key);
       std::string stats;
-      record = compute(run, folder.place(), stats);
-      if (record.outcome == stopped) return;
-      record.timed = timed_text(options_);
-      if (!record.settled()) folder.clear();
-      if (!record.settled()) record.files.clear();
-      folder.commit(record, stats);
+      std::optional<RunRecord> record = compute(run, folder.place(), stats);
+      if (!record) return;
+      record->timed = timed_text(options_);
+      if (!record->settled()) folder.clear();
+      if (!record->settled()) record->files.clear();
+      folder.commit(*record, stats);
     } catch (const OutputError& error) {
       const std::scoped_lock lock(mutex_);
       unwritten_[place] = record_of(error);
@@ -138,7 +132,9 @@ class Sweep {
     return side_;
   }
 
-  [[nodiscard]] RunRecord compute(const PlannedRun& run, const std::filesystem::path& folder, std::string& stats) {
+  /// @returns nothing if it was stopped: then nothing is written of it
+  [[nodiscard]] std::optional<RunRecord> compute(const PlannedRun& run, const std::filesystem::path& folder,
+                                                 std::string& stats) {
     try {
       Scene scene = load_scene(plan_.request.scenes[run.scene], overrides_of(plan_, run));
       if (run_key(scene, plan_) != run.key) {
@@ -148,6 +144,7 @@ class Sweep {
       if (chooses_side(plan_.request, scene.camera)) look_from(side(), scene.camera);
       Progress unseen;
       const RunResult result = run_scene(scene, run_options(plan_.request, folder), stop_, unseen);
+      if (result.outcome == Outcome::interrupted) return std::nullopt;
       if (result.statistics.steps() > 0) stats = result.statistics.to_json(outcome_name(result.outcome));
       return record_of(scene, result);
     } catch (const Error& error) {

@@ -45,7 +45,8 @@ std::string link_path(const std::string& path) {
 std::string film_cell(const SweepResults& results, const SweepRow* row) {
   if (row == nullptr) return nothing;
   const std::string film = film_of(results, *row);
-  const std::string outcome = row->record.outcome == "completed" ? "" : markdown(row->record.outcome);
+  const std::string outcome =
+      row->record.outcome == RunOutcome::completed ? "" : markdown(name_of(row->record.outcome));
   if (film.empty()) return outcome.empty() ? nothing : outcome;
   const std::string link = fmt::format("{}[{}]({})", is_picture(film) ? "!" : "",
                                        markdown(label_of(results.plan, results.planned(*row))), link_path(film));
@@ -82,8 +83,8 @@ std::string markdown_grid(const SweepResults& results, const SweepGrid& grid) {
 
 std::string latex_cells(const SweepRow* row) {
   if (row == nullptr) return " & -- & --";
-  if (row->record.outcome != "completed")
-    return fmt::format(" & \\multicolumn{{2}}{{c}}{{{}}}", html::latex(row->record.outcome));
+  if (row->record.outcome != RunOutcome::completed)
+    return fmt::format(" & \\multicolumn{{2}}{{c}}{{{}}}", html::latex(name_of(row->record.outcome)));
   const auto cell = [&](const char* name) {
     const std::string text = short_figure(*row, name);
     return text == nothing ? "--" : text;
@@ -142,7 +143,7 @@ std::string runs_csv(const SweepResults& results) {
     const RunRecord& record = row.record;
     std::vector<std::string> cells{std::to_string(row.run + 1), results.plan.names[planned.scene]};
     cells.insert(cells.end(), planned.values.begin(), planned.values.end());
-    cells.insert(cells.end(), {record.outcome, record.reason});
+    cells.insert(cells.end(), {name_of(record.outcome), record.reason});
     for (const std::string& name : names) cells.push_back(record.figure(name));
     cells.insert(cells.end(),
                  {record.seconds > 0 ? fmt::format("{:.6g}", record.seconds) : "", record.timed, planned.key});

@@ -32,11 +32,11 @@ class Sweep : public testing::Test {
 TEST_F(Sweep, MakesARowOfEveryRun) {
   const SweepResults results = sweep(twelve(), into("out"));
   ASSERT_EQ(results.rows.size(), 12U);
-  EXPECT_EQ(results.count("completed") + results.count("refused"), 12U);
-  EXPECT_GT(results.count("refused"), 0U);
+  EXPECT_EQ(results.count(RunOutcome::completed) + results.count(RunOutcome::refused), 12U);
+  EXPECT_GT(results.count(RunOutcome::refused), 0U);
   EXPECT_EQ(exit_code(results), ExitCode::usage);
   for (const SweepRow& row : results.rows) {
-    if (row.record.outcome == "refused") continue;
+    if (row.record.outcome == RunOutcome::refused) continue;
     EXPECT_EQ(row.record.timed, "alone");
     EXPECT_GT(std::stod(row.record.figure("steps")), 0);
     EXPECT_TRUE(std::filesystem::exists(run_place(folder_.path("out"), results.planned(row).key) / "stats.json"));
@@ -96,7 +96,7 @@ TEST_F(Sweep, LosesNothingButTheRunsUnderWayWhenItIsStopped) {
   Progress progress;
   run_sweep(plan, into("out"), stop.get_token(), progress);
   const SweepResults results = read_results(folder_.path("out"), {plan, {}});
-  EXPECT_EQ(results.count("not run") + results.count("refused"), 12U);
+  EXPECT_EQ(results.count(RunOutcome::not_run) + results.count(RunOutcome::refused), 12U);
   EXPECT_EQ(exit_code(results), ExitCode::interrupted);
   EXPECT_EQ(folder_.file_count(), 1U) << "only the scene is there";
 }
@@ -107,7 +107,7 @@ TEST_F(Sweep, OfADivergedRunKeepsWhatThereIsAndTheOthersGoOn) {
   request.overrides = {"integrator.method=verlet", "integrator.allow_unstable=true", "cloth.stiffness=1e6",
                        "cloth.pins=[0]"};
   const SweepResults results = sweep(request, into("out"));
-  EXPECT_EQ(results.rows[1].record.outcome, "diverged");
+  EXPECT_EQ(results.rows[1].record.outcome, RunOutcome::diverged);
   EXPECT_NE(results.rows[1].record.reason, "");
   EXPECT_EQ(exit_code(results), ExitCode::diverged);
 }
@@ -128,8 +128,8 @@ TEST_F(Sweep, SaysWhatCannotBeWrittenAndKeepsWhatIsThere) {
   }
   EXPECT_EQ(unwritten.size(), 2U);
   const SweepResults results = read_results(folder_.path("out"), {plan, {}}, unwritten);
-  EXPECT_EQ(results.count("completed"), 2U);
-  EXPECT_EQ(results.count("failed"), 2U);
+  EXPECT_EQ(results.count(RunOutcome::completed), 2U);
+  EXPECT_EQ(results.count(RunOutcome::failed), 2U);
   EXPECT_EQ(exit_code(results), ExitCode::output);
   EXPECT_NE(results.rows[2].record.reason.find("File too large"), std::string::npos) << results.rows[2].record.reason;
 }
@@ -155,7 +155,7 @@ TEST_F(Sweep, OfShardsIsThatOfOneRun) {
   // Without one of them its runs are said to be missing.
   const SweepResults less =
       read_results(folder_.path("less"), merge_sweeps({parts[0], parts[2]}, folder_.path("less")));
-  EXPECT_GT(less.count("not run"), 0U);
+  EXPECT_GT(less.count(RunOutcome::not_run), 0U);
   EXPECT_EQ(exit_code(less), ExitCode::interrupted);
 }
 

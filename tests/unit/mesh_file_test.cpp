@@ -22,7 +22,7 @@ std::string write(const std::string& name, const std::string& text) {
   return path;
 }
 
-constexpr const char* kUsda = R"(#usda 1.0
+constexpr const char* usd_file = R"(#usda 1.0
 (
     metersPerUnit = 1
     upAxis = "Z"
@@ -37,8 +37,8 @@ def Mesh "m"
 
 TEST(MeshFile, IsReadByItsEndingInAnyCase) {
   EXPECT_EQ(read_mesh(write("a.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).triangles.size(), 1U);
-  EXPECT_EQ(read_mesh(write("a.usda", kUsda)).triangles.size(), 1U);
-  EXPECT_EQ(read_mesh(write("a.Usd", kUsda)).triangles.size(), 1U);
+  EXPECT_EQ(read_mesh(write("a.usda", usd_file)).triangles.size(), 1U);
+  EXPECT_EQ(read_mesh(write("a.Usd", usd_file)).triangles.size(), 1U);
 }
 
 TEST(MeshFile, NamesTheEndingsItKnows) {
@@ -60,7 +60,7 @@ TEST(MeshFile, MayBeginWithAByteOrderMark) {
   const Mesh mesh = read_mesh(write("marked.obj", mark + "v 1 2 3\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
   ASSERT_EQ(mesh.positions.rows(), 3);
   EXPECT_EQ(mesh.positions.row(0), Eigen::RowVector3d(1, 2, 3));
-  EXPECT_EQ(read_mesh(write("marked.usda", mark + kUsda)).positions.rows(), 3);
+  EXPECT_EQ(read_mesh(write("marked.usda", mark + usd_file)).positions.rows(), 3);
   const std::string wide = write("wide.obj", std::string("\xFE\xFF\0v\0 ", 6));
   EXPECT_EQ(usage_error([&] { read_mesh(wide); }), wide + ": the file is text in UTF-16: save it as UTF-8");
 }

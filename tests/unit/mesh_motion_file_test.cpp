@@ -17,15 +17,15 @@ namespace {
 using Eigen::RowVector3d;
 using test::usage_error;
 
-const std::string kHeader = "#usda 1.0\n( metersPerUnit = 1\nupAxis = \"Z\"\ntimeCodesPerSecond = 10 )\n";
-const std::string kFaces = "int[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\n";
-const std::string kPoints = "point3f[] points = [(0, 0, 0), (0, 0, 2), (0, 0, 4)]\n";
+const std::string body_header = "#usda 1.0\n( metersPerUnit = 1\nupAxis = \"Z\"\ntimeCodesPerSecond = 10 )\n";
+const std::string one_face = "int[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\n";
+const std::string three_points = "point3f[] points = [(0, 0, 0), (0, 0, 2), (0, 0, 4)]\n";
 
 MeshMotion parse(const std::string& text) { return read_usd_mesh_motion(SourceText("body.usda", text)); }
 std::string error_of(const std::string& text) {
   return usage_error([&] { parse(text); });
 }
-std::string mesh(const std::string& lines) { return "def Mesh \"m\" {\n" + kFaces + lines + "}\n"; }
+std::string mesh(const std::string& lines) { return "def Mesh \"m\" {\n" + one_face + lines + "}\n"; }
 
 Vertices at(const MeshMotion& motion, double time) {
   Vertices x;
@@ -34,7 +34,7 @@ Vertices at(const MeshMotion& motion, double time) {
 }
 
 TEST(MeshMotionFile, HasNoSamplesWhereNothingMoves) {
-  const MeshMotion still = parse(kHeader + mesh(kPoints));
+  const MeshMotion still = parse(body_header + mesh(three_points));
   EXPECT_TRUE(still.samples.empty());
   EXPECT_EQ(still.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
   EXPECT_EQ(at(still, 7).row(2), RowVector3d(0, 0, 4));
@@ -42,8 +42,8 @@ TEST(MeshMotionFile, HasNoSamplesWhereNothingMoves) {
 
 TEST(MeshMotionFile, MovesByTheSamplesOfItsPoints) {
   const MeshMotion motion =
-      parse(kHeader + mesh("point3f[] points.timeSamples = {\n10: [(0, 0, 0), (1, 0, 0), (0, 1, 8)],\n"
-                           "0: [(0, 0, 0), (1, 0, 0), (0, 1, 0)] }\n"));
+      parse(body_header + mesh("point3f[] points.timeSamples = {\n10: [(0, 0, 0), (1, 0, 0), (0, 1, 8)],\n"
+                               "0: [(0, 0, 0), (1, 0, 0), (0, 1, 0)] }\n"));
   EXPECT_EQ(motion.times, (std::vector<double>{0, 1}));
   EXPECT_EQ(motion.mesh.positions.row(2), RowVector3d(0, 1, 0));
   EXPECT_EQ(at(motion, 0.25).row(2), RowVector3d(0, 1, 2));
@@ -52,10 +52,10 @@ TEST(MeshMotionFile, MovesByTheSamplesOfItsPoints) {
 
 // A parent that turns by 90° within 8 time codes: without samples in between, its points would cut the corner by 30 %.
 TEST(MeshMotionFile, TurnsWithItsParentsWithoutShrinking) {
-  const MeshMotion motion = parse(kHeader +
+  const MeshMotion motion = parse(body_header +
                                   "def Xform \"turntable\" {\nfloat xformOp:rotateX.timeSamples = { 0: 0, 8: 90 }\n"
                                   "uniform token[] xformOpOrder = [\"xformOp:rotateX\"]\n" +
-                                  mesh(kPoints) + "}\n");
+                                  mesh(three_points) + "}\n");
   EXPECT_EQ(motion.times.size(), 9U);
   EXPECT_TRUE(at(motion, 0.8).row(2).isApprox(RowVector3d(0, -4, 0)));
   for (const double time : {0.1, 0.35, 0.4, 0.79}) EXPECT_NEAR(at(motion, time).row(2).norm(), 4, 4 * 0.005) << time;
@@ -63,26 +63,26 @@ TEST(MeshMotionFile, TurnsWithItsParentsWithoutShrinking) {
 
 /// An upper arm and a forearm, bound along z, whose elbow at z = 2 turns about x by 90° from time code 0 to 8.
 std::string arm(const std::string& skin, const std::string& animation, const std::string& of_skeleton = "") {
-  return kHeader + "def SkelRoot \"Arm\" {\ndef Skeleton \"Skel\" {\n" + of_skeleton +
+  return body_header + "def SkelRoot \"Arm\" {\ndef Skeleton \"Skel\" {\n" + of_skeleton +
          "uniform token[] joints = [\"Shoulder\", \"Shoulder/Elbow\"]\nuniform matrix4d[] bindTransforms = [\n"
          "((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,0,1)), ((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,2,1))]\n"
          "uniform matrix4d[] restTransforms = [\n"
          "((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,0,1)), ((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,2,1))]\n"
          "rel skel:animationSource = </Arm/Bend>\n}\n" +
-         animation + mesh(kPoints + "rel skel:skeleton = </Arm/Skel>\n" + skin) + "}\n";
+         animation + mesh(three_points + "rel skel:skeleton = </Arm/Skel>\n" + skin) + "}\n";
 }
 
-const std::string kBend =
+const std::string elbow_motion =
     "def SkelAnimation \"Bend\" {\nuniform token[] joints = [\"Shoulder/Elbow\"]\nfloat3[] translations = [(0, 0, 2)]\n"
     "quatf[] rotations.timeSamples = { 0: [(1, 0, 0, 0)], 8: [(0.5, 0.5, 0, 0)] }\nhalf3[] scales = [(1, 1, 1)]\n}\n";
-const std::string kSkin =
+const std::string arm_skin =
     "int[] primvars:skel:jointIndices = [0, 1, 0, 1, 0, 1] ( interpolation = \"vertex\" elementSize = 2 )\n"
     "float[] primvars:skel:jointWeights = [1, 0, 0.5, 0.5, 0, 1] ( interpolation = \"vertex\" elementSize = 2 )\n";
 
 // p' = Σ wⱼ Sⱼ Bⱼ⁻¹ p: the hand, 2 behind the elbow, goes to (0, −2, 2); what both hold half-way between there and
 // where the upper arm has it, which for the point in the elbow's axis is where it was.
 TEST(MeshMotionFile, BendsASkinnedMeshAsTheFormulaSays) {
-  const MeshMotion motion = parse(arm(kSkin, kBend));
+  const MeshMotion motion = parse(arm(arm_skin, elbow_motion));
   EXPECT_EQ(motion.times.front(), 0);
   EXPECT_EQ(motion.times.back(), 0.8);
   const Vertices bound = at(motion, 0), bent = at(motion, 0.8);
@@ -94,9 +94,9 @@ TEST(MeshMotionFile, BendsASkinnedMeshAsTheFormulaSays) {
   EXPECT_TRUE(at(motion, 0.4).row(2).isApprox(RowVector3d(0, -2 * std::sin(half), 2 + 2 * std::cos(half)), 1e-12))
       << "quaternions turn steadily";
 
-  std::string shared = kSkin;
+  std::string shared = arm_skin;
   shared.replace(shared.find("[1, 0, 0.5, 0.5, 0, 1]"), 22, "[1, 0, 0.5, 0.5, 3, 3]");
-  EXPECT_TRUE(at(parse(arm(shared, kBend)), 0.8).row(2).isApprox(RowVector3d(0, -1, 3))) << "weights of any sum";
+  EXPECT_TRUE(at(parse(arm(shared, elbow_motion)), 0.8).row(2).isApprox(RowVector3d(0, -1, 3))) << "weights of any sum";
 }
 
 // UsdSkel binds in the skeleton's space: what moves the skeleton moves the mesh, whose own transform does not.
@@ -107,7 +107,7 @@ TEST(MeshMotionFile, CarriesTheSkinWithTheSkeleton) {
   const std::string elsewhere =
       "double3 xformOp:translate = (99, 0, 0)\nuniform token[] xformOpOrder = [\"xformOp:translate\"]\n"
       "matrix4d primvars:skel:geomBindTransform = ((1,0,0,0),(0,1,0,0),(0,0,1,0),(3,0,0,1))\n";
-  const Vertices bent = at(parse(arm(kSkin + elsewhere, kBend, raised)), 0.8);
+  const Vertices bent = at(parse(arm(arm_skin + elsewhere, elbow_motion, raised)), 0.8);
   EXPECT_TRUE(bent.row(0).isApprox(RowVector3d(3, 0, 10)));
   EXPECT_TRUE(bent.row(2).isApprox(RowVector3d(3, -2, 12)));
 }
@@ -118,38 +118,38 @@ TEST(MeshMotionFile, TakesTheMeshsOwnListOfJoints) {
       "uniform token[] skel:joints = [\"Shoulder/Elbow\"]\n"
       "int[] primvars:skel:jointIndices = [0, 0, 0] ( interpolation = \"vertex\" )\n"
       "float[] primvars:skel:jointWeights = [1, 0, 1] ( interpolation = \"vertex\" )\n";
-  const Vertices bent = at(parse(arm(own, kBend)), 0.8);
+  const Vertices bent = at(parse(arm(own, elbow_motion)), 0.8);
   EXPECT_TRUE(bent.row(0).isApprox(RowVector3d(0, 2, 2)));
   EXPECT_EQ(bent.row(1), RowVector3d(0, 0, 2));
   const std::string rigid =
       "int[] primvars:skel:jointIndices = [1] ( interpolation = \"constant\" )\n"
       "float[] primvars:skel:jointWeights = [1] ( interpolation = \"constant\" )\n";
-  EXPECT_TRUE(at(parse(arm(rigid, kBend)), 0.8).row(2).isApprox(RowVector3d(0, -2, 2)));
+  EXPECT_TRUE(at(parse(arm(rigid, elbow_motion)), 0.8).row(2).isApprox(RowVector3d(0, -2, 2)));
 }
 
 TEST(MeshMotionFile, SaysWhatIsWrongWithASkin) {
   const auto replaced = [](std::string text, const std::string& from, const std::string& to) {
     return text.replace(text.find(from), from.size(), to);
   };
-  EXPECT_EQ(error_of(arm(replaced(kSkin, "0, 1, 0, 1, 0, 1", "0, 1, 0, 1, 0, 2"), kBend)),
+  EXPECT_EQ(error_of(arm(replaced(arm_skin, "0, 1, 0, 1, 0, 1", "0, 1, 0, 1, 0, 2"), elbow_motion)),
             "body.usda:25:52: jointIndices: expected one of the 2 joints, found 2");
-  EXPECT_EQ(error_of(arm(replaced(kSkin, "0, 0.5", "0.5"), kBend)),
+  EXPECT_EQ(error_of(arm(replaced(arm_skin, "0, 0.5", "0.5"), elbow_motion)),
             "body.usda:26:38: jointWeights: expected 6 elements, found 5");
-  EXPECT_EQ(error_of(arm(replaced(kSkin, "elementSize = 2", "elementSize = 3"), kBend)),
+  EXPECT_EQ(error_of(arm(replaced(arm_skin, "elementSize = 2", "elementSize = 3"), elbow_motion)),
             "body.usda:26:1: jointWeights: expected the elementSize of jointIndices, 3, found 2");
-  EXPECT_EQ(error_of(arm(kSkin, replaced(kBend, "[(0, 0, 2)]", "[(0, 0, 2), (0, 0, 0)]"))),
+  EXPECT_EQ(error_of(arm(arm_skin, replaced(elbow_motion, "[(0, 0, 2)]", "[(0, 0, 2), (0, 0, 0)]"))),
             "body.usda:16:25: translations: expected 1 elements, found 2");
-  EXPECT_EQ(error_of(arm(kSkin, replaced(kBend, "\"Bend\"", "\"Wave\""))),
+  EXPECT_EQ(error_of(arm(arm_skin, replaced(elbow_motion, "\"Bend\"", "\"Wave\""))),
             "body.usda:6:1: the skel:animationSource of 'Skel' names '/Arm/Bend', and there is no such prim");
   EXPECT_EQ(
-      error_of(kHeader + mesh("point3f[] points.timeSamples = { 0: [(0, 0, 0), (1, 0, 0), (0, 1, 8)],\n1: [] }\n")),
+      error_of(body_header + mesh("point3f[] points.timeSamples = { 0: [(0, 0, 0), (1, 0, 0), (0, 1, 8)],\n1: [] }\n")),
       "body.usda:9:4: points: expected 3 as in the first sample, found 0: a mesh that moves keeps its points");
 }
 
 // What a prim refers to keeps its own skeleton, whose paths are those of its file, and its own pace.
 TEST(MeshMotionFile, FollowsReferencesWithTheirSkeletonsAndTimes) {
   const test::ScratchFolder folder;
-  folder.put(folder.path() / "arm.usda", arm(kSkin, kBend));
+  folder.put(folder.path() / "arm.usda", arm(arm_skin, elbow_motion));
   const MeshMotion motion =
       read_mesh_motion(folder.put(folder.path() / "scene.usda",
                                   "#usda 1.0\n( metersPerUnit = 1\nupAxis = \"Z\"\ntimeCodesPerSecond = 20 )\ndef "
@@ -194,7 +194,7 @@ TEST(MeshMotionFile, RefusesWhatAFormatDoesNotHave) {
   const auto obj = folder.put(folder.path() / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 2\nf 1 2 3\n");
   EXPECT_EQ(read_mesh(obj, {.up = MeshOptions::Up::y}).positions.row(2), RowVector3d(0, -2, 1));
   EXPECT_EQ(usage_error([&] { read_mesh(obj, {.prim = "/a"}); }), obj.string() + ": an OBJ has no prims: omit 'prim'");
-  const auto usd = folder.put(folder.path() / "a.usda", kHeader + mesh(kPoints));
+  const auto usd = folder.put(folder.path() / "a.usda", body_header + mesh(three_points));
   EXPECT_EQ(usage_error([&] { read_mesh(usd, {.up = MeshOptions::Up::z}); }),
             usd.string() + ": a USD file says itself which axis is up: omit 'up'");
 }

@@ -19,7 +19,7 @@ std::string error_of(const std::string& text) {
   return usage_error([&] { parse(text); });
 }
 
-const std::string kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+const std::string three_corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 TEST(ObjReader, MergesObjectsAndKeepsEveryVertexInItsOrder) {
   const Mesh mesh = read_mesh(DRAPE_SOURCE_DIR "/tests/data/polygons.obj");
@@ -54,7 +54,7 @@ TEST(ObjReader, GivesEachCornerItsTextureCoordinates) {
   EXPECT_EQ(mesh.uvs[7], (Uv{0.5, 1})) << "corner 1 of the triangle 0, 3, 4";
   EXPECT_EQ(mesh.uvs[8], (Uv{0, 0})) << "whose line gives only u";
   EXPECT_EQ(mesh.uvs[9], (Uv{0, 0})) << "of a face without";
-  EXPECT_TRUE(parse(kCorners + "f 1 2 3\n").uvs.empty());
+  EXPECT_TRUE(parse(three_corners + "f 1 2 3\n").uvs.empty());
 }
 
 TEST(ObjReader, ReadsCoordinatesToTheLastBit) {
@@ -64,10 +64,10 @@ TEST(ObjReader, ReadsCoordinatesToTheLastBit) {
 }
 
 TEST(ObjReader, TakesAnyLineEnding) {
-  const Mesh reference = parse(kCorners + "f 1 2 3");
+  const Mesh reference = parse(three_corners + "f 1 2 3");
   for (const std::string ending : {"\r\n", "\r"}) {
     std::string text;
-    for (const char c : kCorners + "f 1 2 3\n") text += c == '\n' ? ending : std::string(1, c);
+    for (const char c : three_corners + "f 1 2 3\n") text += c == '\n' ? ending : std::string(1, c);
     EXPECT_EQ(parse(text).positions, reference.positions);
     EXPECT_EQ(parse(text).triangles, reference.triangles);
   }
@@ -87,32 +87,32 @@ TEST(ObjReader, ReadsAGarmentOfOtherTools) {
 }
 
 TEST(ObjReader, MayNameVerticesFurtherDownTheFile) {
-  EXPECT_EQ(parse("f 1 2 3\n" + kCorners).triangles[0], (Triangle{0, 1, 2}));
+  EXPECT_EQ(parse("f 1 2 3\n" + three_corners).triangles[0], (Triangle{0, 1, 2}));
 }
 
 TEST(ObjReader, NamesTheLineOfACornerBeyondTheVertices) {
   const std::string file = DRAPE_SOURCE_DIR "/tests/data/broken_index.obj";
   EXPECT_EQ(usage_error([&] { read_mesh(file); }), file + ":6:7: the face names number 4, but the file has 3 vertices");
-  EXPECT_EQ(error_of(kCorners + "f 1/1 2/1 3/1\n"),
+  EXPECT_EQ(error_of(three_corners + "f 1/1 2/1 3/1\n"),
             "cloth.obj:4:3: the face names number 1, but the file has 0 texture coordinates");
-  EXPECT_EQ(error_of(kCorners + "f 1 -4 3\n"),
+  EXPECT_EQ(error_of(three_corners + "f 1 -4 3\n"),
             "cloth.obj:4:5: -4 counts back beyond the first of the 3 vertices so far");
-  EXPECT_EQ(error_of("v 0 0 0\nf -1 -2 1\n" + kCorners),
+  EXPECT_EQ(error_of("v 0 0 0\nf -1 -2 1\n" + three_corners),
             "cloth.obj:2:6: -2 counts back beyond the first of the 1 vertices so far");
-  EXPECT_EQ(error_of(kCorners + "f 1 2 0\n"), "cloth.obj:4:7: vertices are numbered from 1, found 0");
+  EXPECT_EQ(error_of(three_corners + "f 1 2 0\n"), "cloth.obj:4:7: vertices are numbered from 1, found 0");
 }
 
 TEST(ObjReader, NamesTheLineOfAnUnreadableCorner) {
   for (const std::string corner :
        {"x", "2x", "1/", "1//", "1/2/", "/1", "1/2/3/4", "1.5", "99999999999", "1/x", "--1"}) {
-    EXPECT_EQ(error_of(kCorners + "f 1 " + corner + " 3\n"),
+    EXPECT_EQ(error_of(three_corners + "f 1 " + corner + " 3\n"),
               "cloth.obj:4:5: expected a corner such as 3, 3/1, 3/1/2 or 3//2, found '" + corner + "'");
   }
 }
 
 TEST(ObjReader, NamesTheLineOfAFaceWithTooFewCorners) {
-  EXPECT_EQ(error_of(kCorners + "\n f 1 2 # 3\n"), "cloth.obj:5:2: a face needs at least 3 corners, found 2");
-  EXPECT_EQ(error_of(kCorners + "f\n"), "cloth.obj:4:1: expected numbers after 'f'");
+  EXPECT_EQ(error_of(three_corners + "\n f 1 2 # 3\n"), "cloth.obj:5:2: a face needs at least 3 corners, found 2");
+  EXPECT_EQ(error_of(three_corners + "f\n"), "cloth.obj:4:1: expected numbers after 'f'");
 }
 
 TEST(ObjReader, NamesTheLineOfABadCoordinate) {
@@ -126,7 +126,7 @@ TEST(ObjReader, NamesTheLineOfABadCoordinate) {
 }
 
 TEST(ObjReader, SaysThatThereIsNoFaceOrNoVertex) {
-  EXPECT_EQ(error_of(kCorners), "cloth.obj: there is no face ('f 1 2 3') in the file");
+  EXPECT_EQ(error_of(three_corners), "cloth.obj: there is no face ('f 1 2 3') in the file");
   EXPECT_EQ(error_of("\x7f"
                      "ELF\x01\x02 binary\n"),
             "cloth.obj: there is no vertex ('v x y z') in the file");

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 using test::usage_error;
 
-const std::string kHeader =
+const std::string ball_header =
     "#usda 1.0\n( metersPerUnit = 1\nupAxis = \"Z\"\nstartTimeCode = 10\ntimeCodesPerSecond = 20 )\n";
 
 TransformTrack parse(const std::string& text) { return read_usd_motion(SourceText("ball.usda", text)); }
@@ -28,7 +28,7 @@ std::string error_of(const std::string& text) {
 }
 
 /// A sphere with these lines from line 7 on.
-std::string ball(const std::string& lines) { return kHeader + "def Sphere \"ball\" {\n" + lines + "\n}\n"; }
+std::string ball(const std::string& lines) { return ball_header + "def Sphere \"ball\" {\n" + lines + "\n}\n"; }
 
 /// Where the operations, in this order, take a point.
 Vector3d moved(const std::string& attributes, const std::string& order, const Vector3d& point) {
@@ -77,7 +77,7 @@ TEST(UsdTransform, TurnsAboutAPivotThatIsTakenBack) {
 
 TEST(UsdTransform, ComposesAncestorsUntilOneResetsTheStack) {
   const auto text = [](const std::string& first) {
-    return kHeader + "def Xform \"a\" {\ndouble3 xformOp:translate = (10, 0, 0)\n" +
+    return ball_header + "def Xform \"a\" {\ndouble3 xformOp:translate = (10, 0, 0)\n" +
            "uniform token[] xformOpOrder = [\"xformOp:translate\"]\n" + "def Xform \"b\" {\n" +
            "double3 xformOp:scale = (2, 2, 2)\nuniform token[] xformOpOrder = [" + first + "\"xformOp:scale\"]\n" +
            "def Sphere \"s\" {}\n}\n}\n";
@@ -104,19 +104,19 @@ TEST(UsdTransform, NamesTheOperationAtFault) {
             "ball.usda:7:59: expected ',' and 4 rows in a matrix of xformOp:transform, found ')'");
 }
 
-const std::string kFalling =
+const std::string falling_ball =
     "double radius = 0.5\ndouble3 xformOp:translate.timeSamples = { 30: (0, 0, -4), 10: (0, 0, 0), 20: (2, 0, 0), }\n"
     "uniform token[] xformOpOrder = [\"xformOp:translate\"]";
 
 TEST(UsdMotion, CountsSecondsFromTheStartTimeCode) {
-  const TransformTrack track = parse(ball(kFalling));
+  const TransformTrack track = parse(ball(falling_ball));
   EXPECT_EQ(track.times, (std::vector<double>{0, 0.5, 1}));
   ASSERT_EQ(track.transforms.size(), 3U);
   EXPECT_EQ(track.transforms[1].translation(), Vector3d(2, 0, 0));
 }
 
 TEST(UsdMotion, InterpolatesLinearlyAndStaysAtItsEnds) {
-  const TransformTrack track = parse(ball(kFalling));
+  const TransformTrack track = parse(ball(falling_ball));
   EXPECT_EQ(track.at(0.25).translation(), Vector3d(1, 0, 0));
   EXPECT_EQ(track.at(0.75).translation(), Vector3d(1, 0, -2));
   EXPECT_EQ(track.at(0.5).translation(), Vector3d(2, 0, 0));
@@ -125,22 +125,22 @@ TEST(UsdMotion, InterpolatesLinearlyAndStaysAtItsEnds) {
 }
 
 TEST(UsdMotion, JoinsTheSamplesOfAllAncestors) {
-  const TransformTrack track = parse(kHeader +
+  const TransformTrack track = parse(ball_header +
                                      "def Xform \"a\" {\nfloat3 xformOp:scale.timeSamples = {10: (1, 1, 1), 30: (3, 3, "
                                      "3)}\nuniform token[] xformOpOrder = [\"xformOp:scale\"]\n" +
-                                     "def Sphere \"ball\" {\n" + kFalling + "\n}\n}\n");
+                                     "def Sphere \"ball\" {\n" + falling_ball + "\n}\n}\n");
   EXPECT_EQ(track.times, (std::vector<double>{0, 0.5, 1}));
   EXPECT_EQ(track.transforms[1].translation(), Vector3d(4, 0, 0));
   EXPECT_DOUBLE_EQ(track.sphere_at(0.5).radius, 1);
 }
 
 TEST(UsdMotion, PrefersTheShapeThatMoves) {
-  const std::string still = "def Sphere \"still\" {}\n", empty = "def Xform \"empty\" {\n" + kFalling + "\n}\n";
-  EXPECT_EQ(parse(kHeader + still + ball(kFalling).substr(kHeader.size())).times.size(), 3U);
-  EXPECT_EQ(parse(kHeader + empty + still).times.size(), 1U) << "a shape that stands before an empty that moves";
-  EXPECT_EQ(parse(kHeader + empty).times.size(), 3U);
-  EXPECT_EQ(parse(kHeader + still).times, std::vector<double>{0});
-  EXPECT_EQ(error_of(kHeader), "ball.usda: there is neither a Mesh nor a Sphere nor a moving prim in the file");
+  const std::string still = "def Sphere \"still\" {}\n", empty = "def Xform \"empty\" {\n" + falling_ball + "\n}\n";
+  EXPECT_EQ(parse(ball_header + still + ball(falling_ball).substr(ball_header.size())).times.size(), 3U);
+  EXPECT_EQ(parse(ball_header + empty + still).times.size(), 1U) << "a shape that stands before an empty that moves";
+  EXPECT_EQ(parse(ball_header + empty).times.size(), 3U);
+  EXPECT_EQ(parse(ball_header + still).times, std::vector<double>{0});
+  EXPECT_EQ(error_of(ball_header), "ball.usda: there is neither a Mesh nor a Sphere nor a moving prim in the file");
 }
 
 // What stands still is no track, nor what only its skeleton moves.
@@ -155,14 +155,15 @@ TEST(UsdMotion, OfNothingIsNoTrack) {
   EXPECT_EQ(error_of_track(ball("")), message);
   const std::string deforms = " changes its shape: use [[effects.body]] with file and prim = \"/m\"",
                     of = "a track moves a sphere, but the Mesh 'm'";
-  EXPECT_EQ(error_of_track(kHeader + "def Mesh \"m\" {\npoint3f[] points.timeSamples = { 1: [(0, 0, 0)], 2: [(1, 0, "
-                                     "0)] }\n}\n"),
-            "ball.usda:6:1: " + of + deforms);
   EXPECT_EQ(
-      error_of_track(kHeader + "def Mesh \"m\" {\nrel skel:skeleton = </s>\nint[] primvars:skel:jointIndices = [0]\n" +
-                     "double3 xformOp:translate.timeSamples = { 1: (0, 0, 0), 2: (0, 0, 1) }\nuniform token[] "
-                     "xformOpOrder = [\"xformOp:translate\"]\n}\n"),
+      error_of_track(ball_header + "def Mesh \"m\" {\npoint3f[] points.timeSamples = { 1: [(0, 0, 0)], 2: [(1, 0, "
+                                   "0)] }\n}\n"),
       "ball.usda:6:1: " + of + deforms);
+  EXPECT_EQ(error_of_track(ball_header +
+                           "def Mesh \"m\" {\nrel skel:skeleton = </s>\nint[] primvars:skel:jointIndices = [0]\n" +
+                           "double3 xformOp:translate.timeSamples = { 1: (0, 0, 0), 2: (0, 0, 1) }\nuniform token[] "
+                           "xformOpOrder = [\"xformOp:translate\"]\n}\n"),
+            "ball.usda:6:1: " + of + deforms);
   EXPECT_EQ(error_of_track(ball("double3 xformOp:translate.timeSamples = { 1: (0, 0, 0) }\nuniform token[] "
                                 "xformOpOrder = [\"xformOp:translate\"]")),
             message);

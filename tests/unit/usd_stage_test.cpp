@@ -10,29 +10,23 @@
 #include "scene/usd/mesh.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/usage_error.hpp"
+#include "tests/unit/usd_texts.hpp"
 
 namespace drape::usd_stage {
 namespace {
 
 using test::usage_error;
-
-const std::string kHeader = "#usda 1.0\n( metersPerUnit = 1\nupAxis = \"Z\" )\n";
-const std::string kTriangle =
-    "int[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\n"
-    "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n";
-
-Mesh parse(const std::string& text) { return read_usd_mesh(SourceText("cloth.usda", text)); }
-
-std::string error_of(const std::string& text) {
-  return usage_error([&] { parse(text); });
-}
+using test::usd_error;
+using test::usd_header;
+using test::usd_mesh;
+using test::usd_triangle;
 
 TEST(UsdStage, TakesTheMeshThatIsNamed) {
   const auto prim = [](const std::string& name, const std::string& inside) {
     return "def Xform \"" + name + "\" {\n" + inside + "}\n";
   };
-  const std::string cloth = "def Mesh \"cloth\" {\n" + kTriangle + "}\n";
-  const std::string file = kHeader + prim("a", cloth) + prim("b", "def Mesh \"sheet\" {\n" + kTriangle + "}\n");
+  const std::string cloth = "def Mesh \"cloth\" {\n" + usd_triangle + "}\n";
+  const std::string file = usd_header + prim("a", cloth) + prim("b", "def Mesh \"sheet\" {\n" + usd_triangle + "}\n");
   const auto error = [&](const std::string& name) {
     return usage_error([&] { read_usd_mesh(SourceText("cloth.usda", file), name); });
   };
@@ -48,25 +42,25 @@ TEST(UsdStage, TakesTheMeshThatIsNamed) {
 
 // Files of assets keep their meshes there, for others to refer to.
 TEST(UsdStage, ReadsWhatIsNoPartOfTheSceneWhereNothingElseIs) {
-  const std::string mesh = "def Mesh \"m\" {\n" + kTriangle + "}\n";
-  EXPECT_EQ(parse(kHeader + "over \"model\" {\n" + mesh + "}\n").positions.rows(), 3);
-  EXPECT_EQ(parse(kHeader + "def \"a\" {}\nclass" + mesh.substr(3)).positions.rows(), 3);
+  const std::string mesh = "def Mesh \"m\" {\n" + usd_triangle + "}\n";
+  EXPECT_EQ(usd_mesh(usd_header + "over \"model\" {\n" + mesh + "}\n").positions.rows(), 3);
+  EXPECT_EQ(usd_mesh(usd_header + "def \"a\" {}\nclass" + mesh.substr(3)).positions.rows(), 3);
   const std::string two = "variantSet \"lod\" = {\n\"low\" {\n" + mesh + "}\n\"high\" {\ndef Mesh \"h\" {}\n}\n}\n";
-  EXPECT_EQ(parse(kHeader + "def \"a\" {\n" + two + "}\n").positions.rows(), 3) << "the first of a set";
-  const std::string part = "def Mesh \"part\" {\n" + kTriangle + "float3 xformOp:translate = (0, 0, 5)\n" +
+  EXPECT_EQ(usd_mesh(usd_header + "def \"a\" {\n" + two + "}\n").positions.rows(), 3) << "the first of a set";
+  const std::string part = "def Mesh \"part\" {\n" + usd_triangle + "float3 xformOp:translate = (0, 0, 5)\n" +
                            "uniform token[] xformOpOrder = [\"xformOp:translate\"]\n}\n";
-  EXPECT_EQ(parse(kHeader + "def \"a\" {\n" + two + "}\nover \"b\" {\n" + mesh + "}\n" + part).positions(0, 2), 5)
+  EXPECT_EQ(usd_mesh(usd_header + "def \"a\" {\n" + two + "}\nover \"b\" {\n" + mesh + "}\n" + part).positions(0, 2), 5)
       << "the one that is";
 }
 
 TEST(UsdStage, ReadsTheVariantThatIsSelected) {
-  const std::string variants =
-      "variantSet \"lod\" = {\n\"low\" { def Mesh \"l\" {} }\n\"high\" {\ndef Mesh \"m\" {\n" + kTriangle + "}\n}\n}\n";
+  const std::string variants = "variantSet \"lod\" = {\n\"low\" { def Mesh \"l\" {} }\n\"high\" {\ndef Mesh \"m\" {\n" +
+                               usd_triangle + "}\n}\n}\n";
   const std::string selects = " (\nvariants = { string lod = \"high\" }\nprepend variantSets = \"lod\"\n)";
-  EXPECT_EQ(parse(kHeader + "def \"a\"" + selects + " {\n" + variants + "}\n").positions.rows(), 3);
-  EXPECT_EQ(parse(kHeader + "def \"a\" {\n" + variants +
-                  "}\ndef \"b\" (\nreferences = </a>\nvariants = { string lod = "
-                  "\"high\" }\n) {}\n")
+  EXPECT_EQ(usd_mesh(usd_header + "def \"a\"" + selects + " {\n" + variants + "}\n").positions.rows(), 3);
+  EXPECT_EQ(usd_mesh(usd_header + "def \"a\" {\n" + variants +
+                     "}\ndef \"b\" (\nreferences = </a>\nvariants = { string lod = "
+                     "\"high\" }\n) {}\n")
                 .positions.rows(),
             3)
       << "and where something refers to it";
@@ -77,18 +71,18 @@ TEST(UsdStage, ReadsWhatAPrimRefersTo) {
   const auto put = [&](const std::string& name, const std::string& text) {
     return folder.put(folder.path() / name, text);
   };
-  put("part.usda", "#usda 1.0\n( defaultPrim = \"m\" )\ndef Mesh \"m\" {\n" + kTriangle + "}\n");
+  put("part.usda", "#usda 1.0\n( defaultPrim = \"m\" )\ndef Mesh \"m\" {\n" + usd_triangle + "}\n");
   // What stands nearer wins: of the moves that of the file itself, and of the units and the up axis too.
   const std::string move =
       "{\nfloat3 xformOp:translate = (0, 0, 7)\nuniform token[] xformOpOrder = [\"xformOp:translate\"]\n}\n";
   for (const std::string arc : {"references = @part.usda@", "prepend references = [@./part.usda@</m>]",
                                 "payload = @part.usda@", "append payload = @part.usda@ (offset = 3)"}) {
-    const Mesh mesh = read_mesh(put("scene.usda", kHeader + "def \"a\" (\n" + arc + "\n) " + move));
+    const Mesh mesh = read_mesh(put("scene.usda", usd_header + "def \"a\" (\n" + arc + "\n) " + move));
     ASSERT_EQ(mesh.positions.rows(), 3) << arc;
     EXPECT_EQ(mesh.positions.row(2), Eigen::RowVector3d(0, 1, 7)) << arc;
   }
-  const Mesh sublayer = read_mesh(
-      put("scene.usda", kHeader.substr(0, kHeader.size() - 2) + "subLayers = [@part.usda@]\n)\nover \"m\" " + move));
+  const Mesh sublayer = read_mesh(put(
+      "scene.usda", usd_header.substr(0, usd_header.size() - 2) + "subLayers = [@part.usda@]\n)\nover \"m\" " + move));
   EXPECT_EQ(sublayer.positions.row(2), Eigen::RowVector3d(0, 1, 7));
   std::vector<std::filesystem::path> inputs;
   read_mesh(folder.path() / "scene.usda", {}, &inputs);
@@ -96,16 +90,16 @@ TEST(UsdStage, ReadsWhatAPrimRefersTo) {
 }
 
 TEST(UsdStage, SaysWhatItCannotFollow) {
-  EXPECT_EQ(error_of(kHeader + "def \"a\" ( references = @missing.usda@ ) {}\n"),
+  EXPECT_EQ(usd_error(usd_header + "def \"a\" ( references = @missing.usda@ ) {}\n"),
             "cloth.usda:4:24: there is no Mesh in the file, and what this refers to is not read: 'missing.usda' is not "
             "there");
-  EXPECT_EQ(error_of(kHeader + "def \"a\" ( references = @body.usdc@ ) {}\n"),
+  EXPECT_EQ(usd_error(usd_header + "def \"a\" ( references = @body.usdc@ ) {}\n"),
             "cloth.usda:4:24: there is no Mesh in the file, and what this refers to is not read: 'body.usdc' is no "
             ".usda file");
   EXPECT_EQ(
-      error_of(kHeader + "def \"a\" ( references = </b> ) {}\n"),
+      usd_error(usd_header + "def \"a\" ( references = </b> ) {}\n"),
       "cloth.usda:4:24: there is no Mesh in the file, and what this refers to is not read: there is no prim '/b'");
-  EXPECT_EQ(error_of(kHeader + "def \"a\" ( references = </a> ) {}\n"),
+  EXPECT_EQ(usd_error(usd_header + "def \"a\" ( references = </a> ) {}\n"),
             "cloth.usda:4:24: there is no Mesh in the file, and what this refers to is not read: the prim refers to "
             "itself");
 }
@@ -116,16 +110,17 @@ TEST(UsdStage, EndsWhereReferencesDoNot) {
     return "def \"" + name + "\" ( references = " + refers + " ) { " + inside + " }\n";
   };
   const auto deep = "references nested deeper than 64";
-  EXPECT_NE(error_of(kHeader + prim("a", "</b>") + prim("b", "</a>")).find(deep), std::string::npos);
-  EXPECT_NE(error_of(kHeader + prim("a", "</b/c>") + prim("b", "</a/c>")).find(deep), std::string::npos);
-  EXPECT_NE(error_of(kHeader + prim("a", "</b>") + "def \"b\" { " + prim("c", "</a>") + " }\n").find("nested deeper"),
-            std::string::npos);
-  std::string doubling = kHeader;
+  EXPECT_NE(usd_error(usd_header + prim("a", "</b>") + prim("b", "</a>")).find(deep), std::string::npos);
+  EXPECT_NE(usd_error(usd_header + prim("a", "</b/c>") + prim("b", "</a/c>")).find(deep), std::string::npos);
+  EXPECT_NE(
+      usd_error(usd_header + prim("a", "</b>") + "def \"b\" { " + prim("c", "</a>") + " }\n").find("nested deeper"),
+      std::string::npos);
+  std::string doubling = usd_header;
   for (int i = 0; i < 40; ++i) {
     const std::string next = fmt::format("</p{}>", i + 1);
     doubling += prim(fmt::format("p{}", i), fmt::format("[{}, {}]", next, next));
   }
-  EXPECT_NE(error_of(doubling + "def \"p40\" {}\n").find("references lead to more than"), std::string::npos);
+  EXPECT_NE(usd_error(doubling + "def \"p40\" {}\n").find("references lead to more than"), std::string::npos);
 }
 
 /// Files that others made are not part of the project.
