@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
+#include "check/scene_charts.hpp"
 #include "core/text.hpp"
 #include "html/chart.hpp"
 #include "html/comparison.hpp"
@@ -59,45 +58,6 @@ Markup viewer(const SceneResult& scene, const Comparison& comparison, const std:
     moments.push_back(std::move(moment));
   }
   return moments.empty() ? Markup() : html::comparison(id, moments, shown);
-}
-
-Markup motion_chart(const SceneResult& scene, const Comparison& comparison) {
-  html::ChartSeries series;
-  for (const WindowResult& window : comparison.windows) {
-    for (const Deviation& deviation : window.deviations) {
-      series.points.push_back({static_cast<double>(deviation.step),
-                               deviation.distance,
-                               fmt::format("step {}: {}", deviation.step, readable_length(deviation.distance)),
-                               {}});
-    }
-    series.points.push_back({NAN, NAN, {}, {}});  // every window starts anew from a golden state
-  }
-  html::Chart chart{"Largest vertex deviation from the golden motion, halfway through and at the end of every window",
-                    "step",
-                    "deviation [m]",
-                    html::Scale::linear,
-                    html::Scale::logarithmic,
-                    {series},
-                    {{scene.settings.motion_tolerance, "tolerance"}}};
-  return html::chart(chart);
-}
-
-Markup picture_chart(const SceneResult& scene, const Comparison& comparison) {
-  html::ChartSeries largest{"largest in a pixel", {}}, mean{"mean", {}};
-  for (const FrameResult& frame : comparison.frames) {
-    const PictureDifference& d = frame.difference;
-    const auto x = static_cast<double>(frame.frame);
-    largest.points.push_back({x, d.max_flip, fmt::format("frame {}: {:.3f}", frame.frame, d.max_flip), {}});
-    mean.points.push_back({x, d.mean_flip, fmt::format("frame {}: {:.4f}", frame.frame, d.mean_flip), {}});
-  }
-  html::Chart chart{"Visible difference of the pictures: their FLIP error, from 0 (identical) to 1.",
-                    "frame",
-                    "FLIP error",
-                    html::Scale::linear,
-                    html::Scale::linear,
-                    {largest, mean},
-                    {{scene.settings.limits.flip, "limit per pixel"}}};
-  return html::chart(chart);
 }
 
 Markup windows_table(const Comparison& comparison) {
@@ -160,8 +120,7 @@ Markup provenance(const SceneResult& scene) {
 /// Curves and tables.
 Markup figures(const SceneResult& scene, const Comparison& comparison) {
   std::vector<Markup> charts;
-  if (!comparison.windows.empty()) charts.push_back(motion_chart(scene, comparison));
-  if (!comparison.frames.empty()) charts.push_back(picture_chart(scene, comparison));
+  for (const NamedChart& diagram : scene_charts(scene, comparison)) charts.push_back(html::chart(diagram.chart));
   const Markup content = html::row(charts);
   Markup tables;
   if (!comparison.windows.empty()) tables += windows_table(comparison);

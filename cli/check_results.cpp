@@ -14,6 +14,7 @@
 #include "check/html_report.hpp"
 #include "check/json_report.hpp"
 #include "check/junit_report.hpp"
+#include "check/scene_charts.hpp"
 #include "cli/terminal.hpp"
 #include "core/atomic_file.hpp"
 #include "core/shell.hpp"
@@ -62,6 +63,7 @@ void write_reports(const CheckShard& shard, const std::filesystem::path& folder)
   write_file_atomically(folder / junit, junit_report(shard.report));
   if (!shard.whole) write_file_atomically(folder / check_mark, pack_shard(shard));
   write_frame_files(shard.report, folder);
+  if (const std::string missing = write_diagrams(shard.report, folder); !missing.empty()) spdlog::debug(missing);
 }
 
 /// Where GitHub runs this: what it shows of the job, and beside the scenes' files.

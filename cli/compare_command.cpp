@@ -91,6 +91,7 @@ std::string command_line(const CompareArguments& arguments) {
 }
 
 ExitCode conclude(const CompareResult& result) {
+  if (!result.missing.empty()) spdlog::warn(result.missing);
   for (const std::string& problem : result.problems) spdlog::error(problem);
   ExitCode code = result.problems.empty() ? ExitCode::ok : ExitCode::output;
   for (const ComparedMotion& motion : result.motions) {
@@ -151,9 +152,11 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
       ->required();
   one_each(sub->add_option(
       "-o,--output", options.outputs,
-      fmt::format("Output file; its extension selects the format (repeatable; default out/compare.gif).\n.html a "
-                  "self-contained page: the motions in step, their figures and differences\n{}",
-                  output_help(true))));
+      fmt::format(
+          "Output file; its extension selects the format (repeatable; default out/compare.gif).\n.html a "
+          "self-contained page: the motions in step, their figures and differences; its diagrams as files are in "
+          "NAME-diagrams\n{}",
+          output_help(true))));
   one_each(
       sub->add_option("--set", arguments->overrides, "Override a value of all scenes: key.path=value; repeatable"));
   one_each(sub->add_option(

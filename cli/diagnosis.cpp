@@ -15,6 +15,7 @@
 #include "cli/environment.hpp"
 #include "codecs/codecs.hpp"
 #include "core/error.hpp"
+#include "figures/svg_printer.hpp"
 #include "output/registry.hpp"
 #include "output/try_format.hpp"
 #include "overlay/fonts.hpp"
@@ -23,7 +24,6 @@
 #include "scene/scene.hpp"
 #include "sim/kernels/kernels.hpp"
 #include "sim/mesh.hpp"
-#include "study/svg_printer.hpp"
 
 namespace drape {
 namespace {

@@ -176,8 +176,17 @@ class Comparison {
       file.write(comparison_page(result_, moments_, bar_ ? encode_png(*bar_) : "", options_.command));
       const std::uintmax_t size = file.commit(ending);
       result_.outputs.push_back({{file.name(ending), size}});
+      if (ending == Ending::complete) write_diagrams(path);
     } catch (const OutputError& error) {
       result_.problems.emplace_back(error.what());
+    }
+  }
+
+  /// The diagrams of a page, beside it.
+  void write_diagrams(const std::filesystem::path& page) {
+    const std::filesystem::path folder = page.parent_path() / (page.stem().string() + "-diagrams");
+    for (const NamedChart& diagram : comparison_charts(result_)) {
+      if (const std::string missing = write_chart(diagram, folder); !missing.empty()) result_.missing = missing;
     }
   }
 

@@ -49,6 +49,7 @@ struct CompareResult {
   int frames_wanted = 0;
   std::vector<std::vector<OutputFile>> outputs;  ///< the files of each output that there is
   std::vector<std::string> problems;             ///< a message for each that could not be written
+  std::string missing;  ///< what of the page's diagrams could not be made, as a sentence; empty: nothing
 };
 
 /// The moments of the i-th motion that a comparison shows: those of the first scene's film.

@@ -10,7 +10,7 @@
 #include "html/components.hpp"
 #include "html/film.hpp"
 #include "html/page.hpp"
-#include "study/diagram_files.hpp"
+#include "study/method_series.hpp"
 
 namespace drape {
 namespace {
@@ -94,7 +94,8 @@ html::ChartSeries series_of(const CompareResult& result, std::size_t i) {
 /// Lines over time, one for each motion.
 /// @param of a motion's numbers by frame
 template <class Of>
-Markup lines(const CompareResult& result, const std::string& title, const std::string& y_title, Of of) {
+NamedChart lines(const CompareResult& result, const std::string& name, const std::string& title,
+                 const std::string& y_title, Of of) {
   html::Chart chart{.title = title, .x_title = "time [s]", .y_title = y_title, .series = {}, .levels = {}};
   const std::size_t every = std::max<std::size_t>(1, result.times.size() / 200);
   for (std::size_t i = 0; i < result.motions.size(); ++i) {
@@ -105,19 +106,28 @@ Markup lines(const CompareResult& result, const std::string& title, const std::s
     }
     if (!series.points.empty()) chart.series.push_back(std::move(series));
   }
-  return chart.series.empty() ? Markup() : html::chart(chart);
+  return {name, std::move(chart)};
 }
 
 Markup curves(const CompareResult& result) {
-  const Markup energy = lines(result, "Total energy over time", "total energy [J]",
-                              [](const ComparedMotion& m, std::size_t k) { return std::optional(m.total_energy[k]); });
-  const Markup distance = lines(
-      result, "Mean distance of the vertices from those of the first motion", "mean distance [m]",
-      [&](const ComparedMotion& m, std::size_t k) { return &m == &result.motions.front() ? std::nullopt : m.mean[k]; });
-  return energy + distance;
+  Markup content;
+  for (const NamedChart& diagram : comparison_charts(result)) content += html::chart(diagram.chart);
+  return content;
 }
 
 }  // namespace
+
+std::vector<NamedChart> comparison_charts(const CompareResult& result) {
+  std::vector<NamedChart> charts{
+      lines(result, "energy", "Total energy over time", "total energy [J]",
+            [](const ComparedMotion& m, std::size_t k) { return std::optional(m.total_energy[k]); }),
+      lines(result, "distance", "Mean distance of the vertices from those of the first motion", "mean distance [m]",
+            [&](const ComparedMotion& m, std::size_t k) {
+              return &m == &result.motions.front() ? std::nullopt : m.mean[k];
+            })};
+  std::erase_if(charts, [](const NamedChart& diagram) { return diagram.chart.series.empty(); });
+  return charts;
+}
 
 std::string comparison_page(const CompareResult& result, const std::vector<PageMoment>& moments, const std::string& bar,
                             const std::string& command) {

@@ -9,10 +9,11 @@
 namespace drape::html {
 namespace {
 
-constexpr int wanted_ticks = 6;
+constexpr int wanted_ticks = 6;        // of decades
+constexpr std::size_t most_ticks = 7;  // of a linear axis
 constexpr std::size_t fewest_ticks = 3;
-constexpr double room_for_zero = 0.1, near = 0.1;  // as parts of an axis
-constexpr double rounding = 1e-9;                  // by which a value may be beyond a tick that is meant to be it
+constexpr double room_for_zero = 0.1, near = 0.02;  // as parts of an axis
+constexpr double rounding = 1e-9;                   // by which a value may be beyond a tick that is meant to be it
 
 /// A power of ten: "10⁻⁷".
 std::string power(int exponent) {
@@ -50,27 +51,28 @@ class TickLabels {
   int exponent_ = 0, decimals_ = 0;
 };
 
-/// Between the ticks of a linear axis.
-double round_step(double low, double high) {
-  const double rough = (high - low) / wanted_ticks;
-  const double decade = std::pow(10, std::floor(std::log10(rough)));
-  const double ratio = rough / decade;
-  return decade * (ratio <= 1 ? 1 : ratio <= 2 ? 2 : ratio <= 5 ? 5 : 10);
-}
-
-/// Moves the ends of an axis out to ticks that are near.
-void widen(double& low, double& high, double step) {
-  const double reach = near * (high - low);
-  const double below = std::floor(low / step) * step, above = std::ceil(high / step) * step;
-  if (low - below < reach) low = below;
-  if (above - high < reach) high = above;
-}
-
 std::vector<double> multiples(double step, double low, double high) {
   std::vector<double> numbers;
   const double first = std::ceil(low / step - rounding);
   for (int i = 0; first + i <= high / step + rounding; ++i) numbers.push_back((first + i) * step + 0.0);  // + 0: no −0
   return numbers;
+}
+
+/// The shortest round one between the ticks of a linear axis that has room for them all; at least three of them.
+double round_step(double low, double high) {
+  for (double decade = std::pow(10, std::floor(std::log10((high - low) / most_ticks)));; decade *= 10) {
+    for (const int factor : {1, 2, 5}) {
+      if (multiples(factor * decade, low, high).size() <= most_ticks) return factor * decade;
+    }
+  }
+}
+
+/// Moves the ends of an axis out to ticks that nobody could tell from them.
+void widen(double& low, double& high, double step) {
+  const double reach = near * (high - low);
+  const double below = std::floor(low / step) * step, above = std::ceil(high / step) * step;
+  if (low - below < reach) low = below;
+  if (above - high < reach) high = above;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace drape::html {
 
 enum class Scale { linear, logarithmic };
 
-/// Where values lie on an axis, which ends where they end or at a tick that is near, and its ticks at round numbers. A
+/// Where values lie on an axis, which ends where they end, and its ticks at round numbers. A
 /// logarithmic axis has, where values of zero or less occur, a place for them below the smallest other.
 class AxisMap {
  public:

@@ -9,6 +9,7 @@
 #include "core/text.hpp"
 #include "scene/method_names.hpp"
 #include "study/accuracy_charts.hpp"
+#include "study/method_series.hpp"
 
 namespace drape {
 namespace {

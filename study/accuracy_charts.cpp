@@ -7,6 +7,7 @@
 
 #include "core/shell.hpp"
 #include "scene/method_names.hpp"
+#include "study/method_series.hpp"
 
 namespace drape {
 namespace {

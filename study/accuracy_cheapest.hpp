@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "figures/result_table.hpp"
 #include "study/accuracy.hpp"
-#include "study/result_table.hpp"
 
 namespace drape {
 

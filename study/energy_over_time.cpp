@@ -9,6 +9,7 @@
 #include "scene/method_names.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/simulation.hpp"
+#include "study/method_series.hpp"
 
 namespace drape {
 namespace {

@@ -4,8 +4,8 @@
 #include <stop_token>
 #include <vector>
 
+#include "figures/diagram_files.hpp"
 #include "sim/settings.hpp"
-#include "study/diagram_files.hpp"
 
 namespace drape {
 

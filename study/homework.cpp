@@ -10,6 +10,7 @@
 #include "sim/simulation.hpp"
 #include "study/homework_cases.hpp"
 #include "study/homework_conclusions.hpp"
+#include "study/method_series.hpp"
 
 namespace drape {
 namespace {

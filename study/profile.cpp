@@ -8,6 +8,7 @@
 
 #include "core/text.hpp"
 #include "scene/method_names.hpp"
+#include "study/method_series.hpp"
 
 namespace drape {
 namespace {

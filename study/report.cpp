@@ -136,6 +136,7 @@ std::string write_report(const StudyReport& report, const std::filesystem::path&
     for (const NamedChart& chart : section.charts) note(write_chart(chart, folder));
     for (const StabilityMap& map : section.maps) {
       write_file_atomically(folder / (map_name(map) + ".csv"), map_csv(map));
+      write_set_table(map_table(map), folder);
       note(write_diagram(map_diagram(map), folder, map_name(map)));
     }
   }

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/wrap.hpp"
+#include "figures/diagram_files.hpp"
+#include "figures/result_table.hpp"
 #include "html/components.hpp"
-#include "study/diagram_files.hpp"
-#include "study/result_table.hpp"
 #include "study/stability_map.hpp"
 
 namespace drape {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/nearest.hpp"
-#include "study/result_table.hpp"
+#include "figures/result_table.hpp"
 
 namespace drape {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/method_series.hpp"
 #include "study/power_law.hpp"
 
 namespace drape {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "figures/result_table.hpp"
 #include "html/diagram.hpp"
 #include "study/stability.hpp"
 
@@ -20,6 +21,9 @@ html::Diagram map_diagram(const StabilityMap& map);
 html::Markup map_figure(const StabilityMap& map);
 /// The colours and signs of all maps.
 html::Markup map_legend();
+
+/// The same as a table for a text: a row for each stiffness, a column for each step.
+ResultTable map_table(const StabilityMap& map);
 
 /// step,stiffness,outcome,energy_error,steps_not_converged,predicted_limit
 std::string map_csv(const StabilityMap& map);

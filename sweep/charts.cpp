@@ -11,6 +11,8 @@
 #include <optional>
 #include <set>
 
+#include "study/method_series.hpp"
+
 namespace drape {
 namespace {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "figures/diagram_files.hpp"
 #include "html/explore.hpp"
-#include "study/diagram_files.hpp"
 #include "sweep/results.hpp"
 
 namespace drape {

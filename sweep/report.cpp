@@ -13,7 +13,8 @@ std::string write_sweep_report(const SweepResults& results, const std::filesyste
   write_file_atomically(folder / "table.tex", sweep_latex(results));
   std::string problem;
   for (const NamedChart& chart : figure_diagrams(results).charts) {
-    problem = write_chart(chart, folder / diagrams_place);
+    const std::string missing = write_chart(chart, folder / diagrams_place);
+    if (problem.empty()) problem = missing;
   }
   write_file_atomically(folder / sweep_page_name, sweep_page(results, folder));
   return problem;

@@ -9,7 +9,7 @@
 
 #include "html/latex.hpp"
 #include "html/markdown.hpp"
-#include "study/result_table.hpp"
+#include "figures/result_table.hpp"
 
 namespace drape {
 namespace {

@@ -25,7 +25,8 @@ TEST(CheckCommand, BlessesChecksAndFails) {
   EXPECT_NE(passed.text.find("swing.toml: passed: motion same bits, 2 pictures exact; end to end same bits, exact"),
             std::string::npos)
       << passed.text;
-  for (const char* file : {"report.json", "junit.xml", "report.html"}) {
+  for (const char* file : {"report.json", "junit.xml", "report.html", "swing/motion.svg", "swing/pictures.csv",
+                           "swing/end_to_end.motion.tex", "swing/end_to_end.pictures.md"}) {
     EXPECT_TRUE(fs::exists(folder.path() / "out/check" / file)) << file;
   }
 

@@ -22,6 +22,12 @@ TEST(Compare, WritesEveryFormInOnePass) {
   EXPECT_EQ(finished.code, 0) << finished.text;
   for (const char* file : {"ab.gif", "ab.html", "ab.png"})
     EXPECT_TRUE(std::filesystem::exists(folder.path(file))) << file;
+  for (const char* diagram : {"energy", "distance"}) {
+    for (const char* form : {".svg", ".csv", ".md", ".tex"}) {
+      EXPECT_TRUE(std::filesystem::exists(folder.path("ab-diagrams/" + std::string(diagram) + form)))
+          << diagram << form;
+    }
+  }
 }
 
 TEST(Compare, VariesASceneByItsKeys) {

@@ -18,9 +18,9 @@ void expect_results(const SceneFolder& folder, const Finished& finished, std::ve
                     const std::vector<std::string>& diagrams) {
   EXPECT_EQ(finished.code, 0) << finished.text;
   files.insert(files.end(), {"report.html", "report.md"});
-  const bool svg_only = finished.text.find("as SVG only") != std::string::npos;
+  const bool svg_only = finished.text.find("only as SVG") != std::string::npos;
   for (const std::string& name : diagrams) {
-    files.insert(files.end(), {name + ".csv", name + ".svg"});
+    files.insert(files.end(), {name + ".csv", name + ".md", name + ".tex", name + ".svg"});
     if (!svg_only) files.insert(files.end(), {name + ".pdf", name + ".png"});
   }
   for (const std::string& name : files) {

@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "figures/diagram_files.hpp"
 #include "html/chart.hpp"
-#include "study/diagram_files.hpp"
+#include "study/method_series.hpp"
 #include "study/stability_map.hpp"
 #include "tests/html/html_page.hpp"
 

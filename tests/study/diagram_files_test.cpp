@@ -1,4 +1,4 @@
-#include "study/diagram_files.hpp"
+#include "figures/diagram_files.hpp"
 
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
@@ -6,7 +6,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/error.hpp"
-#include "study/svg_printer.hpp"
+#include "figures/svg_printer.hpp"
+#include "study/method_series.hpp"
+#include "study/stability_map.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -76,6 +78,40 @@ TEST(DiagramFile, HasItsPointsAsCsv) {
             "liu13,2,100,1.5,2.5\n"
             "\"liu13, \"\"<report>\"\"\",1,20,,\n"
             "\"liu13, \"\"<report>\"\"\",3,5,,\n");
+}
+
+TEST(DiagramFile, HasAllItsPointsAsCsvAndNotTooManyForAText) {
+  NamedChart many = sample();
+  many.chart.series[0].points.clear();
+  for (int i = 0; i < 1001; ++i) many.chart.series[0].points.push_back({static_cast<double>(i), 1, "", ""});
+  const test::ScratchFolder folder;
+  write_chart(many, folder.path());
+  const auto lines = [&](const char* form) {
+    const std::string text = test::content(folder.path() / (std::string("plot") + form));
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  EXPECT_EQ(lines(".csv"), 1 + 1001 + 2);
+  EXPECT_LT(lines(".tex"), 220);
+  EXPECT_GT(lines(".tex"), 150);
+  const std::string markdown = test::content(folder.path() / "plot.md");
+  for (const char* end : {"| liu13 | 0 | 1 |", "| liu13 | 1000 | 1 |"}) {
+    EXPECT_NE(markdown.find(end), std::string::npos) << end;
+  }
+  EXPECT_NE(markdown.find("all of them are in plot.csv"), std::string::npos);
+}
+
+TEST(DiagramFile, OfAStabilityMapHasItsCellsAsATable) {
+  StabilityMap map;
+  map.steps = {0.01, 0.1};
+  map.stiffnesses = {100, 1e6};
+  map.limits = {1, 0.01};
+  map.cells = {{0.01, 100, StabilityOutcome::stable, 0.0123, 0},
+               {0.1, 100, StabilityOutcome::not_converged, 0.5, 3},
+               {0.01, 1e6, StabilityOutcome::converged, 0.2, 0},
+               {0.1, 1e6, StabilityOutcome::blown_up, 7, 0}};
+  const ResultTable table = map_table(map);
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"stiffness of the springs [N/m]", "0.01 s", "0.1 s"}));
+  EXPECT_EQ(table.rows, (std::vector<std::vector<std::string>>{{"100", "0.012", "0.5*"}, {"1e+06", "0.2", "×"}}));
 }
 
 TEST(SvgPrinter, ThatIsMissingSaysWhatToInstall) {

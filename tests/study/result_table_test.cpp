@@ -1,8 +1,13 @@
-#include "study/result_table.hpp"
+#include "figures/result_table.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdio>
+#include <regex>
+
 #include "html/markdown.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace drape {
 namespace {
@@ -44,9 +49,57 @@ TEST(ResultTable, EscapesWhatMarkdownWouldSplit) {
 }
 
 TEST(ResultTable, IsWrittenForLatex) {
-  EXPECT_EQ(to_latex(table),
-            "% Title\n% needs \\usepackage{booktabs}\n\\begin{tabular}{lr}\n  \\toprule\n  method & \\textmu{}s \\\\\n"
-            "  \\midrule\n  a, \"b\" \\textbar{} c & 9.5 \\\\\n  d & -- \\\\\n  \\bottomrule\n\\end{tabular}\n");
+  EXPECT_EQ(
+      to_latex(table),
+      "% Title\n% A note.\n% needs \\usepackage{booktabs}\n\\begin{tabular}{lr}\n  \\toprule\n  method & µs \\\\\n"
+      "  \\midrule\n  a, \"b\" $|$ c & 9.5 \\\\\n  d & -- \\\\\n  \\bottomrule\n\\end{tabular}\n");
+}
+
+std::string output_of(const std::string& command) {
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  std::string text;
+  while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), count);
+  return pclose(pipe) == 0 ? text : "";
+}
+
+/// The cells of a table, row by row, as pandoc understands a file.
+std::vector<std::vector<std::string>> read_by_pandoc(const std::string& file, const std::string& format) {
+  std::string html = output_of("pandoc --wrap=none -f " + format + " -t html '" + file + "'");
+  const std::array<std::array<const char*, 2>, 7> written{
+      {{"∥", "‖"}, {"⋅", "·"}, {"<[^>]*>", ""}, {"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&amp;", "&"}}};
+  std::vector<std::vector<std::string>> rows;
+  static const std::regex row("<tr[^>]*>([^]*?)</tr>"), cell("<t[dh][^>]*>([^]*?)</t[dh]>");
+  for (std::sregex_iterator r(html.begin(), html.end(), row), end; r != end; ++r) {
+    rows.emplace_back();
+    const std::string inside = (*r)[1];
+    for (std::sregex_iterator c(inside.begin(), inside.end(), cell); c != end; ++c) {
+      std::string text = (*c)[1];
+      text = std::regex_replace(text, std::regex("<span class=\"math inline\">([^]*?)</span>"), "$1");
+      text = std::regex_replace(text, std::regex("<sup>−7</sup>"), "⁻⁷");
+      text = std::regex_replace(text, std::regex("<sup>2</sup>"), "²");
+      for (const auto& [from, to] : written) text = std::regex_replace(text, std::regex(from), to);
+      rows.back().push_back(text);
+    }
+  }
+  return rows;
+}
+
+// pandoc makes Word files of both; a reader who does not know a macro leaves the sign out.
+TEST(ResultTable, HasTheSameCellsForThoseWhoReadLatexAndMarkdown) {
+  if (output_of("pandoc --version 2>/dev/null").empty()) GTEST_SKIP() << "pandoc is not installed";
+  const ResultTable all{
+      "all",
+      "Title: 100 % of a_b",
+      {"step [s]", "error ‖∇g‖ [m/s²]", "µs per step, ε = 10⁻⁷", "C:\\~^{}<&>#$"},
+      {{"1 × 2 · 3", "−0.5", "≤ 1.5 ≈ 2 ≥ 1", "a | b"}, {"τ → λ", "∞", "90° … ½", "π Σ"}, {"_*x*_", "[1](2)", "", "1"}},
+      {"A note."}};
+  std::vector<std::vector<std::string>> expected{all.columns};
+  expected.insert(expected.end(), all.rows.begin(), all.rows.end());
+  const test::ScratchFolder folder;
+  write_set_table(all, folder.path());
+  EXPECT_EQ(read_by_pandoc((folder.path() / "all.md").string(), "gfm"), expected);
+  EXPECT_EQ(read_by_pandoc((folder.path() / "all.tex").string(), "latex"), expected);
 }
 
 TEST(Markdown, ShowsTextAsItIs) {

@@ -32,9 +32,15 @@ std::string to_markdown(const ResultTable& table);
 std::string to_csv(const ResultTable& table);
 /// A tabular environment, as \input takes it; needs booktabs and nothing else.
 std::string to_latex(const ResultTable& table);
+/// The rows of the longest table that somebody would set into a text.
+inline constexpr std::size_t most_set_rows = 200;
+
 /// Writes NAME.csv, and NAME.md and NAME.tex of a table that is not too long for a text.
 /// @throws OutputError
 void write_table(const ResultTable& table, const std::filesystem::path& folder);
+/// Writes NAME.md and NAME.tex alone.
+/// @throws OutputError
+void write_set_table(const ResultTable& table, const std::filesystem::path& folder);
 html::Markup to_html(const ResultTable& table);
 
 }  // namespace drape

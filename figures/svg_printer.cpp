@@ -1,4 +1,4 @@
-#include "study/svg_printer.hpp"
+#include "figures/svg_printer.hpp"
 
 #include <array>
 #include <cmath>

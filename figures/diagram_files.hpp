@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "figures/result_table.hpp"
 #include "html/chart.hpp"
-#include "study/result_table.hpp"
 
 namespace drape {
 
@@ -13,12 +13,9 @@ struct NamedChart {
   html::Chart chart;
 };
 
-/// An empty series in its method's colour and sign, which are the same in every diagram. Where the name says more than
-/// the method ("liu13, report"), it is dashed and its signs are open.
-html::ChartSeries method_series(const std::string& name);
-
 /// The points of a chart, with where they spread if one of them does.
-ResultTable points_table(const NamedChart& chart);
+/// @param every of each series' points the table has one in so many, and the last
+ResultTable points_table(const NamedChart& chart, std::size_t every = 1);
 
 /// Writes NAME.svg into the folder, and from it NAME.pdf for LaTeX and NAME.png for word processors, of twice as many
 /// pixels each way.
@@ -26,7 +23,7 @@ ResultTable points_table(const NamedChart& chart);
 /// @throws OutputError if a file cannot be written
 std::string write_diagram(const html::Diagram& diagram, const std::filesystem::path& folder, const std::string& name);
 
-/// The same of a chart, with its points as write_table() writes them.
+/// The same of a chart, with its points as CSV, and as Markdown and LaTeX, which have fewer of very many.
 std::string write_chart(const NamedChart& chart, const std::filesystem::path& folder);
 
 }  // namespace drape

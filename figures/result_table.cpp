@@ -1,4 +1,4 @@
-#include "study/result_table.hpp"
+#include "figures/result_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,8 +14,6 @@
 
 namespace drape {
 namespace {
-
-constexpr std::size_t most_set_rows = 200;  // of a table that somebody would set into a text
 
 std::string quoted(const std::string& cell) {
   if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
@@ -131,18 +129,22 @@ std::string to_csv(const ResultTable& table) {
 }
 
 std::string to_latex(const ResultTable& table) {
-  std::string columns, rows;
+  std::string columns, rows, notes;
   for (std::size_t c = 0; c < table.columns.size(); ++c) columns += is_numeric(table, c) ? 'r' : 'l';
   for (const auto& row : table.rows) rows += latex_line(row);
+  for (const std::string& note : table.notes) notes += fmt::format("% {}\n", html::latex(note));
   return fmt::format(
-      "% {}\n% needs \\usepackage{{booktabs}}\n\\begin{{tabular}}{{{}}}\n  \\toprule\n{}  \\midrule\n{}  "
+      "% {}\n{}% needs \\usepackage{{booktabs}}\n\\begin{{tabular}}{{{}}}\n  \\toprule\n{}  \\midrule\n{}  "
       "\\bottomrule\n\\end{{tabular}}\n",
-      html::latex(table.title), columns, latex_line(table.columns), rows);
+      html::latex(table.title), notes, columns, latex_line(table.columns), rows);
 }
 
 void write_table(const ResultTable& table, const std::filesystem::path& folder) {
   write_file_atomically(folder / (table.name + ".csv"), to_csv(table));
-  if (table.rows.size() > most_set_rows) return;
+  if (table.rows.size() <= most_set_rows) write_set_table(table, folder);
+}
+
+void write_set_table(const ResultTable& table, const std::filesystem::path& folder) {
   write_file_atomically(folder / (table.name + ".md"), to_markdown(table));
   write_file_atomically(folder / (table.name + ".tex"), to_latex(table));
 }
