@@ -19,6 +19,12 @@ std::string plural(std::int64_t count, const std::string& one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
+/// What a terminal shows after a colon, as a page shows it.
+std::string whole_sentence(std::string text) {
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() += 'A' - 'a';
+  return text + ".";
+}
+
 /// What differs in a frame, in words.
 std::string describe(const FrameResult& frame) {
   const PictureDifference& d = frame.difference;
@@ -175,7 +181,8 @@ Markup scene_content(const SceneResult& scene, const std::string& id) {
   }
   for (const std::string& sentence : scene.findings) {
     if (!scene.elsewhere.empty() && sentence.find(scene.elsewhere) != std::string::npos) continue;
-    findings.push_back({&sentence == &scene.findings.front() ? tone_of(scene.verdict) : Tone::neutral, sentence});
+    const std::string said = scene.verdict == SceneVerdict::error ? sentence : whole_sentence(sentence);
+    findings.push_back({&sentence == &scene.findings.front() ? tone_of(scene.verdict) : Tone::neutral, said});
   }
   if (const std::string ignored = describe_ignored(scene); !ignored.empty()) {
     findings.push_back({Tone::neutral, ignored + "."});

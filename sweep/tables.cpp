@@ -7,9 +7,9 @@
 #include <charconv>
 #include <filesystem>
 
+#include "figures/result_table.hpp"
 #include "html/latex.hpp"
 #include "html/markdown.hpp"
-#include "figures/result_table.hpp"
 
 namespace drape {
 namespace {
