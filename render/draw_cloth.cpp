@@ -45,12 +45,11 @@ std::vector<std::array<bool, 3>> boundary_edges(const std::vector<Triangle>& tri
 
 }  // namespace
 
-DrawCloth::DrawCloth(GlDevice& device, const Look& look, int vertex_count, const std::vector<Triangle>& triangles,
+DrawCloth::DrawCloth(GlDevice& device, const Look& look, const std::vector<Triangle>& triangles,
                      const std::vector<std::array<float, 2>>& uvs)
     : device_(device),
       gl_(device.gl()),
       look_(look),
-      vertex_count_(vertex_count),
       triangles_(triangles),
       array_(gl_),
       static_buffer_(gl_),
@@ -148,9 +147,6 @@ void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
 
 void DrawCloth::upload_frame(const Shot& shot, const Occluders& occluders) {
   const Frame& frame = shot.frame;
-  if (frame.positions.rows() != vertex_count_) {
-    throw std::invalid_argument("a frame has another number of vertices than its renderer was made for");
-  }
   const Vertices normals = vertex_normals(frame.positions, triangles_);
   float* to = dynamic_.data();
   for (const int vertex : positions_) {

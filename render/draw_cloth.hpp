@@ -19,7 +19,7 @@ namespace drape {
 class DrawCloth {
  public:
   /// Parameters and exceptions are Renderer's.
-  DrawCloth(GlDevice& device, const Look& look, int vertex_count, const std::vector<Triangle>& triangles,
+  DrawCloth(GlDevice& device, const Look& look, const std::vector<Triangle>& triangles,
             const std::vector<std::array<float, 2>>& uvs);
 
   /// @param shadow of the frame, where the look has shadows
@@ -50,7 +50,6 @@ class DrawCloth {
   GlDevice& device_;
   const GlFunctions& gl_;
   Look look_;
-  int vertex_count_;
   std::vector<Triangle> triangles_;
   std::vector<int> positions_;  // of each GL vertex: which vertex of the cloth it is
   std::vector<float> dynamic_;  // of each GL vertex: position and normal

@@ -26,9 +26,10 @@ class Renderer::Implementation {
       : size_(size),
         view_(view),
         look_(look),
+        vertex_count_(vertex_count),
         device_(borrow_device(data_folder, backend)),
         canvas_(device_->gl(), size, look),
-        cloth_(*device_, look, vertex_count, triangles, uvs),
+        cloth_(*device_, look, triangles, uvs),
         occluders_(cloth_.triangles()) {
     if (look.shadows) shadow_.emplace(device_->gl());
   }
@@ -49,6 +50,9 @@ class Renderer::Implementation {
 
   /// @param colors of the vertices, or none
   Image draw(const Frame& frame, std::span<const Rgb> colors) {
+    if (frame.positions.rows() != vertex_count_) {  // which the triangles refer to
+      throw std::invalid_argument("a frame has another number of vertices than its renderer was made for");
+    }
     device_->make_current();
     const Shot shot(frame, view_, static_cast<double>(size_.x()) / size_.y());
     canvas_.begin(covered_box(shot, size_));
@@ -81,6 +85,7 @@ class Renderer::Implementation {
   Eigen::Vector2i size_;
   View view_;
   Look look_;
+  int vertex_count_;
   BorrowedDevice device_;  // before all that lives in it
   Canvas canvas_;
   DrawCloth cloth_;

@@ -64,6 +64,9 @@ void GiveBack::operator()(GlDevice* device) const noexcept {
   std::unique_ptr<GlDevice> given(device);
   try {
     given->make_current();
+    // Mesa's threads may still be drawing what nobody has read, and a process that ends meanwhile waits for them for
+    // ever: those that have not begun see that it ends, and the others wait for these.
+    given->gl().Finish();
     if (given->gl().GetError() != GL_NO_ERROR) return;
     given->release();
     idle().give(std::move(given));

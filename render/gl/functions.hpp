@@ -35,6 +35,7 @@ namespace drape {
   ENTRY(PFNGLDRAWELEMENTSPROC, DrawElements)                                     \
   ENTRY(PFNGLENABLEPROC, Enable)                                                 \
   ENTRY(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)               \
+  ENTRY(PFNGLFINISHPROC, Finish)                                                 \
   ENTRY(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)               \
   ENTRY(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                     \
   ENTRY(PFNGLGENBUFFERSPROC, GenBuffers)                                         \

@@ -1,6 +1,9 @@
 #include "render/gl/device.hpp"
 
+#include <unistd.h>
+
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <thread>
 
@@ -31,6 +34,25 @@ TEST_P(Device, GoesFromThreadToThreadWithItsPrograms) {
 TEST_P(Device, IsNotForOthersAfterAnError) {
   borrow()->gl().Enable(GL_TEXTURE_2D);  // which the core profile does not know
   EXPECT_EQ(borrow()->gl().GetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+/// Has Mesa draw on many threads what nobody reads, and ends the process, for which a second is enough.
+[[noreturn]] void leave_something_unread(GlBackend backend) {
+  alarm(20);
+  setenv("LP_NUM_THREADS", "16", 1);
+  {
+    const Mesh mesh = make_grid(2, 2);
+    const View view{{2, -4, 2}, {0, 0, 0}, {0, 0, 1}, 30};
+    const Renderer renderer(data_folder(), {32, 32}, view, Look{}, 9, mesh.triangles, mesh.uvs, backend);
+  }
+  std::exit(0);
+}
+
+TEST_P(Device, LetsTheProcessEndWhateverNobodyHasRead) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  for (int run = 0; run < 6; ++run) {
+    EXPECT_EXIT(leave_something_unread(GetParam()), testing::ExitedWithCode(0), "") << "run " << run;
+  }
 }
 
 /// A picture in each of some looks, with and without a ball and a ground.

@@ -204,7 +204,18 @@ TEST(Renderer, RefusesAFrameWithAnotherNumberOfVertices) {
   const Mesh mesh = make_grid(2, 2);
   Renderer renderer(data_folder(), {32, 32}, from_above(), Look{}, 9, mesh.triangles, mesh.uvs);
   Frame frame;
-  frame.positions = Vertices::Zero(8, 3);
+  for (const int count : {0, 8, 10}) {
+    frame.positions = Vertices::Zero(count, 3);
+    EXPECT_THROW(renderer.draw(frame), std::invalid_argument) << count;
+  }
+}
+
+TEST(Renderer, LooksAtNoVertexThatAFrameDoesNotHave) {
+  const Mesh mesh = make_grid(300, 300);
+  const auto count = static_cast<int>(mesh.positions.rows());
+  Renderer renderer(data_folder(), {32, 32}, from_above(), Look{}, count, mesh.triangles, mesh.uvs);
+  Frame frame;
+  frame.positions = Vertices::Zero(1, 3);  // megabytes before where the last triangle's would be
   EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
 }
 
