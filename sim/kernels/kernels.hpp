@@ -99,6 +99,20 @@ struct PackedTriangle {
   const T* values;  ///< of all panels, one after another
 };
 
+/// Rows of a dense matrix are kept in strips of so many: column after column of the strip, each contiguous.
+inline constexpr int strip_rows = 8;
+
+/// target −= rows·columnsᵀ for some strips of rows and one of columns. Strides are numbers from one strip to the next.
+struct StripProduct {
+  const double* rows;  ///< `depth` columns of each strip
+  std::size_t row_stride;
+  const double* columns;  ///< `depth` columns of one strip, whose rows are the columns of the target
+  int depth;
+  double* target;  ///< eight columns of each strip
+  std::size_t target_stride;
+  int strips;
+};
+
 /// The hot loops, compiled once for each instruction set. Every version gives the same bits: the same operations on
 /// each element, sums in the same order, no fused multiply-add. Sums over many numbers are taken in eight interleaved
 /// lanes.
@@ -145,6 +159,11 @@ struct Kernels {
   /// x = L⁻ᵀ L⁻¹ x for four right-hand sides, side by side in each row of x (4n numbers).
   void (*solve_single)(const PackedTriangle<float>&, float* x);
   void (*solve_double)(const PackedTriangle<double>&, double* x);
+
+  void (*subtract_product)(const StripProduct&);
+  /// block := block L⁻ᵀ for `width` columns of some strips, `stride` numbers from one to the next. L's rows have eight
+  /// numbers each in `triangle`, the diagonal as its reciprocals.
+  void (*divide_strips)(const double* triangle, int width, double* block, std::size_t stride, int strips);
 };
 
 /// The fastest kernels this processor runs, at most those of limit_instruction_set().

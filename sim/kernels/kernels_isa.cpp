@@ -6,6 +6,7 @@
 #include "sim/kernels/isa_bands.hpp"
 #include "sim/kernels/isa_packing.hpp"
 #include "sim/kernels/isa_springs.hpp"
+#include "sim/kernels/isa_strips.hpp"
 #include "sim/kernels/isa_triangle.hpp"
 #include "sim/kernels/isa_vectors.hpp"
 #include "sim/kernels/kernels.hpp"
@@ -58,6 +59,8 @@ constexpr Kernels DRAPE_TABLE = {
     .subtract_packed_double = subtract_packed<FourDoubles, double>,
     .solve_single = solve_packed<FourSingles, float>,
     .solve_double = solve_packed<FourDoubles, double>,
+    .subtract_product = subtract_product,
+    .divide_strips = divide_strips,
 };
 
 }  // namespace drape

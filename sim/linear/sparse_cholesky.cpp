@@ -56,13 +56,8 @@ struct SparseCholesky::Implementation {
   }
 };
 
-namespace {
-
-/// Refuses the factor of a graph that is no surface's before minutes go by without a sign.
-/// @param operations that CHOLMOD expects
-void require_surface(double rows, double operations, FactorKind kind) {
-  // A surface's takes about 20 n^1.5 (George 1973), with bending 200. What is always allowed is a minute or two.
-  const double always = kind == FactorKind::simplicial ? 5e10 : 2e12;
+void require_surface(double rows, double operations, double always) {
+  // A surface's takes about 20 n^1.5 (George 1973), with bending 200.
   constexpr double per_row = 2000;
   if (operations <= std::max(always, per_row * rows * std::sqrt(rows))) return;
   throw UsageError(
@@ -70,8 +65,6 @@ void require_surface(double rows, double operations, FactorKind kind) {
                   "vertices are joined across it; use a coarser cloth or method = \"semi-implicit\"",
                   rows, operations));
 }
-
-}  // namespace
 
 SparseCholesky::SparseCholesky(const LowerPattern& pattern, FactorKind kind, bool order_given, double caller_bytes)
     : implementation_(std::make_unique<Implementation>(pattern)) {
@@ -97,7 +90,8 @@ SparseCholesky::SparseCholesky(const LowerPattern& pattern, FactorKind kind, boo
                  "use a coarser cloth or another method");
   if (too_large) throw UsageError("a sparse factor of this cloth has more than 2³¹ entries: use conjugate gradients");
   i.require(i.factor != nullptr);
-  require_surface(pattern.size(), i.common.fl, kind);
+  // A minute or two.
+  require_surface(pattern.size(), i.common.fl, kind == FactorKind::simplicial ? 5e10 : 2e12);
   i.matrix.xtype = CHOLMOD_REAL;
 }
 

@@ -15,6 +15,12 @@ struct LowerPattern {
   [[nodiscard]] int entries() const { return starts.back(); }
 };
 
+/// Refuses the factor of a graph that is no surface's before minutes go by without a sign.
+/// @param operations it takes, multiplications and additions
+/// @param always     so many are allowed for any graph
+/// @throws UsageError
+void require_surface(double rows, double operations, double always);
+
 /// How a factor is laid out: simplicial gives the same bits with every BLAS and is as fast on small matrices,
 /// supernodal uses the BLAS and is faster on large ones, with bits that depend on the machine.
 enum class FactorKind { simplicial, supernodal };
