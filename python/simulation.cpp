@@ -54,8 +54,12 @@ std::unique_ptr<SceneSimulation> make_simulation(const py::object& scene, const 
                                                  const std::filesystem::path& folder) {
   const std::vector<std::string> overrides = to_overrides(set);
   const auto make = [&](const auto& read) {
-    const py::gil_scoped_release free;
-    return std::make_unique<SceneSimulation>(read());
+    try {
+      const py::gil_scoped_release free;
+      return std::make_unique<SceneSimulation>(read());
+    } catch (const Interrupted&) {
+      throw py::error_already_set();
+    }
   };
   if (py::isinstance<py::dict>(scene)) {
     TomlValue document = to_toml(scene);
@@ -84,7 +88,7 @@ py::array Mirror::array() const {
 
 SceneSimulation::SceneSimulation(Scene scene)
     : scene_(std::move(scene)),
-      simulation_(scene_.simulation),
+      simulation_(scene_.simulation, Timing::none, Stop([this] { return signalled(); })),
       positions_(simulation_.state().x),
       velocities_(simulation_.state().v) {}
 
@@ -98,22 +102,25 @@ void SceneSimulation::show() {
   velocities_.show(simulation_.state().v);
 }
 
-StepReport SceneSimulation::step(std::int64_t count) {
-  using Clock = std::chrono::steady_clock;
+bool SceneSimulation::signalled() {
   constexpr auto patience = std::chrono::milliseconds(50);  // of whoever presses Ctrl-C
+  const auto now = std::chrono::steady_clock::now();
+  if (now - looked_ < patience) return false;
+  looked_ = now;
+  const py::gil_scoped_acquire held;
+  return PyErr_CheckSignals() != 0;
+}
+
+StepReport SceneSimulation::step(std::int64_t count) {
   if (count < 0) throw UsageError(fmt::format("count: expected at least 0, found {}", count));
   const auto lock = wait();
   StepReport report;
-  std::int64_t done = 0;
   try {
-    while (done < count) {
-      const py::gil_scoped_release free;
-      for (const auto begin = Clock::now(); done < count && Clock::now() - begin < patience; ++done) {
-        report = simulation_.step();
-      }
-      const py::gil_scoped_acquire held;
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    }
+    const py::gil_scoped_release free;
+    for (std::int64_t done = 0; done < count; ++done) report = simulation_.step();
+  } catch (const Interrupted&) {
+    show();
+    throw py::error_already_set();
   } catch (...) {
     show();
     throw;

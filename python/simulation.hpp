@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -32,7 +33,8 @@ class SceneSimulation {
  public:
   explicit SceneSimulation(Scene scene);
 
-  /// Takes steps, and looks from time to time whether Python has a signal to handle: that ends it after a whole step.
+  /// Takes steps, and looks from time to time whether Python has a signal to handle: that ends it with the last whole
+  /// step.
   StepReport step(std::int64_t count);
   void restore(const Simulation::Checkpoint& checkpoint);
 
@@ -40,7 +42,11 @@ class SceneSimulation {
   template <class Use>
   auto with(const Use& use) {
     const auto lock = wait();
-    return use(simulation_);
+    try {
+      return use(simulation_);
+    } catch (const Interrupted&) {
+      throw pybind11::error_already_set();
+    }
   }
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
@@ -51,9 +57,12 @@ class SceneSimulation {
   /// Waits without Python's lock: who computes may need it to go on.
   std::unique_lock<std::mutex> wait();
   void show();
+  /// Whether Python has handled a signal with an exception, which is then set; looked at every 50 ms.
+  bool signalled();
 
   std::mutex mutex_;
   Scene scene_;
+  std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();  // for a signal
   Simulation simulation_;
   Mirror positions_, velocities_;
 };

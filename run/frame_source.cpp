@@ -27,13 +27,14 @@ void FrameSource::simulate(const FrameTaker::Receiver& receiver, const std::stop
     receiver(std::move(frame));
   };
   FrameSampler sampler(extent_, take, FrameContents::motion);
-  Simulation simulation(scene_.simulation);
   const std::array<StepObserver*, 2> observers{&statistics_, &sampler};
   try {
+    Simulation simulation(scene_.simulation, Timing::none, heeding(stop));
     run_steps(simulation, extent_.steps, observers, stop);
-    statistics_.finish(simulation);
+    if (simulation.state().step == extent_.steps) statistics_.finish(simulation);
   } catch (const DivergedError& diverged) {
     divergence_ = diverged.what();
+  } catch (const Interrupted&) {
   }
   known_ = !stop.stop_requested();
 }

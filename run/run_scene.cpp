@@ -4,8 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
-#include <exception>
-#include <memory>
 #include <mutex>
 #include <stop_token>
 #include <thread>
@@ -36,7 +34,7 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 /// The three threads of a run and what flows between them.
 class Pipeline {
  public:
-  Pipeline(const Scene& scene, const RunOptions& options, Progress& progress)
+  Pipeline(const Scene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress)
       : scene_(scene),
         options_(options),
         progress_(progress),
@@ -44,27 +42,28 @@ class Pipeline {
         outputs_(options.outputs, film_info(scene, options, &progress), options.poster),
         drawn_(outputs_.drawn()),
         records_(options.records),
-        reasons_(!outputs_.none(), options.motion.has_value(), records_.wanted()) {
+        reasons_(!outputs_.none(), options.motion.has_value(), records_.wanted()),
+        pass_on_(stop, [this] { stop_.request_stop(); }) {
     if (drawn_ && Annotations::wanted(scene)) annotations_.emplace(scene);
     result_.steps_wanted = extent_.steps;
     result_.recorded = options.recorded != nullptr;
     if (!outputs_.none()) result_.frames_wanted = extent_.frames.count();
-    if (!options.recorded) simulation_.emplace(scene.simulation, options.time_effects ? Timing::effects : Timing::none);
+    const Timing timing = options.time_effects ? Timing::effects : Timing::none;
+    if (!options.recorded) simulation_.emplace(scene.simulation, timing, heeding(stop_.get_token()));
     if (!options.motion) return;
     recorder_.emplace(*options.motion, options.from.get(), scene, extent_, result_.statistics, [this] {
       if (reasons_.lose_motion()) stop_.request_stop();
     });
   }
 
-  RunResult run(const std::stop_token& stop) {
+  RunResult run() {
     const auto begin = Clock::now();
-    const std::stop_callback pass_on(stop, [this] { stop_.request_stop(); });
     std::vector<std::jthread> threads;
     try {
       // The consumers first: where a thread cannot be had, those that run already end when their queues close.
-      if (result_.frames_wanted > 0) threads.emplace_back([this] { guarded([this] { write(); }); });
-      if (drawn_) threads.emplace_back([this] { guarded([this] { draw(); }); });
-      threads.emplace_back([this] { guarded([this] { simulate(); }); });
+      if (result_.frames_wanted > 0) threads.emplace_back([this] { guarded(&Pipeline::write); });
+      if (drawn_) threads.emplace_back([this] { guarded(&Pipeline::draw); });
+      threads.emplace_back([this] { guarded(&Pipeline::simulate); });
     } catch (...) {
       fail();
     }
@@ -80,10 +79,9 @@ class Pipeline {
 
  private:
   /// Runs one thread's work; an exception ends the whole run.
-  template <class Work>
-  void guarded(Work work) {
+  void guarded(void (Pipeline::*work)()) {
     try {
-      work();
+      (this->*work)();
     } catch (...) {
       fail();
     }
@@ -94,8 +92,7 @@ class Pipeline {
     const std::scoped_lock lock(mutex_);
     if (!error_) error_ = std::current_exception();
     stop_.request_stop();
-    path_.close();
-    frames_.close();
+    close_queues();
     film_.close();
   }
 
@@ -103,8 +100,8 @@ class Pipeline {
     result_.problems = outputs_.problems();
     if ((!whole_ || cut_) && result_.outcome == Outcome::completed) result_.outcome = Outcome::interrupted;
     if (!recorder_) return;
-    const bool can_go_on = result_.outcome != Outcome::diverged;
-    result_.motion = recorder_->finish(whole_, can_go_on ? &*simulation_ : nullptr, result_.problems);
+    const Simulation* last = result_.outcome == Outcome::diverged ? nullptr : &*simulation_;
+    result_.motion = recorder_->finish(whole_, last, result_.problems);
   }
 
   void finish_records() {
@@ -177,8 +174,10 @@ class Pipeline {
   void take_steps(const std::vector<StepObserver*>& observers) {
     try {
       run_steps(*simulation_, extent_.steps, observers, stop_.get_token(), options_.from.get());
+      if (simulation_->state().step < extent_.steps) return;
       result_.statistics.finish(*simulation_);
-      whole_ = simulation_->state().step == extent_.steps;
+      whole_ = true;
+    } catch (const Interrupted&) {  // as it looked at the last step
     } catch (const DivergedError& diverged) {
       result_.outcome = Outcome::diverged;
       result_.divergence = diverged.what();
@@ -196,10 +195,9 @@ class Pipeline {
 
   /// In place of simulate(), where the motion is in a file: it is read as often as it has to be known.
   void play() {
-    struct Stopped {};
     const auto read = [this](const FilmExtent& extent, const auto& visit) {
       sample_motion(*options_.recorded, scene_, extent, contents(), visit, stop_.get_token());
-      if (stop_.stop_requested()) throw Stopped();  // a camera cannot do with a part of the motion
+      if (stop_.stop_requested()) throw Interrupted();  // a camera cannot do with a part of the motion
     };
     const FilmExtent whole = whole_extent(scene_, options_);
     progress_.begin(drawn_ ? "drawing" : "reading", "frames", extent_.frames.count());
@@ -210,7 +208,7 @@ class Pipeline {
       if (drawn_) place_camera(whole.frames.count(), [&](const auto& visit) { read(whole, visit); });
       read(extent_, [this](Frame frame) { send(std::move(frame)); });
       whole_ = true;
-    } catch (const Stopped&) {  // what was sent is drawn and written
+    } catch (const Interrupted&) {  // what was sent is drawn and written
     }
     close_queues();
   }
@@ -276,13 +274,12 @@ class Pipeline {
   ReasonsToRun reasons_;
   std::optional<Annotations> annotations_;  // where there is anything to draw, and the scene asks for them
   std::optional<MotionRecorder> recorder_;
-
   BoundedQueue<CameraPath> path_{1};
   BoundedQueue<Frame> frames_{queue_capacity};
   BoundedQueue<FilmFrame> film_{queue_capacity};
   std::stop_source stop_;
+  std::stop_callback<std::function<void()>> pass_on_;
   std::stop_source undrawn_;  // of the drawing, when no output takes images any more
-
   std::mutex mutex_;
   std::exception_ptr error_;
   bool whole_ = false;  // every step was taken
@@ -293,7 +290,11 @@ class Pipeline {
 }  // namespace
 
 RunResult run_scene(const Scene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress) {
-  return Pipeline(scene, options, progress).run(stop);
+  try {
+    return Pipeline(scene, options, stop, progress).run();
+  } catch (const Interrupted&) {
+    return interrupted_at_once(film_extent(scene, options).steps);
+  }
 }
 
 }  // namespace drape

@@ -62,10 +62,19 @@ struct RunResult {
   std::vector<std::string> problems;             ///< a message for each output and record that could not be written
 };
 
+/// Of a run that was interrupted before it could begin.
+inline RunResult interrupted_at_once(std::int64_t steps_wanted) {
+  RunResult result;
+  result.outcome = Outcome::interrupted;
+  result.steps_wanted = steps_wanted;
+  return result;
+}
+
 /// Runs a scene: one thread simulates, one owns the GL context and draws, if anything is to be drawn, and one writes,
 /// with bounded queues between them; the calling thread only waits. When the motion diverges or a stop is requested,
 /// what was done so far is completed, under names that say that it is not all (see Ending): nothing if there was no
-/// step yet. An output or a record that cannot be written does not keep the others from being completed.
+/// step yet. A stop is looked at within steps and while the simulation is set up, see Stop. An output or a record that
+/// cannot be written does not keep the others from being completed.
 /// @throws Error whatever stopped one of the threads, or that there is nothing left to run for; no file is left then
 RunResult run_scene(const Scene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress);
 

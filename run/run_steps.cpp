@@ -28,6 +28,10 @@ void replay(const Resumption& from, double h, std::span<StepObserver* const> obs
 
 }  // namespace
 
+Stop heeding(const std::stop_token& stop) {
+  return Stop([stop] { return stop.stop_requested(); });
+}
+
 void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserver* const> observers,
                const std::stop_token& stop, const Resumption* from) {
   using Clock = std::chrono::steady_clock;
@@ -36,9 +40,18 @@ void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserve
   if (from != nullptr) replay(*from, simulation.settings().step, observers);
   while (simulation.state().step < steps && !stop.stop_requested()) {
     const auto begin = Clock::now();
-    const StepReport report = simulation.step();
+    StepReport report;
+    try {
+      report = simulation.step();
+    } catch (const Interrupted&) {
+      return;
+    }
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    for (StepObserver* observer : observers) observer->after_step(simulation, report, seconds);
+    try {
+      for (StepObserver* observer : observers) observer->after_step(simulation, report, seconds);
+    } catch (const Interrupted&) {
+      return simulation.take_back();
+    }
   }
 }
 
@@ -52,12 +65,13 @@ void run_steps(Simulation& simulation, std::int64_t steps, const std::stop_token
 void run_on(const SimulationSettings& settings, const State& state, std::int64_t steps,
             const std::vector<StepObserver*>& observers, const std::stop_token& stop) {
   if (state.step >= steps) return;
-  Simulation simulation(settings);
-  simulation.restore(state);
   try {
+    Simulation simulation(settings, Timing::none, heeding(stop));
+    simulation.restore(state);
     run_steps(simulation, steps, observers, stop);
   } catch (const DivergedError&) {
     // Up to here there is something to see.
+  } catch (const Interrupted&) {  // before there was anything
   }
 }
 

@@ -12,8 +12,11 @@
 
 namespace drape {
 
+/// For a simulation that is to end within a step, too.
+Stop heeding(const std::stop_token& stop);
+
 /// Advances a simulation until it has done that many steps in all, telling the observers, in their order. Returns early
-/// when a stop is requested.
+/// when a stop is requested: within a step, if the simulation heeds it, and then as if that step had not begun.
 /// @param from where the simulation goes on from, if it does
 /// @throws DivergedError after the observers saw the last finite step
 void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserver* const> observers,

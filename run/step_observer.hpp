@@ -17,6 +17,7 @@ class StepObserver {
   virtual void replay(const StepRow& /*row*/, double /*time*/, double /*seconds*/) {}
   /// After every step.
   /// @param seconds that the step took
+  /// @throws Interrupted, of several observers the first alone: the step is then taken back
   virtual void after_step(const Simulation& simulation, const StepReport& report, double seconds) = 0;
 };
 

@@ -32,11 +32,13 @@ State initial_state(const Cloth& cloth) {
 class Simulation::Motion {
  public:
   SimulationSettings settings;
+  Stop stop;
   std::vector<double> effect_seconds;
   std::optional<System> system;  // always there, and made anew for every phase
   std::vector<PinPhase> phases;  // by step, the first from 0 on
   std::size_t phase = 0;
   State state;
+  Simulation::Checkpoint before;  // the last step, where that may be needed
   StepForces forces;
   std::unique_ptr<StabilityGuard> guard;
   std::unique_ptr<Scheme> scheme;
@@ -45,10 +47,11 @@ class Simulation::Motion {
   Vertices ignored;                  // …and this is a gradient that comes with an energy
   StabilityGuard::EnergyNow energy;  // K + E
 
-  Motion(SimulationSettings given, Timing timing)
+  Motion(SimulationSettings given, Timing timing, const Stop& asked)
       : settings(std::move(given)),
+        stop(asked),
         effect_seconds(timing == Timing::effects ? settings.effects.size() : 0, 0.0),
-        system(make_system(settings, measured())),
+        system(make_system(settings, measured(), stop)),
         phases(pin_phases(settings.cloth.pins, system->pin_releases)),
         state(initial_state(settings.cloth)),
         forces(*system, state),
@@ -65,12 +68,23 @@ class Simulation::Motion {
   Motion& operator=(const Motion&) = delete;
 
   StepReport step();
+  void restore(const Simulation::Checkpoint& checkpoint);
   Energies energies();
   [[nodiscard]] double time() const { return system->time(state.step); }
+  /// Whether a step asks anywhere but at its start.
+  [[nodiscard]] bool may_be_interrupted() const {
+    const bool long_steps = !is_explicit(settings.integrator.method) || settings.accuracy || !system->filters.empty();
+    return stop.possible() && long_steps;
+  }
   /// Makes the system and the scheme for the pins of the next step, unless they are those.
   void enter_phase();
   /// Of the system, for the settings.
   std::unique_ptr<Scheme> make_scheme();
+  /// What the scheme says, or nothing where making it was interrupted.
+  template <class Said>
+  auto said(const Said& of) const -> decltype(of(*scheme)) {
+    return scheme ? of(*scheme) : decltype(of(*scheme)){};
+  }
   /// Where to add what the effects take, if that is measured.
   std::vector<double>* measured() { return effect_seconds.empty() ? nullptr : &effect_seconds; }
   /// @param growth of the energy, see BlowUpWatch; absent: the numbers are no longer finite
@@ -82,30 +96,46 @@ class Simulation::Motion {
 void Simulation::Motion::enter_phase() {
   std::size_t now = phases.size() - 1;
   while (phases[now].first_step > state.step) --now;
-  if (now == phase) return;
+  if (now == phase && scheme) return;
   scheme.reset();  // it refers to the system
   phase = now;
   settings.cloth.pins = phases[now].pins;
-  system.emplace(make_system(settings, measured()));
-  scheme = make_scheme();
+  system.emplace(make_system(settings, measured(), stop));
+  scheme = make_scheme();  // unless interrupted
 }
 
 std::unique_ptr<Scheme> Simulation::Motion::make_scheme() {
   if (!settings.accuracy) return method_type(settings.integrator.method).make(settings.integrator, *system);
-  const auto make = [this](double step) { return make_system(settings, step, measured()); };
+  const auto make = [this](double step) { return make_system(settings, step, measured(), stop); };
   const int fewest = SubstepGuard::fewest_halvings(settings.step, guard->longest_step());
   return std::make_unique<SubstepScheme>(settings, fewest, make);
 }
 
 StepReport Simulation::Motion::step() {
+  stop.look();
   if (phases.size() > 1) enter_phase();
-  StepReport report = scheme->advance(state, forces);
+  if (may_be_interrupted()) {
+    before.state = state;
+    before.books = guard->books();
+  }
+  StepReport report;
+  try {
+    report = scheme->advance(state, forces);
+  } catch (const Interrupted&) {
+    restore(before);
+    throw;
+  }
   for (const auto& filter : system->filters) report.converged = report.converged && filter->converged();
   ++state.step;
   // What is not finite makes the sum of its squares so, and any velocity that is not moves its vertex there.
   if (!std::isfinite(norm(state.x))) throw diverged_by(std::nullopt);
   if (const auto growth = guard->look(state, forces.push(), forces.constant(), energy)) throw diverged_by(growth);
   return report;
+}
+
+void Simulation::Motion::restore(const Simulation::Checkpoint& checkpoint) {
+  state = checkpoint.state;
+  if (checkpoint.books) guard->go_on(*checkpoint.books);
 }
 
 Energies Simulation::Motion::energies() {
@@ -121,13 +151,17 @@ Energies Simulation::Motion::energies() {
   return {.kinetic = kinetic, .gravity = -m.dot(per_vertex), .elastic = elastic};
 }
 
-Simulation::Simulation(SimulationSettings settings, Timing timing)
-    : motion_(std::make_unique<Motion>(std::move(settings), timing)) {}
+Simulation::Simulation(SimulationSettings settings, Timing timing, const Stop& stop)
+    : motion_(std::make_unique<Motion>(std::move(settings), timing, stop)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 StepReport Simulation::step() { return motion_->step(); }
+
+void Simulation::take_back() {
+  if (motion_->may_be_interrupted()) motion_->restore(motion_->before);
+}
 
 void Simulation::restore(const State& state) {
   motion_->state = state;
@@ -136,10 +170,7 @@ void Simulation::restore(const State& state) {
 
 Simulation::Checkpoint Simulation::checkpoint() const { return {motion_->state, motion_->guard->books()}; }
 
-void Simulation::restore(const Checkpoint& checkpoint) {
-  motion_->state = checkpoint.state;
-  if (checkpoint.books) motion_->guard->go_on(*checkpoint.books);
-}
+void Simulation::restore(const Checkpoint& checkpoint) { motion_->restore(checkpoint); }
 
 const State& Simulation::state() const { return motion_->state; }
 double Simulation::time() const { return motion_->time(); }
@@ -147,11 +178,19 @@ const SimulationSettings& Simulation::settings() const { return motion_->setting
 const std::vector<Spring>& Simulation::springs() const { return motion_->system->springs; }
 const std::vector<double>& Simulation::effect_seconds() const { return motion_->effect_seconds; }
 Energies Simulation::energies() const { return motion_->energies(); }
-double Simulation::residual() const { return motion_->scheme->residual(); }
-double Simulation::error() const { return motion_->scheme->error(); }
-double Simulation::unbalanced() const { return motion_->scheme->unbalanced(); }
+double Simulation::residual() const {
+  return motion_->said([](Scheme& scheme) { return scheme.residual(); });
+}
+double Simulation::error() const {
+  return motion_->said([](Scheme& scheme) { return scheme.error(); });
+}
+double Simulation::unbalanced() const {
+  return motion_->said([](Scheme& scheme) { return scheme.unbalanced(); });
+}
 double Simulation::weight() const { return motion_->settings.cloth.masses.sum() * motion_->system->gravity.norm(); }
-std::optional<Accuracy> Simulation::accuracy() const { return motion_->scheme->accuracy(); }
+std::optional<Accuracy> Simulation::accuracy() const {
+  return motion_->said([](const Scheme& scheme) { return scheme.accuracy(); });
+}
 std::vector<Collider> Simulation::colliders(double time) const { return motion_->system->colliders_at(time); }
 
 }  // namespace drape

@@ -22,6 +22,7 @@
 #include "sim/solvers/accuracy.hpp"
 #include "sim/state.hpp"
 #include "sim/step_report.hpp"
+#include "sim/stop.hpp"
 
 namespace drape {
 
@@ -32,8 +33,10 @@ enum class Timing { none, effects };
 /// same settings give the same bits. It can be moved; one that has been moved from can only be assigned to.
 class Simulation {
  public:
+  /// @param stop asked for as long as it lives
   /// @throws UsageError if the motion cannot be computed, see stability_problem() and MethodType::make
-  explicit Simulation(SimulationSettings settings, Timing timing = Timing::none);
+  /// @throws Interrupted
+  explicit Simulation(SimulationSettings settings, Timing timing = Timing::none, const Stop& stop = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -41,7 +44,13 @@ class Simulation {
   /// Advances the cloth by one step.
   /// @throws DivergedError if a position or velocity is no longer finite, or the cloth gains energy out of
   ///         nothing, see StabilityGuard
+  /// @throws Interrupted between any two pieces of its work. Everything that the motion depends on is then as it was
+  ///         before the step; what is said of the last step below is not.
   StepReport step();
+
+  /// Takes the last step back, where a stop is possible; once, and not if anything was restored since. For whoever is
+  /// interrupted while he looks at a step that is over.
+  void take_back();
 
   /// Continues from another state of the same cloth, at any step.
   void restore(const State& state);
@@ -72,7 +81,7 @@ class Simulation {
   [[nodiscard]] Energies energies() const;
   /// ‖∇g‖ [N] where the last step ended, see Scheme::residual.
   [[nodiscard]] double residual() const;
-  /// The estimated error of the last step's solve [m], see Scheme::error.
+  /// The estimated error of the last step's solve [m], see Scheme::error. @throws Interrupted
   [[nodiscard]] double error() const;
   /// The forces left out of balance there [N], see Scheme::unbalanced.
   [[nodiscard]] double unbalanced() const;

@@ -37,11 +37,13 @@ Eigen::VectorXd starting_vector(const Eigen::VectorXd& scale) {
 }
 
 /// An upper bound of the largest eigenvalue of S [1/s²].
-double largest_eigenvalue(const std::vector<Spring>& bound_of_stiffness, const Eigen::VectorXd& scale) {
+double largest_eigenvalue(const std::vector<Spring>& bound_of_stiffness, const Eigen::VectorXd& scale,
+                          const Stop& stop) {
   Eigen::VectorXd v = starting_vector(scale), previous = Eigen::VectorXd::Zero(v.size()), w(v.size());
   std::vector<double> alpha, beta;
   double bound = 0;
   for (int k = 1; k <= max_iterations; ++k) {
+    stop.look();
     apply(bound_of_stiffness, scale, v, w);
     alpha.push_back(v.dot(w));
     w -= alpha.back() * v;
@@ -97,7 +99,8 @@ double safe_step(const System& system) {
   const int unit_of_mass = even_exponent(system.cloth.masses.minCoeff());
   for (Spring& s : bound) s.stiffness = std::ldexp(s.stiffness, -unit_of_stiffness);
   const auto scale = [&](double mass) { return 1 / std::sqrt(std::ldexp(mass, -unit_of_mass)); };
-  const double largest = largest_eigenvalue(bound, free.cwiseProduct(system.cloth.masses.unaryExpr(scale)));
+  const double largest =
+      largest_eigenvalue(bound, free.cwiseProduct(system.cloth.masses.unaryExpr(scale)), system.stop);
   double frequency = std::ldexp(std::sqrt(largest), (unit_of_stiffness - unit_of_mass) / 2);
 
   const double pushes = pushes_bound(system);

@@ -8,6 +8,7 @@
 #include "sim/collider.hpp"
 #include "sim/pin_motion.hpp"
 #include "sim/state.hpp"
+#include "sim/stop.hpp"
 
 namespace drape {
 
@@ -95,6 +96,16 @@ struct MotionFilter {
   virtual void finish(Vertices& /*v*/) {}
   /// Whether the last call did all that the filter is for, rather than stop at its cap.
   [[nodiscard]] virtual bool converged() const { return true; }
+
+  /// What to look at in the loops of apply().
+  void heed(const Stop& stop) { stop_ = stop; }
+
+ protected:
+  /// @throws Interrupted if it is to end
+  void look_at_stop() const { stop_.look(); }
+
+ private:
+  Stop stop_;
 };
 
 /// Something the cloth can touch, whose place is a function of time.
@@ -108,6 +119,7 @@ struct ColliderMotion {
 struct System {
   const Cloth& cloth;
   double step;                                        ///< h [s]
+  Stop stop = {};                                     ///< of everything that computes with it
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²], for the log's gravity column only
 
   std::vector<Spring> springs;  ///< the cloth's and those that effects add

@@ -100,6 +100,7 @@ void BodyContact::store(const Vertices& x, Vertices& v) const {
 }
 
 void BodyContact::find_candidates() {
+  look_at_stop();
   if (body_->deforms()) {
     for (Index t = 0; t < boxes_.size(); ++t) boxes_[t] = swept_box(body_patches_[t], x_, target_, 0);
     tree_.refit(boxes_);
@@ -206,6 +207,7 @@ std::optional<Contact> BodyContact::contact(const BodyPair& met, double time, bo
 
 void BodyContact::solve() {
   for (int sweep = 0; sweep < solver_sweeps; ++sweep) {
+    look_at_stop();
     for (Contact& contact : contacts_) contact.apply(law_.friction, moving_);
   }
   move_targets();
@@ -232,6 +234,7 @@ void BodyContact::move_targets() {
 }
 
 void BodyContact::find_impacts() {
+  look_at_stop();
   impacts_.clear();
   for (const BodyPair& met : pairs_) {
     const FeaturePair& pair = met.pair;

@@ -73,6 +73,7 @@ double SelfContact::largest_rounding() const {
 }
 
 void SelfContact::find_candidates() {
+  look_at_stop();
   // Reaches as far as two targets can move towards each other before the candidates are found anew.
   // What the whole cloth does together would only make them search in larger boxes.
   Point together = Point::Zero();
@@ -125,6 +126,7 @@ void SelfContact::repel() {
     contacts_.emplace_back(pair, near.weights, difference, speed, moving_);
   }
   for (int pass = 0; pass < values_.iterations; ++pass) {
+    look_at_stop();
     for (Contact& contact : contacts_) contact.apply(values_.friction, moving_);
   }
   move_targets();
@@ -135,6 +137,7 @@ bool SelfContact::changed(const FeaturePair& pair) const {
 }
 
 void SelfContact::find_impacts() {
+  look_at_stop();
   impacts_.clear();
   for (const FeaturePair& pair : candidates_.pairs()) {
     if (!changed(pair)) continue;

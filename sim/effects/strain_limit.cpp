@@ -49,6 +49,7 @@ class StrainFilter final : public MotionFilter {
     for (Limited& spring : limited_) spring.begin();
     converged_ = false;
     for (int sweep = 0; sweep < limits_.iterations && !converged_; ++sweep) {
+      look_at_stop();
       bool any = false;
       for (Limited& spring : limited_) any |= relax(spring, sweep < early_sweeps, x, h, v);
       converged_ = !any || holds();

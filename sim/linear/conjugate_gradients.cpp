@@ -37,6 +37,7 @@ void ConjugateGradients::solve(const Vertices& x, const Vertices& gradient, Vert
   const double enough = tolerance * norm(gradient);
   double energy = 0;  // residual · A⁻¹ residual
   for (int iteration = 0; iteration < max_iterations && norm(residual_) > enough; ++iteration) {
+    system_.stop.look();
     preconditioner_.solve(residual_, preconditioned_);
     const double before = energy;
     energy = dot(residual_, preconditioned_);

@@ -69,12 +69,14 @@ ConstantFactor::ConstantFactor(const System& system, double duration, Precision 
   const Matrix matrix = assemble(system, duration, free);
   SparseCholesky factor(matrix.pattern, FactorKind::simplicial, false,
                         tolerated_zeros * (sizeof(double) + sizeof(float)));
+  system.stop.look();
   if (!factor.factorize(matrix.values.data())) {
     throw UsageError(
         "the cloth's matrix is not positive definite to working precision: use a shorter step, softer springs or more "
         "mass");
   }
 
+  system.stop.look();
   for (int row = 0; row < row_count_; ++row) {
     row_[static_cast<std::size_t>(free.vertex(factor.permutation()[row]))] = row;
   }

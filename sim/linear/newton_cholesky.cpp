@@ -127,11 +127,13 @@ bool NewtonCholesky::factorize(const Vertices& x) {
     if (places_[s].high >= 0) add(places_[s], spring_hessian(system_.springs[s], x));
   }
   add_energies(x);
+  system_.stop.look();
   // Positive definite in exact arithmetic; what rounding has spoilt, a multiple of the identity mends (Nocedal and
   // Wright 2006, algorithm 3.3).
   double largest = 0;
   for (const int start : column_starts_) largest = std::max(largest, values_[Index(start)]);
   for (double shift = first_shift * largest; !factor_.front().factorize(values_.data()); shift *= 10) {
+    system_.stop.look();
     if (!(shift <= largest)) return false;
     for (const int start : column_starts_) values_[Index(start)] += shift;
   }

@@ -112,6 +112,7 @@ double EnergyBooks::shed(Iterate& point) {
   if (is_free(system_)) back.rowwise() += mean(system_.cloth, objective_.y()) - mean(system_.cloth, start_.x);
   const Vertices way = point.x - back;
   const auto gains_at = [&](double length) {
+    system_.stop.look();
     trial_.x = back + length * way;
     trial_.value = objective_.evaluate(trial_.x, trial_.gradient);
     return !(gain(trial_) <= 0);

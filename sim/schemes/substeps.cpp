@@ -73,6 +73,7 @@ struct SubstepScheme::Motion {
   }
 
   StepReport advance() {
+    system.stop.look();
     StepReport report = scheme->advance(state, forces);
     ++state.step;
     return report;

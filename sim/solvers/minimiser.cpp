@@ -17,6 +17,7 @@ constexpr int patience = 20;                  // iterations that gain nothing wh
 Minimiser::Minimiser(const System& system, const StepObjective& objective, const IntegratorSettings& settings,
                      int default_max_iterations)
     : objective_(objective),
+      stop_(system.stop),
       accuracy_(settings, system, objective.inertia()),
       max_iterations_(settings.max_iterations.value_or(default_max_iterations)) {
   trial_.gradient = trial_.x = Vertices::Zero(objective.y().rows(), 3);
@@ -30,6 +31,7 @@ StepReport Minimiser::minimise(Iterate& point, const std::function<bool()>& may_
   in_vain_ = 0;
   for (; report.iterations < max_iterations_; ++report.iterations) {
     if (balanced(point, change)) return report;
+    stop_.look();
     const double before = point.value;
     change = iterate(point);
     if (point.value > before) {
@@ -75,6 +77,7 @@ double Minimiser::error(const Iterate& point) {
 double Minimiser::descend(Iterate& point, const Vertices& direction, double slope) {
   const auto count = static_cast<std::size_t>(point.x.size());
   for (double length = 1; length >= shortest_move; length /= 2) {
+    if (length < 1) stop_.look();
     trial_.x = point.x;
     kernels().add_multiple(count, -length, direction.data(), trial_.x.data());
     trial_.value = objective_.evaluate(trial_.x, trial_.gradient);

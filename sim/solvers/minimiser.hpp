@@ -30,6 +30,7 @@ class Minimiser {
   /// Moves the point, which has g's value and gradient already, until the stopping rule is met. No iteration raises g
   /// beyond rounding.
   /// @param may_end asked where an iteration changes little, whether the point will do
+  /// @throws Interrupted, from any point
   StepReport minimise(Iterate& point, const std::function<bool()>& may_end);
 
   [[nodiscard]] const Accuracy& accuracy() const { return accuracy_; }
@@ -62,6 +63,7 @@ class Minimiser {
   bool balanced(const Iterate& point, double change);
 
   const StepObjective& objective_;
+  Stop stop_;
   Accuracy accuracy_;
   int max_iterations_;
   Iterate trial_;

@@ -36,12 +36,17 @@ std::vector<std::string> names(const SceneFolder& folder) {
 }
 
 /// Starts a long film in the folder.
-pid_t start_film(const SceneFolder& folder) {
+pid_t start_film(const SceneFolder& folder, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words{DRAPE_EXECUTABLE,       "render", "scene.toml", "--quiet", "--set",
+                                 "time.duration=100000", "-o",     "film.gif"};
+  words.insert(words.end(), more.begin(), more.end());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
   const pid_t child = fork();
   if (child != 0) return child;
   if (chdir(folder.path().c_str()) != 0) _exit(99);
-  execl(DRAPE_EXECUTABLE, DRAPE_EXECUTABLE, "render", "scene.toml", "--quiet", "--set", "time.duration=100000", "-o",
-        "film.gif", static_cast<char*>(nullptr));
+  execv(DRAPE_EXECUTABLE, arguments.data());
   _exit(99);
 }
 
@@ -123,6 +128,26 @@ TEST(Faults, CtrlCAtAnyMomentLeavesAPlayableFilmOrNone) {
     }
     EXPECT_EQ(names(folder), expected);
   }
+}
+
+/// A limit that nothing can keep to, with more sweeps than a day has time for, once the cloth has fallen on the sphere.
+TEST(Faults, CtrlCEndsAStepThatWouldTakeForEver) {
+  const SceneFolder folder;
+  folder.write(
+      "scene.toml",
+      "[cloth]\nmesh = { grid = [20, 20] }\nstiffness = 50\n[time]\nstep = 0.02\nduration = 9\n"
+      "[integrator]\nmethod = \"liu13\"\n[effects.gravity]\n[effects.sphere]\ncenter = [0.5, 0.5, -0.6]\n"
+      "radius = 0.4\n[effects.strain_limit]\nmax_stretch = 1.001\niterations = 2000000000\ntolerance = 1e-300\n"
+      "[video]\nfps = 25\nsize = [64, 48]\n[camera]\nposition = [4, 4, 3]\ntarget = [0, 0, 0]\n");
+  const pid_t child = start_film(folder, {"-o", "{frame}.png", "--set", "time.duration=9"});
+  const auto pictures = [&] {
+    return std::ranges::count_if(names(folder), [](const std::string& name) { return name.ends_with(".png"); });
+  };
+  while (pictures() < 3 && kill(child, 0) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(end_with(child, SIGINT, 1), 130);
+  const auto drawn = pictures();
+  EXPECT_GE(drawn, 3);
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(test::read_gif(folder.path() / "film.partial.gif").delays.size()), drawn);
 }
 
 TEST(Faults, CtrlCPutsWhatWasDrawnBesideACompleteFilm) {

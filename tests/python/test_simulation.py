@@ -180,6 +180,19 @@ def test_ctrl_c_ends_stepping_after_a_whole_step():
     assert again.hash == simulation.hash and np.array_equal(again.positions, simulation.positions)
 
 
+def test_ctrl_c_ends_a_step_that_would_take_for_ever():
+    """A limit that nothing can keep to, and more sweeps than a day has time for."""
+    simulation = drape.Simulation(
+        SOURCE / "scenes/homework/4.toml",
+        set={"effects.strain_limit": {"max_stretch": 1, "tolerance": 1e-300, "iterations": 2 * 10**9}},
+    )
+    before = simulation.hash
+    threading.Timer(0.2, lambda: signal.raise_signal(signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        simulation.step()
+    assert simulation.steps_taken == 0 and simulation.hash == before
+
+
 def test_other_threads_run_and_wait_while_it_steps():
     simulation = endless()
     stepping = threading.Thread(target=simulation.step, args=(200,))
