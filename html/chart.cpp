@@ -1,5 +1,8 @@
 #include "html/chart.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "html/chart_drawing.hpp"
 #include "html/components.hpp"
 
@@ -17,15 +20,25 @@ Markup series_commands(const Chart& chart) {
   return commands;
 }
 
+/// What tells points apart, and commands, have no column where there are none.
 Markup points_table(const Chart& chart) {
-  Table points{chart.title, {{"Series"}, {chart.x_title, true}, {chart.y_title, true}, {"Command"}}, {}};
+  const bool named = std::ranges::any_of(chart.series, [](const ChartSeries& s) { return !s.name.empty(); });
+  const bool commanded = std::ranges::any_of(chart.series, [](const ChartSeries& s) {
+    return std::ranges::any_of(s.points, [](const ChartPoint& p) { return !p.command.empty(); });
+  });
+  Table points{chart.title, {{chart.x_title, true}, {chart.y_title, true}}, {}};
+  if (named) points.columns.insert(points.columns.begin(), {"Series"});
+  if (commanded) points.columns.push_back({"Command"});
   for (const ChartSeries& series : chart.series) {
     for (const ChartPoint& point : series.points) {
       if (points.rows.size() == table_rows) break;
+      if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
       const std::string x =
           chart.x_names.empty() ? short_number(point.x) : chart.x_names.at(static_cast<std::size_t>(point.x));
-      points.rows.push_back(
-          {series.name, x, short_number(point.y), point.command.empty() ? Markup() : code(point.command)});
+      std::vector<Markup> cells{x, short_number(point.y)};
+      if (named) cells.insert(cells.begin(), series.name);
+      if (commanded) cells.push_back(point.command.empty() ? Markup() : code(point.command));
+      points.rows.push_back(std::move(cells));
     }
   }
   return details("Points as a table", series_commands(chart) + table(points));

@@ -184,7 +184,7 @@ std::string sweep_page(const SweepResults& results, const std::filesystem::path&
   page.kind = "drape sweep";
   page.heading = results.headline();
   if (!results.shard.whole()) page.heading += fmt::format(" (shard {})", results.shard.text());
-  page.introduction = findings(results) + html::command("Make it again", command_of(results.plan.request));
+  page.introduction = findings(results) + html::command("Reproduce this sweep", command_of(results.plan.request));
   page.content = Films(results, folder).section();
   if (const SweepDiagrams diagrams = figure_diagrams(results); !diagrams.charts.empty()) {
     page.content += html::section(2, "diagrams", "Diagrams",
@@ -193,9 +193,11 @@ std::string sweep_page(const SweepResults& results, const std::filesystem::path&
                                                              "PNG, with their points as CSV, Markdown and LaTeX.",
                                                              diagrams_place)));
   }
-  page.content += html::section(
-      2, "figures", "Figures",
-      figures_table(results) + html::note("Choose a column's head to sort by it. runs.csv has every figure."));
+  page.content +=
+      html::section(2, "figures", "Figures",
+                    figures_table(results) +
+                        html::element("p", {{"class", "note on-screen"}}, "Choose a column's head to sort by it.") +
+                        html::note("runs.csv has every figure."));
   page.foot = {{"Made by", results.plan.program}};
   return html::render(page);
 }

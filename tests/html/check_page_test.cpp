@@ -131,6 +131,9 @@ TEST_F(CheckPage, CurveTellsItsValues) {
   EXPECT_TRUE(browser_->run("return !document.getElementById('tip').hidden"));
   EXPECT_NE(browser_->run("return document.getElementById('tip').textContent").get<std::string>().find("step "),
             std::string::npos);
+  EXPECT_EQ(
+      browser_->run("return [...document.querySelectorAll('td')].filter((c) => /nan/.test(c.textContent)).length"), 0)
+      << "a gap in a curve is no row of its table";
 }
 
 }  // namespace
