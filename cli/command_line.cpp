@@ -43,6 +43,18 @@ void add_choice(CLI::App& app, const char* option, Enum& value, const std::vecto
       ->type_name(fmt::format("{}", fmt::join(names, "|")));
 }
 
+/// Shows of an option what its value is and whether there may be several. Which arguments are required, the line of
+/// usage says, and which options exclude each other, whoever gives both is told.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() { label("Positionals", "Arguments"); }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    if (option->get_type_size() == 0) return {};
+    const bool several = option->get_expected_max() == CLI::detail::expected_max_vector_size;
+    return (option->get_positional() ? "" : " " + option->get_type_name()) + (several ? " ..." : "");
+  }
+};
+
 /// What takes a key of a scene with its value is shown, and completed by shells, in one way everywhere.
 void name_values(CLI::App& app) {
   for (CLI::Option* option : app.get_options()) {
@@ -113,7 +125,9 @@ void add_backend_option(CLI::App& subcommand, GlBackend& backend) {
 
 ExitCode run_command_line(int argc, const char* const* argv) {
   CLI::App app("Simulates mass-spring cloth and renders it offscreen into GIF, PNG and MP4.", "drape");
-  app.set_version_flag("--version", "drape " + build_info().version);
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.set_help_flag("-h,--help", "Print this help");
+  app.set_version_flag("--version", "drape " + build_info().version, "Print the version");
   app.require_subcommand(1);
   app.fallthrough();
   CommonOptions common;

@@ -41,6 +41,7 @@ TEST(Terminal, HelpOfEveryCommandFitsTheWindowAndHasExamples) {
     const Finished help = drape(folder, "help " + commands[i], "COLUMNS=80");
     EXPECT_EQ(help.code, 0) << commands[i];
     EXPECT_LE(longest_line(help.text.substr(0, help.text.find("Examples:"))), 80U) << help.text;
+    EXPECT_EQ(help.text.find("Excludes"), std::string::npos) << help.text;
     EXPECT_NE(help.text.find("\nExamples:\n  drape " + commands[i]), std::string::npos) << help.text;
     EXPECT_EQ(help.text, drape(folder, commands[i] + " --help", "COLUMNS=80").text);
     for (const std::string& name : subcommands_of(help.text)) commands.push_back(commands[i] + " " + name);

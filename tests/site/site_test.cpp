@@ -93,6 +93,19 @@ TEST_F(Site, ShowsEverySceneWithItsFile) {
   EXPECT_GE(scenes, 18);
 }
 
+// The least contrast of a link with the page, see WCAG 2.1, 1.4.3.
+constexpr const char* contrast_of_links = R"(
+  const light = (color) => {
+    const [r, g, b] = color.match(/[0-9.]+/g).slice(0, 3).map((v) => v / 255)
+      .map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
+  const page = light(getComputedStyle(document.body).backgroundColor);
+  return Math.min(...[...document.querySelectorAll("article p a, article li a")].map((a) => {
+    const [low, high] = [page, light(getComputedStyle(a).color)].sort((x, y) => x - y);
+    return (high + 0.05) / (low + 0.05);
+  }), 21))";
+
 TEST_F(Site, FitsItsWindowWithoutTheNetwork) {
   for (const char* name : {"index", "gallery", "docs/scene-format", "docs/stability", "scenes/showcase/air"}) {
     for (const bool dark : {false, true}) {
@@ -111,6 +124,7 @@ TEST_F(Site, FitsItsWindowWithoutTheNetwork) {
       const auto lightness = browser_->run(
           "return Math.max(...getComputedStyle(document.body).backgroundColor.match(/\\d+/g).slice(0, 3))");
       EXPECT_EQ(lightness.get<int>() < 128, dark) << name;
+      EXPECT_GE(browser_->run(contrast_of_links).get<double>(), 4.5) << name << (dark ? ", dark" : ", light");
       keep_screenshot("site-" + fs::path(name).filename().string() + (dark ? "-dark" : "-light"));
     }
   }
