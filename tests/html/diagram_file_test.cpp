@@ -2,6 +2,7 @@
 
 #include "figures/diagram_files.hpp"
 #include "html/chart.hpp"
+#include "html/page.hpp"
 #include "study/method_series.hpp"
 #include "study/stability_map.hpp"
 #include "tests/html/html_page.hpp"
@@ -72,23 +73,43 @@ TEST_F(DiagramFile, IsLegibleWhateverTheAxesAre) {
   }
 }
 
-TEST_F(DiagramFile, OfAStabilityMapIsLegible) {
-  for (const int per_decade : {1, 3}) {
-    StabilityMap map;
-    map.method = Method::quasi_newton;
-    map.axis = StabilityAxis::explicit_push;
-    map.limit_name = "step·√stiffness = 2";
-    for (int i = 0; i <= 5 * per_decade; ++i) map.steps.push_back(std::pow(10, -5 + 1.0 * i / per_decade));
-    for (int i = 0; i <= 9 * per_decade; ++i) map.stiffnesses.push_back(std::pow(10, 1.0 * i / per_decade));
-    for (const double stiffness : map.stiffnesses) {
-      map.limits.push_back(2 / std::sqrt(stiffness));
-      for (const double step : map.steps) {
-        map.cells.push_back({step, stiffness,
-                             step > map.limits.back() ? StabilityOutcome::blown_up : StabilityOutcome::not_converged,
-                             step, 1});
-      }
+StabilityMap map_of(int per_decade) {
+  StabilityMap map;
+  map.method = Method::quasi_newton;
+  map.axis = StabilityAxis::explicit_push;
+  map.limit_name = "step·√stiffness = 2";
+  for (int i = 0; i <= 5 * per_decade; ++i) map.steps.push_back(std::pow(10, -5 + 1.0 * i / per_decade));
+  for (int i = 0; i <= 9 * per_decade; ++i) map.stiffnesses.push_back(std::pow(10, 1.0 * i / per_decade));
+  for (const double stiffness : map.stiffnesses) {
+    map.limits.push_back(2 / std::sqrt(stiffness));
+    for (const double step : map.steps) {
+      const bool beyond = step > map.limits.back();
+      map.cells.push_back(
+          {step, stiffness, beyond ? StabilityOutcome::blown_up : StabilityOutcome::not_converged, step, 1});
     }
-    expect_legible(map_diagram(map));
+  }
+  return map;
+}
+
+TEST_F(DiagramFile, OfAStabilityMapIsLegible) {
+  for (const int per_decade : {1, 3}) expect_legible(map_diagram(map_of(per_decade)));
+}
+
+TEST_F(DiagramFile, OfAStabilityMapIsLegibleOnAPageInANarrowWindow) {
+  for (const int per_decade : {1, 3}) {
+    html::Page page;
+    page.content = html::row({map_figure(map_of(per_decade))});
+    open(html::render(page));
+    for (const int width : {390, 1200}) {
+      browser_->set_width(width);
+      EXPECT_EQ(browser_->run(R"(
+        const boxes = [...document.querySelectorAll(".chart text")].filter((t) => t.textContent)
+          .map((t) => t.getBoundingClientRect());
+        return boxes.filter((a, i) => boxes.slice(i + 1).some((b) => a.left < b.right && b.left < a.right &&
+          a.top < b.bottom - 3 && b.top < a.bottom - 3)).length)"),
+                0)
+          << width;
+    }
   }
 }
 
