@@ -35,18 +35,18 @@ SelfContact::SelfContact(const SelfCollision& values, const Cloth& cloth)
 
 void SelfContact::apply(const Vertices& x, double, double h, Vertices& v) {
   converged_ = true;
-  if (!x.allFinite() || !v.allFinite()) return;  // diverged: nothing to keep apart
-  load(x, h, v);
-  const double rounding = largest_rounding();
+  const double largest = (x + h * v).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();  // [m]
+  if (!std::isfinite(largest) && (!x.allFinite() || !v.allFinite())) return;      // diverged: nothing to keep apart
+  const double rounding = largest * std::numeric_limits<double>::epsilon();
   if (rounding > values_.thickness) {  // far from the origin layers cannot be told apart, and everything would touch
     converged_ = false;
     return;
   }
   // Then there would be pairs to look at, perhaps, but no contact and no impact among them.
-  if (rounding < (clearly - 1) / 100 * values_.thickness &&
-      sheet_.stays_apart(x_, h, moving_.velocities, clearly * values_.thickness)) {
+  if (rounding < (clearly - 1) / 100 * values_.thickness && sheet_.stays_apart(x, h, v, clearly * values_.thickness)) {
     return;
   }
+  load(x, h, v);
   find_candidates();
   if (candidates_.pairs().empty()) return;
   repel();
@@ -64,12 +64,6 @@ void SelfContact::load(const Vertices& x, double h, const Vertices& v) {
     moving_.velocities[Index(i)] = v.row(i).transpose();
     target_[Index(i)] = x_[Index(i)] + h * moving_.velocities[Index(i)];
   }
-}
-
-double SelfContact::largest_rounding() const {
-  double largest = 0;
-  for (const Point& target : target_) largest = std::max(largest, target.cwiseAbs().maxCoeff());
-  return largest * std::numeric_limits<double>::epsilon();
 }
 
 void SelfContact::find_candidates() {

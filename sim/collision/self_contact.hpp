@@ -25,8 +25,6 @@ class SelfContact final : public MotionFilter {
 
  private:
   void load(const Vertices& x, double h, const Vertices& v);
-  /// Of the coordinates of targets [m].
-  [[nodiscard]] double largest_rounding() const;
   void find_candidates();
   void repel();
   void stop_impacts();

@@ -1,281 +1,294 @@
 #include "sim/collision/smooth_sheet.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <span>
+
+#include "sim/collision/impact.hpp"
 
 namespace drape {
 namespace {
 
 using Index = std::size_t;
 
-// Along each side of the rectangle. More are smoother each, and have more pairs of balls to compare.
-constexpr std::array<Index, 4> block_counts{1, 6, 12, 20};
 constexpr int most_pause = 16;  // steps
-// By how much more than it moves something has to be apart, for a fifth of every distance to be left.
-constexpr double moving_margin = 1.25;
+// Of a block's triangles about so many say how it lies.
+constexpr Index most_sampled = 2;
+// Features that are compared one by one in a step for each vertex, at most: a search costs more only then.
+constexpr int compared_per_vertex = 4;
+// By how much F has to change before a window that was not smooth is looked at again.
+constexpr double least_used = 0.2;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-constexpr double flatness = 1e-9;  // what is no difference in the rectangle, as a part of its size
 
-Eigen::Vector3d rest_of(const Cloth& cloth, int i) { return cloth.rest.row(i).transpose(); }
-
-/// Where columns or rows of blocks begin and end: at some of the vertices' places along an axis, with as many in each.
-std::vector<double> borders(const Eigen::Ref<const Eigen::VectorXd>& along, Index most, double same) {
-  std::vector<double> places(along.begin(), along.end());
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end(), [&](double a, double b) { return b - a <= same; }),
-               places.end());
-  const Index count = std::min(most, places.size() - 1);
-  std::vector<double> borders;
-  for (Index k = 0; k <= count; ++k) borders.push_back(places[k * (places.size() - 1) / count]);
-  return borders;
+/// The smaller eigenvalue of the symmetric part of a 2×2 matrix.
+double least_of_symmetric_part(double xx, double xy, double yx, double yy) {
+  const double half = (xx - yy) / 2, across = (xy + yx) / 2;
+  return (xx + yy) / 2 - std::sqrt(half * half + across * across);
 }
+
+using Range = SheetBlocks::Range;
+
+Range around(const Range& a, const Range& b) { return {std::min(a.first, b.first), std::max(a.last, b.last)}; }
 
 }  // namespace
 
-SmoothSheet::SmoothSheet(const Cloth& cloth) {
-  if (cloth.triangles.empty() || !lay_flat(cloth)) return;
-  for (const Index count : block_counts) {
-    Division division = divided(count);
-    if (divisions_.empty() || division.blocks.size() > divisions_.back().blocks.size()) {
-      divisions_.push_back(std::move(division));
-    }
+SmoothSheet::SmoothSheet(const Cloth& cloth) : sheet_(SheetBlocks::of(cloth)) {
+  if (!sheet_) return;
+  for (const SheetBlocks::Level& level : sheet_->levels()) {
+    LevelState state;
+    state.columns = std::max<Index>(level.columns() - 1, 1);
+    state.windows.resize(state.columns * std::max<Index>(level.rows() - 1, 1));
+    state.balls.resize(level.columns() * level.rows());
+    levels_.push_back(std::move(state));
   }
+  changes_.resize(sheet_->measured().columns() * sheet_->measured().rows());
 }
 
-bool SmoothSheet::lay_flat(const Cloth& cloth) {
-  // Edges with the triangle on their left, and how often they are there.
-  std::map<Edge, int> sides;
-  for (const auto& [a, b, c] : cloth.triangles) {
-    for (const Edge side : {Edge{a, b}, Edge{b, c}, Edge{c, a}}) {
-      if (++sides[side] > 1 || side[0] == side[1]) return false;
-    }
-  }
-  std::vector<Edge> border;
-  for (const auto& [side, count] : sides) {
-    if (!sides.contains(Edge{side[1], side[0]})) border.push_back(side);
-  }
-  if (border.empty()) return false;
-
-  const auto& [a, b, c] = cloth.triangles.front();
-  const Point origin = rest_of(cloth, a);
-  const Point normal = (rest_of(cloth, b) - origin).cross(rest_of(cloth, c) - origin).normalized();
-  Eigen::Matrix<double, 3, 2> axes;
-  axes.col(0) = (rest_of(cloth, border.front()[1]) - rest_of(cloth, border.front()[0])).normalized();
-  axes.col(1) = normal.cross(axes.col(0));
-  const Vertices from_origin = cloth.rest.rowwise() - origin.transpose();
-  flat_ = from_origin * axes;
-  const Eigen::RowVector2d low = flat_.colwise().minCoeff(), high = flat_.colwise().maxCoeff();
-  const double same = flatness * (high - low).maxCoeff();
-  if (!((from_origin * normal).cwiseAbs().maxCoeff() <= same)) return false;
-
-  for (const Edge& side : border) {
-    const auto both_at = [&](int axis, double place) {
-      return std::abs(flat_(side[0], axis) - place) <= same && std::abs(flat_(side[1], axis) - place) <= same;
-    };
-    if (!both_at(0, low[0]) && !both_at(0, high[0]) && !both_at(1, low[1]) && !both_at(1, high[1])) return false;
-  }
-  double area = 0;
-  least_height_ = unlimited;
-  for (const Triangle& t : cloth.triangles) {
-    Eigen::Matrix2d edges;
-    edges << (flat_.row(t[1]) - flat_.row(t[0])).transpose(), (flat_.row(t[2]) - flat_.row(t[0])).transpose();
-    const double twice = edges.determinant();
-    const double longest = std::max({edges.col(0).norm(), edges.col(1).norm(), (edges.col(1) - edges.col(0)).norm()});
-    if (!(twice > same * longest)) return false;
-    area += twice / 2;
-    least_height_ = std::min(least_height_, twice / longest);
-    pieces_.push_back({.vertices = t, .inverse = edges.inverse()});
-  }
-  // Each point of the rectangle has as many triangles on it as any other, since the border is the rectangle's.
-  const double whole = (high - low).prod();
-  return area < 1.5 * whole;
-}
-
-SmoothSheet::Division SmoothSheet::divided(Index most) const {
-  const double same = flatness * (flat_.colwise().maxCoeff() - flat_.colwise().minCoeff()).maxCoeff();
-  const std::array<std::vector<double>, 2> at{borders(flat_.col(0), most, same), borders(flat_.col(1), most, same)};
-  Division division;
-  division.columns = at[0].size() - 1;
-  division.rows = at[1].size() - 1;
-  for (Index k = 0; k < division.columns * division.rows; ++k) {
-    const Index column = k % division.columns, row = k / division.columns;
-    const Eigen::RowVector2d low(at[0][column], at[1][row]), high(at[0][column + 1], at[1][row + 1]);
-    Block block{.first_piece = division.pieces.size(), .first_vertex = division.vertices.size()};
-    for (Index p = 0; p < pieces_.size(); ++p) {
-      const auto& [a, b, c] = pieces_[p].vertices;
-      const Eigen::RowVector2d from = flat_.row(a).cwiseMin(flat_.row(b)).cwiseMin(flat_.row(c));
-      const Eigen::RowVector2d to = flat_.row(a).cwiseMax(flat_.row(b)).cwiseMax(flat_.row(c));
-      if (((from - high).array() >= -same).any() || ((low - to).array() >= -same).any()) continue;
-      division.pieces.push_back(p);
-      division.vertices.insert(division.vertices.end(), {a, b, c});
-    }
-    const auto first = division.vertices.begin() + static_cast<std::ptrdiff_t>(block.first_vertex);
-    std::sort(first, division.vertices.end());
-    division.vertices.erase(std::unique(first, division.vertices.end()), division.vertices.end());
-    block.last_piece = division.pieces.size();
-    block.last_vertex = division.vertices.size();
-    division.blocks.push_back(block);
-  }
-  Balls& balls = division.balls;
-  balls.all.resize(division.blocks.size());
-  for (auto* values : {&balls.x, &balls.y, &balls.z, &balls.reach}) values->resize(division.blocks.size());
-  return division;
-}
-
-bool SmoothSheet::stays_apart(const std::vector<Point>& from, double h, const std::vector<Point>& velocities,
-                              double distance) {
-  if (divisions_.empty() || pause_-- > 0) return false;
-  load(from, h, velocities);
-  const double ratio = distance / least_height_;
-  // What did last may do again, and if it does, perhaps less does the next time.
-  for (Index k = last_; k < divisions_.size(); ++k) {
-    Division& division = divisions_[k];
-    if (!windows_are_smooth(division, ratio)) continue;
-    if (k > 0 && !blocks_are_apart(division, from, h, velocities, distance)) continue;
-    last_ = k > last_ || k == 0 ? k : k - 1;
-    failures_ = 0;
-    pause_ = 0;
-    return true;
-  }
-  last_ = 0;
-  failures_ = std::min(failures_ + 1, most_pause);
+bool SmoothSheet::stays_apart(const Vertices& x, double h, const Vertices& v, double distance) {
+  if (!sheet_ || pause_-- > 0) return false;
+  // What has not been visited in the call before is looked at anew.
+  calls_ += distance == distance_ ? 1 : 2;
+  distance_ = distance;
+  measure(x, h, v);
+  allowance_ = compared_per_vertex * static_cast<int>(x.rows());
+  const bool apart = window_is_apart(0, 0, 0);
+  failures_ = apart ? 0 : std::min(failures_ + 1, most_pause);
   pause_ = failures_;
-  return false;
+  return apart;
 }
 
-void SmoothSheet::load(const std::vector<Point>& from, double h, const std::vector<Point>& velocities) {
-  for (Piece& piece : pieces_) {
-    const auto a = Index(piece.vertices[0]), b = Index(piece.vertices[1]), c = Index(piece.vertices[2]);
-    Gradient edges, moves;
-    edges << from[b] - from[a], from[c] - from[a];
-    moves << velocities[b] - velocities[a], velocities[c] - velocities[a];
-    piece.gradient.noalias() = edges * piece.inverse;
-    piece.changed = h * h * (moves * piece.inverse).squaredNorm();
-  }
-}
-
-bool SmoothSheet::windows_are_smooth(Division& division, double ratio) const {
-  for (Block& block : division.blocks) {
-    block.sum.setZero();
-    block.changed = 0;
-    for (Index e = block.first_piece; e < block.last_piece; ++e) {
-      const Piece& piece = pieces_[division.pieces[e]];
-      block.sum += piece.gradient;
-      block.changed = std::max(block.changed, piece.changed);
+void SmoothSheet::measure(const Vertices& x, double h, const Vertices& v) {
+  const bool first = vertices_.empty();
+  vertices_.resize(static_cast<Index>(x.rows()));
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double *now = x.col(k).data(), *velocity = v.col(k).data();
+    for (Index i = 0; i < vertices_.size(); ++i) {
+      Vertex& vertex = vertices_[i];
+      vertex.moved[Index(k)] << (first ? 0 : now[i] - vertex.place[k]), h * velocity[i];
+      vertex.place[k] = now[i];
     }
   }
-  const Index columns = division.columns, rows = division.rows;
-  for (Index row = 0; row == 0 || row + 1 < rows; ++row) {
-    for (Index column = 0; column == 0 || column + 1 < columns; ++column) {
-      const Index right = std::min(column + 1, columns - 1), above = std::min(row + 1, rows - 1);
-      const std::array<Index, 4> window{row * columns + column, row * columns + right, above * columns + column,
-                                        above * columns + right};
-      if (!smooth(division, window, ratio)) return false;
+  for (Index block = 0; block < changes_.size(); ++block) {
+    Eigen::Array2d most = Eigen::Array2d::Zero();
+    for (const auto& [i, j, weight] : sheet_->edges_of(block)) {
+      const auto &a = vertices_[Index(i)].moved, &b = vertices_[Index(j)].moved;
+      const Eigen::Array2d dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
+      most = most.max(weight * (dx * dx + dy * dy + dz * dz));
+    }
+    changes_[block] = {.since = std::sqrt(most[0]), .next = std::sqrt(most[1])};
+  }
+}
+
+SmoothSheet::Change SmoothSheet::change_in(Index l, const Part& part) const {
+  const auto& [columns, rows] = sheet_->levels()[l].axes;
+  Change most;
+  for (Index row = rows.measured[part.rows.first].first; row < rows.measured[part.rows.last - 1].last; ++row) {
+    for (Index column = columns.measured[part.columns.first].first;
+         column < columns.measured[part.columns.last - 1].last; ++column) {
+      const Change& change = changes_[row * sheet_->measured().columns() + column];
+      most = {.since = std::max(most.since, change.since), .next = std::max(most.next, change.next)};
+    }
+  }
+  return most;
+}
+
+bool SmoothSheet::window_is_apart(Index l, Index column, Index row) {
+  Window& window = levels_[l].windows[row * levels_[l].columns + column];
+  if (window.seen == calls_) return true;
+  const bool known = window.seen + 1 == calls_;
+  window.seen = calls_;
+  const SheetBlocks::Level& level = sheet_->levels()[l];
+  const Part part = level.window(column, row);
+  const Change change = change_in(l, part);
+  window.used += change.since;
+  const bool lasts = window.split ? window.used < least_used : window.room.lasts({window.used, change.next});
+  if (!known || !lasts) {
+    window.used = 0;
+    const std::optional<Room> room = smooth(l, part, change, window.first);
+    window.split = !room;
+    if (room) window.room = *room;
+  }
+  if (!window.split) return true;
+  if (l + 1 == levels_.size()) {
+    gather(l, part, features_[0]);
+    return features_are_apart(features_[0], features_[0]);
+  }
+  const Part inner = level.inside(part);
+  if (!blocks_are_apart(l + 1, inner)) return false;
+  const auto& [columns, rows] = inner;
+  for (Index r = rows.first; r == rows.first || r + 1 < rows.last; ++r) {
+    for (Index c = columns.first; c == columns.first || c + 1 < columns.last; ++c) {
+      if (!window_is_apart(l + 1, c, r)) return false;
     }
   }
   return true;
 }
 
-bool SmoothSheet::smooth(const Division& division, const std::array<Index, 4>& window, double ratio) const {
+std::optional<SmoothSheet::Room> SmoothSheet::smooth(Index l, const Part& part, const Change& change,
+                                                     std::optional<Index>& first) const {
+  const auto axes = frame(l, part);
+  if (!axes) return std::nullopt;
+  const double needed = distance_ / sheet_->least_height();
+  const double least = std::max(needed + change.next, change.next / most_moved);
+  const auto least_in = [&](Index p) {
+    const auto& [vertices, inverse] = sheet_->pieces()[p];
+    const Point corner = place(vertices[0]);
+    const Eigen::Vector2d a = axes->transpose() * (place(vertices[1]) - corner);
+    const Eigen::Vector2d b = axes->transpose() * (place(vertices[2]) - corner);
+    return least_of_symmetric_part(
+        a[0] * inverse(0, 0) + b[0] * inverse(1, 0), a[0] * inverse(0, 1) + b[0] * inverse(1, 1),
+        a[1] * inverse(0, 0) + b[1] * inverse(1, 0), a[1] * inverse(0, 1) + b[1] * inverse(1, 1));
+  };
+  if (first && !(least_in(*first) >= least)) return std::nullopt;
+  double found = unlimited;
+  const bool all = sheet_->levels()[l].all_pieces(part, [&](Index p) {
+    found = std::min(found, least_in(p));
+    if (found < least) first = p;
+    return found >= least;
+  });
+  if (!all) return std::nullopt;
+  return Room{.whole = found, .beyond = found - needed};
+}
+
+std::optional<SmoothSheet::Gradient> SmoothSheet::frame(Index l, const Part& part) const {
+  const SheetBlocks::Level& level = sheet_->levels()[l];
   Gradient mean = Gradient::Zero();
-  double changed = 0;
-  for (const Index k : window) {
-    mean += division.blocks[k].sum;
-    changed = std::max(changed, division.blocks[k].changed);
+  for (Index row = part.rows.first; row < part.rows.last; ++row) {
+    for (Index column = part.columns.first; column < part.columns.last; ++column) {
+      const auto pieces = level.pieces_of(row * level.columns() + column);
+      for (Index k = 0; k < pieces.size(); k += 1 + pieces.size() / most_sampled) {
+        const auto& [vertices, inverse] = sheet_->pieces()[pieces[k]];
+        Gradient edges;
+        edges << place(vertices[1]) - place(vertices[0]), place(vertices[2]) - place(vertices[0]);
+        mean += edges * inverse;
+      }
+    }
   }
   // The nearest matrix with orthonormal columns: the root of a 2×2 matrix M is (M + √det M)/√(tr M + 2√det M).
   const Eigen::Matrix2d square = mean.transpose() * mean;
   const double root = std::sqrt(std::max(0.0, square.determinant()));
-  if (!(root > 0)) return false;
+  if (!(root > 0)) return std::nullopt;
   const Eigen::Matrix2d sum = square + root * Eigen::Matrix2d::Identity();
-  const Gradient axes = mean * sum.inverse() * std::sqrt(square.trace() + 2 * root);
-  const double least = ratio + moving_margin * std::sqrt(changed);
-  for (Index w = 0; w < window.size(); ++w) {
-    if (std::find(window.begin(), window.begin() + static_cast<std::ptrdiff_t>(w), window[w]) !=
-        window.begin() + static_cast<std::ptrdiff_t>(w)) {
-      continue;  // there is but one row or column
-    }
-    const Block& block = division.blocks[window[w]];
-    for (Index e = block.first_piece; e < block.last_piece; ++e) {
-      const Gradient& f = pieces_[division.pieces[e]].gradient;
-      const double a = axes.col(0).dot(f.col(0)) - least, b = axes.col(1).dot(f.col(1)) - least;
-      const double c = (axes.col(0).dot(f.col(1)) + axes.col(1).dot(f.col(0))) / 2;
-      if (!(a > 0 && a * b >= c * c)) return false;
-    }
-  }
-  return true;
+  return mean * sum.inverse() * std::sqrt(square.trace() + 2 * root);
 }
 
-bool SmoothSheet::blocks_are_apart(Division& division, const std::vector<Point>& from, double h,
-                                   const std::vector<Point>& velocities, double distance) const {
-  Point together = Point::Zero();  // [m/s]: brings nothing together
-  for (const Point& velocity : velocities) together += velocity;
-  together /= static_cast<double>(velocities.size());
-  for (Index k = 0; k < division.blocks.size(); ++k) {
-    division.balls.set(k, ball_around(division, k, from, h, velocities, distance), h * moving_margin, together);
-  }
-  // Those after it that are in no window with it: the rest of its row and of the next, and all others.
-  const Balls& balls = division.balls;
-  const Index columns = division.columns, count = division.blocks.size();
+bool SmoothSheet::blocks_are_apart(Index l, const Part& part) {
+  const Index width = part.columns.last - part.columns.first, count = width * (part.rows.last - part.rows.first);
+  std::array<Index, SheetBlocks::most_inside> blocks{};
+  std::array<double, SheetBlocks::most_inside> x{}, y{}, z{}, reach{};
+  Point together = Point::Zero();  // what they all do brings nothing together
   for (Index k = 0; k < count; ++k) {
-    const Index column = k % columns, next = k - column + columns, rest = std::min(next + columns, count);
-    if (!balls.apart(k, std::min(k + 2, next), next) || !balls.apart(k, rest, count)) return false;
-    if (next == count) continue;
-    if (!balls.apart(k, next, next + (column > 0 ? column - 1 : 0))) return false;
-    if (!balls.apart(k, std::min(next + column + 2, rest), rest)) return false;
+    blocks[k] = (part.rows.first + k / width) * sheet_->levels()[l].columns() + part.columns.first + k % width;
+    together += ball(l, blocks[k]).way;
+  }
+  together /= static_cast<double>(count);
+  for (Index k = 0; k < count; ++k) {
+    const Ball& ball = levels_[l].balls[blocks[k]];
+    x[k] = ball.middle.x();
+    y[k] = ball.middle.y();
+    z[k] = ball.middle.z();
+    reach[k] = ball.radius + distance_ / 2 + ((ball.way - together).norm() + ball.spread) / most_moved;
+  }
+  const SheetBlocks::Pairs& far = SheetBlocks::pairs_apart(width);
+  for (Index k = 0; k + 1 < count; ++k) {
+    int near = 0;
+    for (Index m = k + 1; m < count; ++m) {
+      const double dx = x[m] - x[k], dy = y[m] - y[k], dz = z[m] - z[k], sum = reach[m] + reach[k];
+      near |= static_cast<int>(dx * dx + dy * dy + dz * dz <= sum * sum) & far[k][m];
+    }
+    for (Index m = k + 1; near != 0 && m < count; ++m) {
+      if (far[k][m] != 0 && !pair_is_apart(l, {blocks[k], blocks[m]})) return false;
+    }
   }
   return true;
 }
 
-SmoothSheet::Ball SmoothSheet::ball_around(const Division& division, Index k, const std::vector<Point>& from, double h,
-                                           const std::vector<Point>& velocities, double distance) {
-  const Block& block = division.blocks[k];
-  const std::span<const int> vertices(division.vertices.data() + block.first_vertex,
-                                      block.last_vertex - block.first_vertex);
-  Point low = Point::Constant(unlimited), high = -low, slow = low, fast = -low;
-  for (const int i : vertices) {
-    low = low.cwiseMin(from[Index(i)]);
-    high = high.cwiseMax(from[Index(i)]);
-    slow = slow.cwiseMin(velocities[Index(i)]);
-    fast = fast.cwiseMax(velocities[Index(i)]);
+bool SmoothSheet::pair_is_apart(Index l, const Pair& pair) {
+  const SheetBlocks::Level& level = sheet_->levels()[l];
+  const auto& [first, second] = pair;
+  const Part a = level.part_of(first), b = level.part_of(second);
+  const Part between{.columns = around(a.columns, b.columns), .rows = around(a.rows, b.rows)};
+  const Ball &at = ball(l, first), &other = ball(l, second);
+  const double moved = (at.way - other.way).norm() + at.spread + other.spread;
+  const double enough = std::max(distance_ + moved, moved / most_moved);
+  if (gap(l, pair, enough) >= enough) return true;
+  if (l + 1 == levels_.size()) {
+    std::optional<Index> unused;
+    if (smooth(l, between, change_in(l, between), unused)) return true;
+    gather(l, a, features_[0]);
+    gather(l, b, features_[1]);
+    return features_are_apart(features_[0], features_[1]);
   }
-  Ball ball{.middle = (low + high) / 2, .velocity = (slow + fast) / 2, .radius = 0};
-  double widest = 0, fastest = 0;
-  for (const int i : vertices) {
-    widest = std::max(widest, (from[Index(i)] - ball.middle).squaredNorm());
-    fastest = std::max(fastest, (velocities[Index(i)] - ball.velocity).squaredNorm());
+  const Part inner = level.inside(a), others = level.inside(b);
+  const Index width = sheet_->levels()[l + 1].columns();
+  for (Index row = inner.rows.first; row < inner.rows.last; ++row) {
+    for (Index column = inner.columns.first; column < inner.columns.last; ++column) {
+      for (Index r = others.rows.first; r < others.rows.last; ++r) {
+        for (Index c = others.columns.first; c < others.columns.last; ++c) {
+          if (!pair_is_apart(l + 1, {row * width + column, r * width + c})) return false;
+        }
+      }
+    }
   }
-  ball.radius = std::sqrt(widest) + distance / 2 + moving_margin * h * std::sqrt(fastest);
+  return true;
+}
+
+double SmoothSheet::gap(Index l, const Pair& pair, double enough) {
+  const Ball &a = ball(l, pair.first), &b = ball(l, pair.second);
+  const Point between = a.middle - b.middle;
+  const double distance = between.norm(), found = distance - a.radius - b.radius;
+  if (found >= enough || !(distance > enough)) return found;
+  // Then the room between two planes across.
+  const SheetBlocks::Level& level = sheet_->levels()[l];
+  const Point axis = between / distance;
+  double low = unlimited, high = -unlimited;
+  for (const int i : level.vertices_of(pair.first)) low = std::min(low, axis.dot(place(i) - b.middle));
+  for (const int i : level.vertices_of(pair.second)) high = std::max(high, axis.dot(place(i) - b.middle));
+  return std::max(found, low - high);
+}
+
+const SmoothSheet::Ball& SmoothSheet::ball(Index l, Index block) {
+  Ball& ball = levels_[l].balls[block];
+  if (ball.seen == calls_) return ball;
+  ball.seen = calls_;
+  const auto vertices = sheet_->levels()[l].vertices_of(block);
+  Point low = Point::Constant(unlimited), high = -low, slow = low, fast = high;
+  for (const int i : vertices) {
+    low = low.cwiseMin(place(i));
+    high = high.cwiseMax(place(i));
+    slow = slow.cwiseMin(way(i));
+    fast = fast.cwiseMax(way(i));
+  }
+  ball.middle = (low + high) / 2;
+  ball.way = (slow + fast) / 2;
+  ball.spread = (fast - slow).norm() / 2;
+  double widest = 0;
+  for (const int i : vertices) widest = std::max(widest, (place(i) - ball.middle).squaredNorm());
+  ball.radius = std::sqrt(widest);
   return ball;
 }
 
-void SmoothSheet::Balls::set(Index k, const Ball& ball, double way, const Point& together) {
-  all[k] = ball;
-  time = way;
-  x[k] = ball.middle.x();
-  y[k] = ball.middle.y();
-  z[k] = ball.middle.z();
-  reach[k] = ball.radius + way * (ball.velocity - together).norm();
+void SmoothSheet::gather(Index l, const Part& part, FeatureSet& features) const {
+  features.clear();
+  sheet_->levels()[l].all_pieces(part, [&](Index p) {
+    features.triangles.push_back(sheet_->pieces()[p].vertices);
+    return true;
+  });
+  features.complete();
 }
 
-bool SmoothSheet::Balls::apart(Index k, Index first, Index last) const {
-  int near = 0;
-  for (Index l = first; l < last; ++l) {
-    const double dx = x[l] - x[k], dy = y[l] - y[k], dz = z[l] - z[k], sum = reach[l] + reach[k];
-    near |= static_cast<int>(dx * dx + dy * dy + dz * dz <= sum * sum);
-  }
-  if (near == 0) return true;
-  for (Index l = first; l < last; ++l) {
-    const Ball &a = all[k], &b = all[l];
-    const double needed = a.radius + b.radius + time * (a.velocity - b.velocity).norm();
-    if ((a.middle - b.middle).squaredNorm() <= needed * needed) return false;
-  }
-  return true;
+bool SmoothSheet::features_are_apart(const FeatureSet& a, const FeatureSet& b) {
+  return all_pairs(a, b, [&](Feature feature, const std::array<int, 4>& vertices) {
+    if (allowance_-- <= 0) return false;
+    FourPoints p, move;
+    for (Index k = 0; k < 4; ++k) {
+      p[k] = place(vertices[k]);
+      move[k] = way(vertices[k]);
+    }
+    const double distance = std::sqrt(nearest(feature, p).squared), change = largest_change(feature, move);
+    return change <= distance - distance_ && change <= most_moved * distance;
+  });
 }
 
 }  // namespace drape

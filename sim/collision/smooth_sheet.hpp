@@ -3,15 +3,19 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "sim/cloth.hpp"
 #include "sim/collision/distance.hpp"
+#include "sim/collision/feature_set.hpp"
+#include "sim/collision/sheet_blocks.hpp"
 
 namespace drape {
 
-/// Says of a cloth that was cut as a rectangle when it is so smooth that nothing of it can touch in a step: in some
-/// operations for each triangle, where a search for what is near looks at dozens of pairs for each.
+/// Says of a cloth that was cut as a rectangle when nothing of it can touch in a step, for some operations for each
+/// vertex, where a search for what is near looks at dozens of pairs for each.
 ///
 /// x(p) is where the point p of the flat rectangle is, and F = ∂x/∂p (3×2), which is constant in a triangle. Let A be
 /// any 3×2 matrix with orthonormal columns, and p and q two points between which all triangles have a symmetric part of
@@ -21,77 +25,97 @@ namespace drape {
 /// triangle apart in the rectangle: whoever leaves the triangles around a vertex crosses one of them. So they stay at
 /// least (σ − D)δ apart, whatever the way they take.
 ///
-/// One A for the whole cloth does while it is nearly flat. Where it is folded, it is divided into blocks, and each
-/// window of 2×2 blocks has an A of its own. Two points that are in no window together are in blocks with another
-/// between them, and the balls around those have to be further apart than they move.
+/// One A for the whole cloth does while it is nearly flat. Where it is folded, it is divided: a window of 2×2 blocks
+/// into the smaller windows of 2×2 of the blocks' own blocks, each with an A of its own. Two points that are in one
+/// window, but in none of the smaller ones, are in blocks with another between them, which have to be further apart
+/// than they move; if they are not, their blocks are divided in turn, in the end into triangles.
+///
+/// What a window is found to have beyond what it needs lasts for as many steps as F takes to change by as much. So most
+/// windows are looked at in one step of several, and in all others only how much F has changed.
 class SmoothSheet {
  public:
   explicit SmoothSheet(const Cloth& cloth);
 
   /// Whether it is certain that any two features that share no vertex stay `distance` apart, and never come nearer than
-  /// a fifth of the distance that they begin with, while vertices go from `from` on straight lines by h·velocities. Of
-  /// a cloth that is no rectangle it never is. Where it was not for a few times, it is not looked for each time.
-  [[nodiscard]] bool stays_apart(const std::vector<Point>& from, double h, const std::vector<Point>& velocities,
-                                 double distance);
+  /// a fifth of the distance that they begin with, while vertices go from x (n×3) on straight lines by h·v. Of a cloth
+  /// that is no rectangle it never is. Where it was not for a few times, it is not looked for each time.
+  [[nodiscard]] bool stays_apart(const Vertices& x, double h, const Vertices& v, double distance);
 
  private:
+  using Index = std::size_t;
+  using Pair = std::pair<Index, Index>;  // of blocks
+  using Part = SheetBlocks::Part;
   using Gradient = Eigen::Matrix<double, 3, 2>;
-  struct Piece {
-    Triangle vertices;
-    Eigen::Matrix2d inverse;               // of its two edges from the first vertex, in the rectangle
-    Gradient gradient = Gradient::Zero();  // F at the start of the step
-    double changed = 0;                    // the squared norm by which F changes in the step
+  struct Vertex {
+    /// In each coordinate by how much it has moved since the last call, and how much it is about to [m].
+    std::array<Eigen::Array2d, 3> moved;
+    Point place;
   };
-  /// What lies within a block: entries of lists, from and to.
-  struct Block {
-    std::size_t first_piece = 0, last_piece = 0, first_vertex = 0, last_vertex = 0;
-    Gradient sum = Gradient::Zero();  // of its pieces' F
-    double changed = 0;               // the largest of theirs
+  /// Upper bounds of how much F has changed since the last call, and of D.
+  struct Change {
+    double since = 0, next = 0;
   };
-  /// What a block is in for the whole step, seen from something that moves at `velocity`.
+  /// What a window has: σ, and σ − distance/δ.
+  struct Room {
+    double whole = 0, beyond = 0;
+
+    [[nodiscard]] bool lasts(const Change& change) const {
+      return change.next <= beyond - change.since && change.next <= most_moved * (whole - change.since);
+    }
+  };
+  struct Window {
+    Room room;
+    double used = 0;             // of the room, since it was looked at
+    Index seen = 0;              // in which call it was visited last
+    bool split = false;          // into smaller ones
+    std::optional<Index> first;  // the piece that was not smooth when it was
+  };
+  /// What a block is in now, and what the ways are in that it is about to go.
   struct Ball {
-    Point middle = Point::Zero();    // [m]
-    Point velocity = Point::Zero();  // [m/s]
-    double radius = 0;               // [m]
+    Point middle = Point::Zero(), way = Point::Zero();
+    double radius = 0, spread = 0;
+    Index seen = 0;  // in which call it was computed
   };
-  struct Balls {
-    std::vector<Ball> all;
-    std::vector<double> x, y, z, reach;  // side by side; reach: seen from what moves as the whole cloth does
-    double time = 0;                     // of the step, and a margin [s]
-
-    void set(std::size_t k, const Ball& ball, double way, const Point& together);
-    /// Whether ball k touches none of these.
-    [[nodiscard]] bool apart(std::size_t k, std::size_t first, std::size_t last) const;
+  /// The windows of a level, row by row, and the balls around its blocks.
+  struct LevelState {
+    Index columns = 1;
+    std::vector<Window> windows;
+    std::vector<Ball> balls;
   };
-  /// The rectangle in blocks, row by row.
-  struct Division {
-    std::size_t columns = 1, rows = 1;
-    std::vector<Block> blocks;
-    std::vector<std::size_t> pieces;
-    std::vector<int> vertices;
-    Balls balls;  // around the blocks
-  };
+  /// Of the distance of two points, the part by which they may come nearer in a step.
+  static constexpr double most_moved = 0.8;
 
-  /// Whether the triangles tile the rectangle around them: all lie the same way up, and what has but one triangle lies
-  /// on the border.
-  [[nodiscard]] bool lay_flat(const Cloth& cloth);
-  [[nodiscard]] Division divided(std::size_t most) const;
+  void measure(const Vertices& x, double h, const Vertices& v);
+  [[nodiscard]] Change change_in(Index l, const Part& part) const;
+  [[nodiscard]] bool window_is_apart(Index l, Index column, Index row);
+  /// What a window has as a whole, if it lasts for a step; else `first` is a piece that has not.
+  [[nodiscard]] std::optional<Room> smooth(Index l, const Part& part, const Change& change,
+                                           std::optional<Index>& first) const;
+  [[nodiscard]] std::optional<Gradient> frame(Index l, const Part& part) const;
+  /// Whether any two of these blocks stay apart that have another between them.
+  [[nodiscard]] bool blocks_are_apart(Index l, const Part& part);
+  [[nodiscard]] bool pair_is_apart(Index l, const Pair& pair);
+  /// A lower bound of the distance of two blocks now, as sharp as it has to be to say that it is `enough` [m].
+  [[nodiscard]] double gap(Index l, const Pair& pair, double enough);
+  [[nodiscard]] const Ball& ball(Index l, Index block);
+  void gather(Index l, const Part& part, FeatureSet& features) const;
+  /// Compares them one by one.
+  [[nodiscard]] bool features_are_apart(const FeatureSet& a, const FeatureSet& b);
+  [[nodiscard]] const Point& place(int i) const { return vertices_[Index(i)].place; }
+  [[nodiscard]] Point way(int i) const {
+    const auto& [x, y, z] = vertices_[Index(i)].moved;
+    return {x[1], y[1], z[1]};
+  }
 
-  void load(const std::vector<Point>& from, double h, const std::vector<Point>& velocities);
-  /// Whether one A does for a window, for σ − D to be `ratio` at least.
-  [[nodiscard]] bool smooth(const Division& division, const std::array<std::size_t, 4>& window, double ratio) const;
-  [[nodiscard]] bool windows_are_smooth(Division& division, double ratio) const;
-  [[nodiscard]] static Ball ball_around(const Division& division, std::size_t k, const std::vector<Point>& from,
-                                        double h, const std::vector<Point>& velocities, double distance);
-  [[nodiscard]] bool blocks_are_apart(Division& division, const std::vector<Point>& from, double h,
-                                      const std::vector<Point>& velocities, double distance) const;
-
-  Eigen::Matrix<double, Eigen::Dynamic, 2> flat_;  // where vertices are in the rectangle [m]
-  double least_height_ = 0;                        // δ [m]
-  std::vector<Piece> pieces_;
-  std::vector<Division> divisions_;  // from one block to many; none: it is no rectangle
-  std::size_t last_ = 0;             // that which did last
-  int failures_ = 0, pause_ = 0;     // how often none did, and how often it is not tried again
+  std::optional<SheetBlocks> sheet_;  // nothing: it is no rectangle
+  std::vector<LevelState> levels_;
+  std::vector<Change> changes_;  // of the blocks that are measured
+  std::vector<Vertex> vertices_;
+  std::array<FeatureSet, 2> features_;  // that are compared
+  double distance_ = 0;
+  Index calls_ = 1;
+  int allowance_ = 0;             // how many features may be compared one by one in this call
+  int failures_ = 0, pause_ = 0;  // how often it was not certain, and how often it is not looked for again
 };
 
 }  // namespace drape

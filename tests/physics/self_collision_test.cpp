@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "sim/collision/distance.hpp"
+#include "sim/collision/self_contact.hpp"
 #include "sim/effects/self_collision.hpp"
 #include "sim/simulation.hpp"
 #include "tests/support/intersections.hpp"
@@ -174,6 +176,52 @@ TEST(SelfCollisionAlone, DependsOnTheStateOnly) {
   for (int i = 0; i < 20; ++i) second.step();
   EXPECT_TRUE(same_bits(first.state().x, second.state().x));
   EXPECT_TRUE(same_bits(first.state().v, second.state().v));
+}
+
+/// Self-collision that is compared in every step with one that has no memory of any other.
+struct Twice {
+  static constexpr std::string_view name = "twice";
+
+  struct Steps {
+    int changed = 0, unchanged = 0;
+  };
+  drape::SelfCollision values;
+  std::shared_ptr<Steps> steps = std::make_shared<Steps>();
+
+  void describe(Keys&) {}
+  void install(System& system) const {
+    system.filters.push_back(std::make_unique<Filter>(values, steps, system.cloth));
+  }
+
+ private:
+  struct Filter final : MotionFilter {
+    drape::SelfCollision values;
+    std::shared_ptr<Steps> steps;
+    const Cloth& cloth;
+    SelfContact lasting;
+    Filter(const drape::SelfCollision& s, std::shared_ptr<Steps> counted, const Cloth& c)
+        : values(s), steps(std::move(counted)), cloth(c), lasting(s, c) {}
+    void apply(const Vertices& x, double time, double h, Vertices& v) override {
+      const Vertices before = v;
+      Vertices fresh = v;
+      SelfContact(values, cloth).apply(x, time, h, fresh);
+      lasting.apply(x, time, h, v);
+      EXPECT_TRUE(same_bits(v, fresh)) << time;
+      ++(same_bits(v, before) ? steps->unchanged : steps->changed);
+    }
+  };
+};
+
+// A cloth that falls in folds: what a filter knows from steps before is no part of its result.
+TEST(SelfCollisionAlone, DoesTheSameWithoutMemory) {
+  SimulationSettings settings = fold_scene(Method::liu13, 0.01, 12);
+  const Twice twice{.values = {.thickness = 0.02}};
+  settings.effects = {Gravity{}, Sphere{.center = Eigen::Vector3d(0.13, -0.07, -0.5), .radius = 0.3, .scale = 1.2},
+                      Floor{-1}, twice};
+  Simulation simulation(settings);
+  for (int i = 0; i < 150; ++i) simulation.step();
+  EXPECT_GT(twice.steps->changed, 20);
+  EXPECT_GT(twice.steps->unchanged, 20);
 }
 
 TEST(SelfCollisionAlone, RefusesAClothThatStartsThroughItself) {
