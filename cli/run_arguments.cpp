@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <thread>
 
 #include "cli/byte_count.hpp"
 #include "cli/frame_list.hpp"
@@ -15,6 +16,11 @@
 
 namespace drape {
 namespace {
+
+constexpr const char* threads_help =
+    "Threads that share a step where the cloth has 8192 vertices or more, with the same bits for any number; default: "
+    "all "
+    "of the processor's, and half of them beside drawing";
 
 /// Sets the outputs: films and frames, and the motion file apart from them.
 void set_outputs(const RunArguments& arguments, const auto& expanded, RunOptions& options) {
@@ -54,8 +60,14 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
   options.poster = arguments.poster;
   options.sheet = parse_sheet(arguments.sheet, options.outputs);
   options.backend = arguments.backend;
+  options.threads = arguments.threads > 0 ? arguments.threads : default_threads(arguments.drawing);
   options.time_effects = verbose || !arguments.records.stats.empty();
   return options;
+}
+
+int default_threads(bool drawing) {
+  const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return drawing ? (all + 1) / 2 : all;
 }
 
 void add_file_limit(CLI::App& command, std::string& max_size, std::string& keep) {
@@ -110,6 +122,7 @@ void add_shared_options(CLI::App& command, RunArguments& arguments, const char* 
   command.add_option("--positions", arguments.records.positions, "Write the final positions to a CSV file");
   command.add_option("--trace", arguments.records.trace,
                      "Write iterations, residual and time of every step to a CSV file");
+  command.add_option("--threads", arguments.threads, threads_help)->check(whole_number_in({1, 256}));
   command.add_flag("--step-by-step", arguments.step_by_step, "Pause after each step and print its energies");
 }
 

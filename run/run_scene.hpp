@@ -33,6 +33,7 @@ struct RunOptions {
   bool poster = false;                    ///< put a picture beside each film, see Poster
   std::optional<SheetGrid> sheet;         ///< what a picture without {frame} in its path shows instead of the last
   GlBackend backend = GlBackend::automatic;
+  int threads = 1;                   ///< that share a step of a large cloth, see SimulationSettings::threads
   std::function<void()> drawn = {};  ///< called when every frame is with its outputs, which are only completed then
   bool time_effects = false;         ///< measure which part of the steps' time each effect takes
   StepObserver* observer = nullptr;  ///< told of every step too, on the thread that simulates, after it is recorded

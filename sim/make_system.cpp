@@ -4,13 +4,14 @@
 
 namespace drape {
 
-System make_system(const SimulationSettings& settings, std::vector<double>* effect_seconds, const Stop& stop) {
-  return make_system(settings, settings.step, effect_seconds, stop);
+System make_system(const SimulationSettings& settings, std::vector<double>* effect_seconds, const Stop& stop,
+                   const Threads& threads) {
+  return make_system(settings, settings.step, effect_seconds, stop, threads);
 }
 
 System make_system(const SimulationSettings& settings, double step, std::vector<double>* effect_seconds,
-                   const Stop& stop) {
-  System system(settings.cloth, step);
+                   const Stop& stop, const Threads& threads) {
+  System system(settings.cloth, step, threads);
   system.stop = stop;
   for (std::size_t i = 0; i < settings.effects.size(); ++i) {
     const SystemSizes before(system);

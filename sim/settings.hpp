@@ -103,6 +103,7 @@ struct SimulationSettings {
       {};  ///< the most that a step may add to the error of a vertex [m], see SubstepScheme
   IntegratorSettings integrator = {};
   Effects effects = {};
+  int threads = 1;  ///< that share a step where the cloth is large; the motion has the same bits with any number
 };
 
 }  // namespace drape

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sim/make_system.hpp"
+#include "sim/parallel/vectors.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/schemes/substep_guard.hpp"
 #include "sim/schemes/substeps.hpp"
@@ -33,6 +34,7 @@ class Simulation::Motion {
  public:
   SimulationSettings settings;
   Stop stop;
+  Threads threads;
   std::vector<double> effect_seconds;
   std::optional<System> system;  // always there, and made anew for every phase
   std::vector<PinPhase> phases;  // by step, the first from 0 on
@@ -50,14 +52,15 @@ class Simulation::Motion {
   Motion(SimulationSettings given, Timing timing, const Stop& asked)
       : settings(std::move(given)),
         stop(asked),
+        threads(settings.threads),
         effect_seconds(timing == Timing::effects ? settings.effects.size() : 0, 0.0),
-        system(make_system(settings, measured(), stop)),
+        system(make_system(settings, measured(), stop, threads)),
         phases(pin_phases(settings.cloth.pins, system->pin_releases)),
         state(initial_state(settings.cloth)),
         forces(*system, state),
         guard(make_asked_guard(settings, *system)),
         scheme(make_scheme()),
-        springs(system->springs, settings.cloth.vertex_count()),
+        springs(system->springs, settings.cloth.vertex_count(), threads),
         energy([this] {
           const Energies now = energies();
           return now.kinetic + now.elastic;
@@ -100,13 +103,13 @@ void Simulation::Motion::enter_phase() {
   scheme.reset();  // it refers to the system
   phase = now;
   settings.cloth.pins = phases[now].pins;
-  system.emplace(make_system(settings, measured(), stop));
+  system.emplace(make_system(settings, measured(), stop, threads));
   scheme = make_scheme();  // unless interrupted
 }
 
 std::unique_ptr<Scheme> Simulation::Motion::make_scheme() {
   if (!settings.accuracy) return method_type(settings.integrator.method).make(settings.integrator, *system);
-  const auto make = [this](double step) { return make_system(settings, step, measured(), stop); };
+  const auto make = [this](double step) { return make_system(settings, step, measured(), stop, threads); };
   const int fewest = SubstepGuard::fewest_halvings(settings.step, guard->longest_step());
   return std::make_unique<SubstepScheme>(settings, fewest, make);
 }
@@ -128,7 +131,7 @@ StepReport Simulation::Motion::step() {
   for (const auto& filter : system->filters) report.converged = report.converged && filter->converged();
   ++state.step;
   // What is not finite makes the sum of its squares so, and any velocity that is not moves its vertex there.
-  if (!std::isfinite(norm(state.x))) throw diverged_by(std::nullopt);
+  if (!std::isfinite(norm(threads, state.x))) throw diverged_by(std::nullopt);
   if (const auto growth = guard->look(state, forces.push(), forces.constant(), energy)) throw diverged_by(growth);
   return report;
 }

@@ -29,8 +29,9 @@ namespace drape {
 /// Whether a simulation measures the computing time of its effects.
 enum class Timing { none, effects };
 
-/// A cloth in motion: owns its state, what acts on it, and the scheme by which it advances. No threads, no files. The
-/// same settings give the same bits. It can be moved; one that has been moved from can only be assigned to.
+/// A cloth in motion: owns its state, what acts on it, and the scheme by which it advances. No files, and no threads
+/// but those that the settings ask for. The same settings give the same bits, with any number of threads. It can be
+/// moved; one that has been moved from can only be assigned to.
 class Simulation {
  public:
   /// @param stop asked for as long as it lives

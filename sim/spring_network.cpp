@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <tuple>
 #include <utility>
+
+#include "sim/parallel/loops.hpp"
 
 namespace drape {
 namespace {
@@ -23,11 +26,11 @@ std::size_t padded(int count) {
 
 }  // namespace
 
-SpringNetwork::SpringNetwork(const std::vector<Spring>& springs, int vertex_count)
-    : springs_(springs), vertex_count_(vertex_count) {
+SpringNetwork::SpringNetwork(const std::vector<Spring>& springs, int vertex_count, const Threads& threads)
+    : springs_(springs), vertex_count_(vertex_count), threads_(threads) {
   find_bands();
   add_entries();
-  cut_stretches();
+  cut_parts();
 }
 
 void SpringNetwork::find_bands() {
@@ -53,7 +56,6 @@ void SpringNetwork::find_bands() {
                       .capacity = capacity});
     scratch += 3 * capacity;
   }
-  force_.assign(scratch, 0.0);
 }
 
 void SpringNetwork::add_entries() {
@@ -87,10 +89,32 @@ void SpringNetwork::add_entries() {
   if (!rest.empty()) other_force_.resize(vertex_count_, 3);
 }
 
-void SpringNetwork::cut_stretches() {
-  for (int first = 0; first < vertex_count_; first += kernel_size) {
-    stretches_.push_back({first, std::min(kernel_size, vertex_count_ - first)});
+void SpringNetwork::cut_parts() {
+  const std::size_t scratch = bands_.empty() ? 0 : bands_.back().scratch + 3 * bands_.back().capacity;
+  const int farthest = bands_.empty() ? 0 : bands_.back().offset;
+  const int lead = static_cast<int>(padded(farthest));
+  const int stretches = (vertex_count_ + kernel_size - 1) / kernel_size;
+  const int parts = vertex_count_ < worth_dividing ? 1 : std::min(threads_.count(), stretches);
+  for (int p = 0; p < parts; ++p) {
+    const auto begin_of = [&](int part) {
+      return static_cast<int>(std::int64_t{stretches} * part / parts) * kernel_size;
+    };
+    Part part{.first = begin_of(p), .end = std::min(begin_of(p + 1), vertex_count_)};
+    part.force.assign(scratch, 0.0);
+    part.lead = std::max(0, part.first - lead);
+    part.tail = part.end;
+    if (part.end < vertex_count_) {
+      // A stretch needs the vertices up to `farthest` after it.
+      while (part.tail > part.first && part.tail + farthest > part.end) part.tail -= kernel_size;
+    }
+    if (part.first > 0) {
+      part.nowhere.resize(kernel_size, 3);
+      part.at_lead.resize(std::min(vertex_count_, part.first + farthest) - part.lead, 3);
+    }
+    if (part.end < vertex_count_) part.at_tail.resize(std::min(vertex_count_, part.end + farthest) - part.tail, 3);
+    parts_.push_back(std::move(part));
   }
+  if (parts > 1) values_.resize(static_cast<std::size_t>(stretches));
 }
 
 SpringList SpringNetwork::list(const List& l) const {
@@ -98,9 +122,8 @@ SpringList SpringNetwork::list(const List& l) const {
           rest_length_.data() + l.begin};
 }
 
-SpringBand SpringNetwork::band(const Band& b, int first, std::size_t place) const {
+SpringBand SpringNetwork::band(const Band& b, int first, double* force) const {
   const std::size_t entry = b.begin + static_cast<std::size_t>(first);
-  double* force = force_.data() + b.scratch + place;
   return {.offset = b.offset,
           .stiffness = stiffness_.data() + entry,
           .rest_length = rest_length_.data() + entry,
@@ -108,18 +131,20 @@ SpringBand SpringNetwork::band(const Band& b, int first, std::size_t place) cons
 }
 
 template <class Use>
-void SpringNetwork::for_stretches(Use&& use) const {
+void SpringNetwork::for_stretches(Part& part, Use&& use) const {
   std::array<std::size_t, max_bands> places{};
   const auto column = [&](const Band& b, int axis) {
-    return force_.begin() + static_cast<std::ptrdiff_t>(b.scratch + static_cast<std::size_t>(axis) * b.capacity);
+    return part.force.begin() + static_cast<std::ptrdiff_t>(b.scratch + static_cast<std::size_t>(axis) * b.capacity);
   };
   for (std::size_t b = 0; b < bands_.size(); ++b) {
     const auto lead = static_cast<std::ptrdiff_t>(places[b] = bands_[b].lead);
     for (int axis = 0; axis < 3; ++axis) std::fill_n(column(bands_[b], axis), lead, 0.0);
   }
   std::array<SpringBand, max_bands> given{};
-  for (const Range& range : stretches_) {
-    const auto count = static_cast<std::size_t>(range.count);
+  for (int first = part.lead; first < part.end;) {
+    const bool leads = first < part.first;
+    const int size = std::min(kernel_size, (leads ? part.first : part.end) - first);
+    const auto count = static_cast<std::size_t>(size);
     for (std::size_t b = 0; b < bands_.size(); ++b) {
       const Band& own = bands_[b];
       if (places[b] + count > own.capacity) {
@@ -129,14 +154,43 @@ void SpringNetwork::for_stretches(Use&& use) const {
         }
         places[b] = own.lead;
       }
-      given[b] = band(own, range.first, places[b]);
+      given[b] = band(own, first, part.force.data() + own.scratch + places[b]);
       places[b] += count;
     }
-    use(range.first, SpringStretch{.count = range.count,
-                                   .vertices_after = vertex_count_ - range.first - range.count,
-                                   .bands = given.data(),
-                                   .band_count = static_cast<int>(bands_.size())});
+    use(Place{first, leads}, SpringStretch{.count = size,
+                                           .vertices_after = vertex_count_ - first - size,
+                                           .bands = given.data(),
+                                           .band_count = static_cast<int>(bands_.size())});
+    first += size;
   }
+}
+
+template <class Use>
+void SpringNetwork::for_all_stretches(Vertices& to, Use&& use) const {
+  threads_.for_each(static_cast<int>(parts_.size()), [&](int p) {
+    Part& part = parts_[static_cast<std::size_t>(p)];
+    part.nowhere.setZero();
+    for_stretches(part, [&](const Place& place, const SpringStretch& stretch) {
+      use(place, stretch, place.leads ? columns(part.nowhere) : columns(to, place.first));
+    });
+  });
+}
+
+template <class Use>
+double SpringNetwork::sum_over_stretches(Vertices& to, Use&& use) const {
+  double total = 0;
+  if (parts_.size() == 1) {
+    for_all_stretches(to, [&](const Place& place, const SpringStretch& stretch, Columns<double> columns_to) {
+      total += use(place.first, stretch, columns_to);
+    });
+    return total;
+  }
+  for_all_stretches(to, [&](const Place& place, const SpringStretch& stretch, Columns<double> columns_to) {
+    const double value = use(place.first, stretch, columns_to);
+    if (!place.leads) values_[static_cast<std::size_t>(place.first / kernel_size)] = value;
+  });
+  for (const double value : values_) total += value;
+  return total;
 }
 
 double SpringNetwork::add_lists(const Vertices& x, Vertices& gradient) const {
@@ -146,22 +200,24 @@ double SpringNetwork::add_lists(const Vertices& x, Vertices& gradient) const {
 }
 
 double SpringNetwork::add_value_gradient(const Vertices& x, Vertices& gradient) const {
-  double total = 0;
-  for_stretches([&](int first, const SpringStretch& stretch) {
-    total += kernels().add_band_value_gradient(stretch, columns(x, first), columns(gradient, first));
+  const double total = sum_over_stretches(gradient, [&](int first, const SpringStretch& stretch, Columns<double> to) {
+    return kernels().add_band_value_gradient(stretch, columns(x, first), to);
   });
   return total + add_lists(x, gradient);
 }
 
 double SpringNetwork::evaluate(const Eigen::VectorXd& inertia, const Vertices& y, const Vertices& x,
                                Vertices& gradient) const {
-  double total = 0;
-  for_stretches([&](int first, const SpringStretch& stretch) {
-    total += kernels().evaluate_bands(
-        stretch, columns(x, first),
-        {.factor = inertia.data() + first, .y = columns(y, first), .gradient = columns(gradient, first)});
+  const double total = sum_over_stretches(gradient, [&](int first, const SpringStretch& stretch, Columns<double> to) {
+    return kernels().evaluate_bands(stretch, columns(x, first),
+                                    {.factor = inertia.data() + first, .y = columns(y, first), .gradient = to});
   });
   return total + add_lists(x, gradient);
+}
+
+void SpringNetwork::keep_surroundings(Part& part, const Vertices& x) const {
+  if (part.at_lead.rows() > 0) part.at_lead = x.middleRows(part.lead, part.at_lead.rows());
+  if (part.at_tail.rows() > 0) part.at_tail = x.middleRows(part.tail, part.at_tail.rows());
 }
 
 void SpringNetwork::kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, double h, Vertices& v,
@@ -175,12 +231,23 @@ void SpringNetwork::kick_and_drift(const Eigen::VectorXd& factor, const Vertices
     other_force_ = force - other_force_;
     other = &other_force_;
   }
-  for_stretches([&](int first, const SpringStretch& stretch) {
-    kernels().kick_bands(stretch, {.factor = factor.data() + first,
-                                   .force = columns(*other, first),
-                                   .h = h,
-                                   .velocity = columns(v, first),
-                                   .position = columns(x, first)});
+  const int parts = static_cast<int>(parts_.size());
+  const auto part_of = [&](int p) -> Part& { return parts_[static_cast<std::size_t>(p)]; };
+  if (parts > 1) threads_.for_each(parts, [&](int p) { keep_surroundings(part_of(p), x); });
+  threads_.for_each(parts, [&](int p) {
+    Part& part = part_of(p);
+    part.nowhere.setZero();
+    for_stretches(part, [&](const Place& place, const SpringStretch& stretch) {
+      const int first = place.first;
+      const Vertices& at = place.leads ? part.at_lead : first >= part.tail ? part.at_tail : std::as_const(x);
+      const int begin = place.leads ? part.lead : first >= part.tail ? part.tail : 0;
+      kernels().kick_bands(stretch, {.factor = factor.data() + first,
+                                     .force = columns(*other, first),
+                                     .h = h,
+                                     .velocity = place.leads ? columns(part.nowhere) : columns(v, first),
+                                     .from = columns(at, first - begin),
+                                     .position = place.leads ? columns(part.nowhere) : columns(x, first)});
+    });
   });
 }
 
@@ -192,7 +259,10 @@ void SpringNetwork::compute_blocks(const Vertices& x, Blocks& blocks) const {
     return SpringBlocks{blocks.across.data() + at, columns(blocks.along, at)};
   };
   for (const Band& b : bands_) {
-    kernels().band_blocks(band(b, 0, 0), std::max(0, vertex_count_ - b.offset), columns(x), kept(b.begin));
+    for_ranges(threads_, std::max(0, vertex_count_ - b.offset), [&](Eigen::Index first, Eigen::Index count) {
+      kernels().band_blocks(band(b, static_cast<int>(first), nullptr), static_cast<int>(count), columns(x, first),
+                            kept(b.begin + static_cast<std::size_t>(first)));
+    });
   }
   for (const List& l : lists_) kernels().list_blocks(list(l), columns(x), kept(l.begin));
 }
@@ -202,12 +272,12 @@ void SpringNetwork::add_product(const Blocks& blocks, const Vertices& vector, Ve
     const auto at = static_cast<Eigen::Index>(begin);
     return ConstSpringBlocks{blocks.across.data() + at, columns(blocks.along, at)};
   };
-  for_stretches([&](int first, const SpringStretch& stretch) {
+  for_all_stretches(product, [&](const Place& place, const SpringStretch& stretch, Columns<double> to) {
     std::array<ConstSpringBlocks, max_bands> of_bands{};
     for (std::size_t b = 0; b < bands_.size(); ++b) {
-      of_bands[b] = kept(bands_[b].begin + static_cast<std::size_t>(first));
+      of_bands[b] = kept(bands_[b].begin + static_cast<std::size_t>(place.first));
     }
-    kernels().add_band_product(stretch, of_bands.data(), columns(vector, first), columns(product, first));
+    kernels().add_band_product(stretch, of_bands.data(), columns(vector, place.first), to);
   });
   for (const List& l : lists_) {
     kernels().add_list_product(list(l), kept(l.begin), columns(vector), columns(product));

@@ -4,6 +4,7 @@
 
 #include "sim/cloth.hpp"
 #include "sim/kernels/vertices.hpp"
+#include "sim/parallel/threads.hpp"
 
 namespace drape {
 
@@ -13,11 +14,15 @@ namespace drape {
 /// indices. Where a band has no spring its entry has zero stiffness. Springs of rare offsets, and duplicates, are
 /// gathered by index.
 ///
+/// Several threads go over the bands in parts, one each, with the same bits as one: a part begins with the springs that
+/// reach into it, which the part before it computes, too.
+///
 /// Keeps scratch memory: one network serves one thread.
 class SpringNetwork {
  public:
   /// @param springs  any springs with i < j < vertex_count, duplicates included
-  SpringNetwork(const std::vector<Spring>& springs, int vertex_count);
+  /// @param threads that share a pass, where it is long enough; they must outlive this
+  SpringNetwork(const std::vector<Spring>& springs, int vertex_count, const Threads& threads = one_thread());
 
   /// gradient += ∇E(x), n×3 [N]; returns E(x) [J]. A spring of zero length pulls nowhere.
   double add_value_gradient(const Vertices& x, Vertices& gradient) const;
@@ -47,10 +52,13 @@ class SpringNetwork {
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
 
  private:
+  // Vectors that begin where cache lines begin are read twice as fast.
+  using AlignedVector = std::vector<double, Eigen::aligned_allocator<double>>;
+
   struct Band {
     int offset;
     std::size_t begin;    // of its entries in stiffness_ and rest_length_, one for each vertex
-    std::size_t scratch;  // of its forces in force_: three columns of `capacity`
+    std::size_t scratch;  // of its forces in Part::force: three columns of `capacity`
     std::size_t lead, capacity;
   };
   struct List {
@@ -58,21 +66,37 @@ class SpringNetwork {
     std::size_t index;  // in i_ and j_
     int count;
   };
-  struct Range {
-    int first, count;
+  /// The vertices from first to end, which one thread goes over, and its memory.
+  struct Part {
+    int first = 0, end = 0;
+    int lead = 0;                         // where it begins to compute springs
+    int tail = 0;                         // the first of those vertices whose stretch has springs to the next part
+    AlignedVector force = {};             // of the springs of each band, for as long as the pass needs them
+    Vertices nowhere = {};                // takes what a pass writes for vertices before the first
+    Vertices at_lead = {}, at_tail = {};  // where vertices are, beginning with these, before anybody moves them
   };
-
-  // Vectors that begin where cache lines begin are read twice as fast.
-  using AlignedVector = std::vector<double, Eigen::aligned_allocator<double>>;
+  /// A stretch of a part: where it is, and whether it only leads up to the part.
+  struct Place {
+    int first;
+    bool leads;
+  };
 
   void find_bands();
   void add_entries();
-  void cut_stretches();
+  void cut_parts();
   [[nodiscard]] SpringList list(const List& list) const;
-  [[nodiscard]] SpringBand band(const Band& band, int first, std::size_t place) const;
-  /// Calls use(first vertex, stretch) for all stretches in order.
+  [[nodiscard]] SpringBand band(const Band& band, int first, double* force) const;
+  /// Calls use(place, stretch) for all stretches of a part in order.
   template <class Use>
-  void for_stretches(Use&& use) const;
+  void for_stretches(Part& part, Use&& use) const;
+  /// The same for all parts, with use(place, stretch, columns of `to` for it).
+  template <class Use>
+  void for_all_stretches(Vertices& to, Use&& use) const;
+  /// The sum of the values that use() returns for stretches, in their order.
+  template <class Use>
+  double sum_over_stretches(Vertices& to, Use&& use) const;
+  /// Keeps what other parts' threads are about to move, see Part.
+  void keep_surroundings(Part& part, const Vertices& x) const;
   /// Adds what is in no band; returns its energy [J].
   double add_lists(const Vertices& x, Vertices& gradient) const;
 
@@ -80,11 +104,12 @@ class SpringNetwork {
   int vertex_count_;
   std::vector<Band> bands_;  // by offset
   std::vector<List> lists_;
-  std::vector<Range> stretches_;
+  const Threads& threads_;
+  mutable std::vector<Part> parts_;
   std::vector<int> i_, j_;
   AlignedVector stiffness_, rest_length_;
-  mutable AlignedVector force_;   // of the springs of each band, for as long as the pass needs them
-  mutable Vertices other_force_;  // of an explicit step, with that of springs in no band
+  mutable std::vector<double> values_;  // of every stretch, where there is more than one part
+  mutable Vertices other_force_;        // of an explicit step, with that of springs in no band
 };
 
 }  // namespace drape

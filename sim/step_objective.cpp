@@ -1,7 +1,10 @@
 #include "sim/step_objective.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "sim/parallel/vectors.hpp"
 
 namespace drape {
 namespace {
@@ -14,7 +17,7 @@ constexpr double units = 4;  // roundings on the way to a term of the energy, or
 StepObjective::StepObjective(const System& system, double duration)
     : system_(system),
       duration_(duration),
-      springs_(system.springs, system.cloth.vertex_count()),
+      springs_(system.springs, system.cloth.vertex_count(), system.threads),
       inertia_(system.inertia(duration)),
       free_inertia_(inertia_),
       push_(inertia_.cwiseInverse()),
@@ -38,15 +41,18 @@ StepObjective::StepObjective(const System& system, double duration)
 
 void StepObjective::begin(const Vertices& x, const Vertices& v, const Vertices& force, double end) {
   const Kernels& k = kernels();
-  const auto count = static_cast<std::size_t>(x.rows());
   time_ = end;
-  y_ = x;
-  k.add_multiple(3 * count, duration_, v.data(), y_.data());
-  for (int axis = 0; axis < 3; ++axis) {
-    k.add_scaled(count, push_.data(), force.col(axis).data(), y_.col(axis).data());
-  }
+  sum(threads(), x, duration_, v, y_);
+  for_ranges(threads(), x.rows(), [&](Eigen::Index first, Eigen::Index count) {
+    for (int axis = 0; axis < 3; ++axis) {
+      k.add_scaled(static_cast<std::size_t>(count), push_.data() + first, force.col(axis).data() + first,
+                   y_.col(axis).data() + first);
+    }
+  });
   system_.place_pins(end, y_);
-  scale_ = elastic_scale_ + inertia_.dot(y_.rowwise().squaredNorm());
+  scale_ = elastic_scale_ + sum_of(threads(), y_.rows(), [&](Eigen::Index first, Eigen::Index count) {
+             return inertia_.segment(first, count).dot(y_.middleRows(first, count).rowwise().squaredNorm());
+           });
 }
 
 double StepObjective::evaluate(const Vertices& x, Vertices& gradient) const {
@@ -57,11 +63,16 @@ double StepObjective::evaluate(const Vertices& x, Vertices& gradient) const {
 }
 
 double StepObjective::inertial_value(const Vertices& x) const {
-  double twice = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    twice += (free_inertia_.array() * (x.col(axis) - y_.col(axis)).array().square()).sum();
-  }
-  return twice / 2;
+  return sum_of(threads(), x.rows(),
+                [&](Eigen::Index first, Eigen::Index count) {
+                  double twice = 0;
+                  for (int axis = 0; axis < 3; ++axis) {
+                    const auto way = x.col(axis).segment(first, count) - y_.col(axis).segment(first, count);
+                    twice += (free_inertia_.segment(first, count).array() * way.array().square()).sum();
+                  }
+                  return twice;
+                }) /
+         2;
 }
 
 double StepObjective::rounding(double value) const {
@@ -69,9 +80,15 @@ double StepObjective::rounding(double value) const {
 }
 
 double StepObjective::error_bound(const Vertices& gradient) const {
-  const auto length =
-      gradient.col(0).array().square() + gradient.col(1).array().square() + gradient.col(2).array().square();
-  return std::sqrt((push_.array().square() * length).maxCoeff());
+  const double square = reduce(
+      threads(), gradient.rows(),
+      [&](Eigen::Index first, Eigen::Index count) {
+        const auto squares = [&](int axis) { return gradient.col(axis).segment(first, count).array().square(); };
+        const auto length = squares(0) + squares(1) + squares(2);
+        return (push_.segment(first, count).array().square() * length).maxCoeff();
+      },
+      [](double most, double next) { return std::max(most, next); });
+  return std::sqrt(square);
 }
 
 double StepObjective::error_rounding() const {

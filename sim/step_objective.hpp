@@ -48,6 +48,8 @@ class StepObjective {
   [[nodiscard]] double error_rounding() const;
 
   [[nodiscard]] const SpringNetwork& springs() const { return springs_; }
+  /// That share its passes.
+  [[nodiscard]] const Threads& threads() const { return system_.threads; }
   /// τ [s].
   [[nodiscard]] double duration() const { return duration_; }
   /// m/τ² of every vertex [N/m].

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/kernels/kernels.hpp"
+#include "sim/parallel/vectors.hpp"
 
 namespace drape {
 
@@ -24,11 +24,11 @@ std::vector<Collider> System::colliders_at(double at) const {
 
 void System::move(State& state, const Vertices* reached) const {
   if (filters.empty() && reached != nullptr) {
-    state.x = *reached;
+    copy(threads, *reached, state.x);
     return;
   }
   for (const auto& filter : filters) filter->apply(state.x, time(state.step), step, state.v);
-  kernels().add_multiple(static_cast<std::size_t>(state.x.size()), step, state.v.data(), state.x.data());
+  add_multiple(threads, step, state.v, state.x);
   place_pins(time(state.step + 1), state.x);
   for (const auto& filter : filters) filter->finish(state.v);
 }
@@ -42,7 +42,7 @@ void System::move(State& state, const Vertices& reached, Vertices& way) const {
   state.v -= way;
   for (const auto& filter : filters) filter->apply(state.x, time(state.step), step, way);
   state.v += way;
-  kernels().add_multiple(static_cast<std::size_t>(state.x.size()), step, way.data(), state.x.data());
+  add_multiple(threads, step, way, state.x);
   place_pins(time(state.step + 1), state.x);
   for (const auto& filter : filters) filter->finish(state.v);
 }

@@ -6,6 +6,7 @@
 
 #include "sim/cloth.hpp"
 #include "sim/collider.hpp"
+#include "sim/parallel/threads.hpp"
 #include "sim/pin_motion.hpp"
 #include "sim/state.hpp"
 #include "sim/stop.hpp"
@@ -120,6 +121,7 @@ struct System {
   const Cloth& cloth;
   double step;                                        ///< h [s]
   Stop stop = {};                                     ///< of everything that computes with it
+  const Threads& threads;                             ///< that share what is worth dividing
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²], for the log's gravity column only
 
   std::vector<Spring> springs;  ///< the cloth's and those that effects add
@@ -131,7 +133,8 @@ struct System {
   std::vector<PinMotion> pin_motions;    ///< of pins that do not stay where they are
   std::vector<PinRelease> pin_releases;  ///< a simulation makes its system anew, without these pins, when it gets there
 
-  System(const Cloth& c, double h) : cloth(c), step(h), springs(c.springs) {}
+  System(const Cloth& c, double h, const Threads& by = one_thread())
+      : cloth(c), step(h), threads(by), springs(c.springs) {}
 
   /// What no Hessian of the springs and the energies exceeds: the springs, then the energies one after another.
   [[nodiscard]] StiffnessBound stiffness_bound() const;

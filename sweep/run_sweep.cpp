@@ -143,7 +143,9 @@ class Sweep {
       }
       if (chooses_side(plan_.request, scene.camera)) look_from(side(), scene.camera);
       Progress unseen;
-      const RunResult result = run_scene(scene, run_options(plan_.request, folder), stop_, unseen);
+      RunOptions options = run_options(plan_.request, folder);
+      options.threads = options_.threads;
+      const RunResult result = run_scene(scene, options, stop_, unseen);
       if (result.outcome == Outcome::interrupted) return std::nullopt;
       if (result.statistics.steps() > 0) stats = result.statistics.to_json(outcome_name(result.outcome));
       return record_of(scene, result);

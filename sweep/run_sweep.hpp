@@ -15,6 +15,7 @@ namespace drape {
 struct SweepOptions {
   std::filesystem::path folder;  ///< with runs/, see run_place()
   std::size_t jobs = 1;          ///< runs at once
+  int threads = 1;               ///< that share a step of a large cloth in each of them
   bool resume = false;           ///< leave out the runs that are settled
   Shard shard;                   ///< which of the runs
 };

@@ -96,8 +96,8 @@ class BendingHessian final : public EnergyHessian {
   std::vector<int> places_;              // among the pairs, of the 15 of each curved component; −1 for none
 };
 
-BendingEnergy::BendingEnergy(std::span<const CurvatureElement> elements, int vertex_count)
-    : quadratic_(couplings(elements), vertex_count) {
+BendingEnergy::BendingEnergy(std::span<const CurvatureElement> elements, int vertex_count, const Threads& threads)
+    : quadratic_(couplings(elements), vertex_count, threads) {
   for (const CurvatureElement& e : elements) {
     for (int k = 0; k < 3; ++k) {
       if (e.rest[k] == 0) continue;

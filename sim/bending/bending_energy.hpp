@@ -15,7 +15,7 @@ namespace drape {
 /// bound of the Hessian elsewhere: what is left, r²/2 − r‖q‖, is concave.
 class BendingEnergy final : public Energy {
  public:
-  BendingEnergy(std::span<const CurvatureElement> elements, int vertex_count);
+  BendingEnergy(std::span<const CurvatureElement> elements, int vertex_count, const Threads& threads = one_thread());
 
   double add_gradient(const Vertices& x, double time, Vertices& gradient) const override;
   void add_bound(StiffnessBound& bound) const override;

@@ -28,7 +28,7 @@ void Bending::install(System& system) const {
   if (rigidity) {
     const auto elements = curvature_elements(system.cloth, *rigidity);
     if (!elements.empty())
-      system.energies.push_back(std::make_unique<BendingEnergy>(elements, system.cloth.vertex_count()));
+      system.energies.push_back(std::make_unique<BendingEnergy>(elements, system.cloth.vertex_count(), system.threads));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/keys.hpp"
+#include "sim/parallel/vectors.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
@@ -10,8 +11,9 @@ namespace {
 
 struct VelocityDecay final : Correction {
   double factor;
-  explicit VelocityDecay(double f) : factor(f) {}
-  void apply(State& state, double h) const override { state.v *= std::pow(factor, h); }
+  const Threads& threads;
+  VelocityDecay(double f, const Threads& by) : factor(f), threads(by) {}
+  void apply(State& state, double h) const override { scale(threads, std::pow(factor, h), state.v, state.v); }
 };
 
 }  // namespace
@@ -23,6 +25,8 @@ void Damping::describe(Keys& keys) {
       .at_most(1);
 }
 
-void Damping::install(System& system) const { system.corrections.push_back(std::make_unique<VelocityDecay>(factor)); }
+void Damping::install(System& system) const {
+  system.corrections.push_back(std::make_unique<VelocityDecay>(factor, system.threads));
+}
 
 }  // namespace drape

@@ -184,7 +184,7 @@ double evaluate_bands(const SpringStretch& stretch, Columns<const double> positi
 void kick_bands(const SpringStretch& stretch, const SpringKick& kick) {
   GradientLaw laws[max_bands];
   KickAndDrift finish{kick};
-  sweep(stretch, constant(kick.position), laws_of(stretch, laws), finish);
+  sweep(stretch, kick.from, laws_of(stretch, laws), finish);
 }
 
 void add_band_product(const SpringStretch& stretch, const ConstSpringBlocks* blocks, Columns<const double> vector,

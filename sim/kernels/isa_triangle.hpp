@@ -122,30 +122,59 @@ inline void backward(const Panel& panel, const int* rows, const T* values, T* x)
   }
 }
 
+template <class T>
+using Substitution = void (*)(const Panel&, const int*, const T*, T*);
 template <class Row, class T>
-void solve_packed(const PackedTriangle<T>& triangle, T* x) {
-  static_assert(panel_width == 8);
-  using Substitution = void (*)(const Panel&, const int*, const T*, T*);
-  static constexpr Substitution forwards[] = {forward<Row, 1, T>, forward<Row, 2, T>, forward<Row, 3, T>,
-                                              forward<Row, 4, T>, forward<Row, 5, T>, forward<Row, 6, T>,
-                                              forward<Row, 7, T>, forward<Row, 8, T>};
-  static constexpr Substitution backwards[] = {backward<Row, 1, T>, backward<Row, 2, T>, backward<Row, 3, T>,
-                                               backward<Row, 4, T>, backward<Row, 5, T>, backward<Row, 6, T>,
-                                               backward<Row, 7, T>, backward<Row, 8, T>};
-  const int* rows = triangle.rows;
-  const T* values = triangle.values;
+constexpr Substitution<T> forwards[] = {forward<Row, 1, T>, forward<Row, 2, T>, forward<Row, 3, T>, forward<Row, 4, T>,
+                                        forward<Row, 5, T>, forward<Row, 6, T>, forward<Row, 7, T>, forward<Row, 8, T>};
+template <class Row, class T>
+constexpr Substitution<T> backwards[] = {backward<Row, 1, T>, backward<Row, 2, T>, backward<Row, 3, T>,
+                                         backward<Row, 4, T>, backward<Row, 5, T>, backward<Row, 6, T>,
+                                         backward<Row, 7, T>, backward<Row, 8, T>};
+static_assert(panel_width == 8);
+
+/// x := L⁻¹x, panel by panel.
+/// @param rows, values of the first panel, and then where those of the last end
+template <class Row, class T>
+inline void go_forward(const PackedTriangle<T>& triangle, const int*& rows, const T*& values, T* x) {
   for (int p = 0; p < triangle.panel_count; ++p) {
     const Panel& panel = triangle.panels[p];
-    forwards[panel.width - 1](panel, rows, values, x);
+    forwards<Row, T>[panel.width - 1](panel, rows, values, x);
     rows += panel.row_count;
     values += stored(panel);
   }
+}
+
+/// x := L⁻ᵀx, from the last panel to the first.
+/// @param rows, values where those of the last panel end
+template <class Row, class T>
+inline void go_back(const PackedTriangle<T>& triangle, const int* rows, const T* values, T* x) {
   for (int p = triangle.panel_count - 1; p >= 0; --p) {
     const Panel& panel = triangle.panels[p];
     rows -= panel.row_count;
     values -= stored(panel);
-    backwards[panel.width - 1](panel, rows, values, x);
+    backwards<Row, T>[panel.width - 1](panel, rows, values, x);
   }
+}
+
+template <class Row, class T>
+void solve_forward(const PackedTriangle<T>& triangle, T* x) {
+  const int* rows = triangle.rows;
+  const T* values = triangle.values;
+  go_forward<Row>(triangle, rows, values, x);
+}
+
+template <class Row, class T>
+void solve_backward(const PackedTriangle<T>& triangle, T* x) {
+  go_back<Row>(triangle, triangle.rows + triangle.row_total, triangle.values + triangle.value_total, x);
+}
+
+template <class Row, class T>
+void solve_packed(const PackedTriangle<T>& triangle, T* x) {
+  const int* rows = triangle.rows;
+  const T* values = triangle.values;
+  go_forward<Row>(triangle, rows, values, x);
+  go_back<Row>(triangle, rows, values, x);
 }
 
 }  // namespace

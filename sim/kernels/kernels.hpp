@@ -39,13 +39,14 @@ struct SpringStretch {
 };
 
 /// What an explicit step does with the springs' gradient: velocity += factor·(∇E − force), then
-/// position += h·velocity. For the vertices of a stretch.
+/// position = from + h·velocity. For the vertices of a stretch.
 struct SpringKick {
   const double* factor;         ///< −h/m, 0 on pins [s/kg]
   Columns<const double> force;  ///< of everything that is not in a band [N]
   double h;                     ///< [s]
   Columns<double> velocity;     ///< [m/s]
-  Columns<double> position;     ///< [m]
+  Columns<const double> from;   ///< where the vertices are, and those at their springs' other ends [m]
+  Columns<double> position;     ///< may be `from` [m]
 };
 
 /// What an implicit step's objective adds to the springs' energy: Σ factor/2 (x − y)². For the vertices of a stretch.
@@ -95,8 +96,9 @@ template <class T>
 struct PackedTriangle {
   const Panel* panels;
   int panel_count;
-  const int* rows;  ///< of all panels, one after another
-  const T* values;  ///< of all panels, one after another
+  const int* rows;                             ///< of all panels, one after another
+  const T* values;                             ///< of all panels, one after another
+  std::size_t row_total = 0, value_total = 0;  ///< how many there are, where it is solved backwards alone
 };
 
 /// Rows of a dense matrix are kept in strips of so many: column after column of the strip, each contiguous.
@@ -159,6 +161,11 @@ struct Kernels {
   /// x = L⁻ᵀ L⁻¹ x for four right-hand sides, side by side in each row of x (4n numbers).
   void (*solve_single)(const PackedTriangle<float>&, float* x);
   void (*solve_double)(const PackedTriangle<double>&, double* x);
+  /// x = L⁻¹ x alone, and x = L⁻ᵀ x.
+  void (*forward_single)(const PackedTriangle<float>&, float* x);
+  void (*forward_double)(const PackedTriangle<double>&, double* x);
+  void (*backward_single)(const PackedTriangle<float>&, float* x);
+  void (*backward_double)(const PackedTriangle<double>&, double* x);
 
   void (*subtract_product)(const StripProduct&);
   /// block := block L⁻ᵀ for `width` columns of some strips, `stride` numbers from one to the next. L's rows have eight

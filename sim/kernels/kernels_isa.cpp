@@ -59,6 +59,10 @@ constexpr Kernels DRAPE_TABLE = {
     .subtract_packed_double = subtract_packed<FourDoubles, double>,
     .solve_single = solve_packed<FourSingles, float>,
     .solve_double = solve_packed<FourDoubles, double>,
+    .forward_single = solve_forward<FourSingles, float>,
+    .forward_double = solve_forward<FourDoubles, double>,
+    .backward_single = solve_backward<FourSingles, float>,
+    .backward_double = solve_backward<FourDoubles, double>,
     .subtract_product = subtract_product,
     .divide_strips = divide_strips,
 };

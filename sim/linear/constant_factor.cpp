@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "sim/kernels/vertices.hpp"
 #include "sim/linear/free_vertices.hpp"
+#include "sim/parallel/loops.hpp"
 
 namespace drape {
 namespace {
@@ -46,14 +47,12 @@ struct Substitution;
 template <>
 struct Substitution<float> {
   static constexpr auto pack = &Kernels::pack_single;
-  static constexpr auto solve = &Kernels::solve_single;
   static constexpr auto unpack = &Kernels::unpack_single;
   static constexpr auto subtract = &Kernels::subtract_packed_single;
 };
 template <>
 struct Substitution<double> {
   static constexpr auto pack = &Kernels::pack_double;
-  static constexpr auto solve = &Kernels::solve_double;
   static constexpr auto unpack = &Kernels::unpack_double;
   static constexpr auto subtract = &Kernels::subtract_packed_double;
 };
@@ -61,7 +60,7 @@ struct Substitution<double> {
 }  // namespace
 
 ConstantFactor::ConstantFactor(const System& system, double duration, Precision precision)
-    : vertex_count_(system.cloth.vertex_count()) {
+    : threads_(system.threads), vertex_count_(system.cloth.vertex_count()) {
   const FreeVertices free(system.cloth);
   row_count_ = free.count();
   row_.assign(static_cast<std::size_t>(vertex_count_), row_count_);
@@ -84,6 +83,7 @@ ConstantFactor::ConstantFactor(const System& system, double duration, Precision 
   find_panels(columns);
   if (precision != Precision::single_precision) copy(columns, double_);
   if (precision != Precision::double_precision) copy(columns, single_);
+  find_places();
   if (precision == Precision::automatic) {
     if (single_suffices()) {
       double_ = {};
@@ -118,10 +118,8 @@ void ConstantFactor::find_panels(const SparseCholesky::Columns& columns) {
 
 template <class T>
 void ConstantFactor::copy(const SparseCholesky::Columns& columns, Triangle<T>& triangle) const {
-  const auto n = static_cast<std::size_t>(row_count_);
-  triangle.scratch.assign(4 * (n + 1), T{0});
   triangle.values.assign(entries_, T{0});
-  std::vector<int> place(n);  // of a row among those below the panel
+  std::vector<int> place(static_cast<std::size_t>(row_count_));  // of a row among those below the panel
   const int* rows = rows_.data();
   T* values = triangle.values.data();
   for (const Panel& panel : panels_) {
@@ -150,22 +148,38 @@ void ConstantFactor::copy(const SparseCholesky::Columns& columns, Triangle<T>& t
   }
 }
 
+void ConstantFactor::find_places() {
+  tree_ = SolveTree(panels_, rows_, row_count_);
+  place_count_ = tree_.place_count();
+  for (int& row : row_) row = row == row_count_ ? place_count_++ : tree_.place(row);
+  const auto numbers = 4 * static_cast<std::size_t>(place_count_);
+  if (!single_.values.empty()) single_.scratch.assign(numbers, 0.0F);
+  if (!double_.values.empty()) double_.scratch.assign(numbers, 0.0);
+}
+
 template <class T>
 void ConstantFactor::solve_packed(Triangle<T>& triangle, const Vertices& b) const {
   T* packed = triangle.scratch.data();
-  (kernels().*Substitution<T>::pack)(vertex_count_, columns(b), row_.data(), packed);
-  (kernels().*Substitution<T>::solve)({.panels = panels_.data(),
-                                       .panel_count = static_cast<int>(panels_.size()),
-                                       .rows = rows_.data(),
-                                       .values = triangle.values.data()},
-                                      packed);
-  std::fill_n(packed + 4 * static_cast<std::size_t>(row_count_), 4, T{0});
+  for_ranges(threads_, vertex_count_, [&](Eigen::Index first, Eigen::Index count) {
+    (kernels().*Substitution<T>::pack)(static_cast<int>(count), columns(b, first), row_.data() + first, packed);
+  });
+  tree_.solve(threads_,
+              {.panels = panels_.data(),
+               .panel_count = static_cast<int>(panels_.size()),
+               .rows = rows_.data(),
+               .values = triangle.values.data()},
+              packed);
+  std::fill(packed + 4 * static_cast<std::size_t>(tree_.place_count()),
+            packed + 4 * static_cast<std::size_t>(place_count_), T{0});
 }
 
 template <class T>
 void ConstantFactor::solve_with(Triangle<T>& triangle, const Vertices& b, Vertices& x) const {
   solve_packed(triangle, b);
-  (kernels().*Substitution<T>::unpack)(vertex_count_, triangle.scratch.data(), row_.data(), columns(x));
+  for_ranges(threads_, vertex_count_, [&](Eigen::Index first, Eigen::Index count) {
+    (kernels().*Substitution<T>::unpack)(static_cast<int>(count), triangle.scratch.data(), row_.data() + first,
+                                         columns(x, first));
+  });
 }
 
 void ConstantFactor::solve(const Vertices& b, Vertices& x) {
@@ -181,7 +195,10 @@ void ConstantFactor::solve(const Vertices& b, Vertices& x) {
 double ConstantFactor::subtract_solution(const Vertices& b, Vertices& x) {
   const auto subtract = [&]<class T>(Triangle<T>& triangle) {
     solve_packed(triangle, b);
-    return (kernels().*Substitution<T>::subtract)(vertex_count_, triangle.scratch.data(), row_.data(), columns(x));
+    return sum_of(threads_, vertex_count_, [&](Eigen::Index first, Eigen::Index count) {
+      return (kernels().*Substitution<T>::subtract)(static_cast<int>(count), triangle.scratch.data(),
+                                                    row_.data() + first, columns(x, first));
+    });
   };
   if (row_count_ == 0) return 0;
   return std::sqrt(single_precision() ? subtract(single_) : subtract(double_));

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sim/kernels/kernels.hpp"
+#include "sim/linear/solve_tree.hpp"
 #include "sim/linear/sparse_cholesky.hpp"
 #include "sim/system.hpp"
 
@@ -18,7 +19,7 @@ enum class Precision { automatic, single_precision, double_precision };
 /// local/global step, and it never raises g.
 ///
 /// The factor is CHOLMOD's, repacked into panels of neighbouring columns; the three right-hand sides are solved side by
-/// side in one pass over it.
+/// side in one pass over it, by the system's threads in parts of it (SolveTree).
 class ConstantFactor {
  public:
   /// @param duration of an implicit step, h [s]
@@ -33,29 +34,36 @@ class ConstantFactor {
   [[nodiscard]] bool single_precision() const { return !single_.values.empty(); }
   /// Numbers stored for L, the zeros within panels included.
   [[nodiscard]] std::size_t entries() const { return entries_; }
+  /// In how many parts it is solved, see SolveTree.
+  [[nodiscard]] int parts() const { return tree_.size(); }
 
  private:
   template <class T>
   struct Triangle {
     std::vector<T> values;   // see PackedTriangle
-    std::vector<T> scratch;  // 4(n+1): x, y, z and nothing of each row, the last that of pins
+    std::vector<T> scratch;  // x, y, z and nothing of each place
   };
 
   void find_panels(const SparseCholesky::Columns& columns);
   template <class T>
   void copy(const SparseCholesky::Columns& columns, Triangle<T>& triangle) const;
+  /// Divides what find_panels() has found, and gives each vertex its place.
+  void find_places();
   template <class T>
   void solve_packed(Triangle<T>& triangle, const Vertices& b) const;
   template <class T>
   void solve_with(Triangle<T>& triangle, const Vertices& b, Vertices& x) const;
   [[nodiscard]] bool single_suffices();
 
+  const Threads& threads_;
   int vertex_count_;
   std::size_t entries_ = 0;
   int row_count_ = 0;     // of L
-  std::vector<int> row_;  // of each vertex; row_count_ for pins
+  std::vector<int> row_;  // of each vertex, and then its place in memory; those of pins come last
   std::vector<Panel> panels_;
   std::vector<int> rows_;  // below each panel, one panel after another
+  SolveTree tree_;
+  int place_count_ = 0;  // with pins
   Triangle<float> single_;
   Triangle<double> double_;
 };

@@ -1,5 +1,7 @@
 #include "sim/schemes/backward_euler.hpp"
 
+#include "sim/parallel/vectors.hpp"
+
 namespace drape {
 
 BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver)
@@ -10,7 +12,7 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   const Vertices& force = forces.all(state, system_.time(state.step));
   objective_.begin(state.x, state.v, force, system_.time(state.step + 1));
   books_.begin(state, point_.x);
-  point_.x = objective_.y();
+  copy(system_.threads, objective_.y(), point_.x);
   point_.value = objective_.evaluate(point_.x, point_.gradient);
   StepReport report = solver_->minimise(point_, [this] { return !books_.gains(point_, true); });
   // A step that a small change ended has been looked at.
@@ -21,7 +23,7 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   }
   if (free_) balance_momentum(system_.cloth, objective_, point_);
   books_.end(point_);
-  state.v = (point_.x - state.x) / system_.step;
+  divided_difference(system_.threads, point_.x, state.x, system_.step, state.v);
   system_.move(state, &point_.x);
   system_.correct(state);
   return report;

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "sim/parallel/loops.hpp"
+
 namespace drape {
 namespace {
 
@@ -14,10 +16,13 @@ constexpr double tolerated_share = 0.1;
 constexpr double least_kept = 1e-10;
 
 /// Σ m a·b over the rows of n×3 expressions.
-double inner(const Eigen::VectorXd& m, const auto& a, const auto& b) {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) sum += (m.array() * a.col(axis).array() * b.col(axis).array()).sum();
-  return sum;
+double inner(const Threads& threads, const Eigen::VectorXd& m, const auto& a, const auto& b) {
+  return sum_of(threads, m.size(), [&](Eigen::Index first, Eigen::Index count) {
+    const auto part = [&](const auto& column) { return column.segment(first, count).array(); };
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) sum += (part(m) * part(a.col(axis)) * part(b.col(axis))).sum();
+    return sum;
+  });
 }
 
 }  // namespace
@@ -47,7 +52,7 @@ EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, c
 void EnergyBooks::begin(const State& state, const Vertices& last_end) {
   const double h = system_.step;
   state_ = &state;
-  start_kinetic_ = 0.5 * h * h * inner(objective_.free_inertia(), state.v, state.v);
+  start_kinetic_ = 0.5 * h * h * inner(system_.threads, objective_.free_inertia(), state.v, state.v);
   start_.value = objective_.inertial_value(state.x);
   // Where the last step ended, the energy is known, and nowhere is it below zero.
   const auto bytes = static_cast<std::size_t>(state.x.size()) * sizeof(double);
@@ -73,7 +78,7 @@ bool EnergyBooks::gains(const Iterate& point, bool tolerant) {
 
 double EnergyBooks::gain(const Iterate& point) const {
   // With g written out: g(x') − g(x) = ΔK + ΔE − W + K − h⁻¹Δx·M v.
-  const double along = system_.step * inner(objective_.free_inertia(), point.x - state_->x, state_->v);
+  const double along = system_.step * inner(system_.threads, objective_.free_inertia(), point.x - state_->x, state_->v);
   return point.value - start_.value - start_kinetic_ + along;
 }
 
@@ -83,16 +88,19 @@ double EnergyBooks::rounding(const Iterate& point) const {
 }
 
 double EnergyBooks::given(const Iterate& point) const {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    sum += (point.gradient.col(axis).array() * (point.x.col(axis) - state_->x.col(axis)).array()).sum();
-  }
-  return sum;
+  return sum_of(system_.threads, point.x.rows(), [&](Eigen::Index first, Eigen::Index count) {
+    const auto part = [&](const Vertices& v, int axis) { return v.col(axis).segment(first, count).array(); };
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      sum += (part(point.gradient, axis) * (part(point.x, axis) - part(state_->x, axis))).sum();
+    }
+    return sum;
+  });
 }
 
 double EnergyBooks::lost(const Iterate& point) const {
   const auto change = point.x - state_->x - system_.step * state_->v;  // h Δv
-  return 0.5 * inner(objective_.free_inertia(), change, change);
+  return 0.5 * inner(system_.threads, objective_.free_inertia(), change, change);
 }
 
 double EnergyBooks::tolerated(const Iterate& point) const {
@@ -102,8 +110,9 @@ double EnergyBooks::tolerated(const Iterate& point) const {
   if (accuracy_.rule == StoppingRule::gradient) return accuracy_.tolerance * way.norm();
   if (accuracy_.rule == StoppingRule::error) return accuracy_.tolerance * inertia.dot(way.rowwise().norm());
   const auto push = objective_.y() - state_->x - h * state_->v;  // h² M⁻¹f
-  const double work = inner(inertia, push, way);
-  const double most = std::sqrt(inner(inertia, push, push) * inner(inertia, way, way));
+  const double work = inner(system_.threads, inertia, push, way);
+  const double most =
+      std::sqrt(inner(system_.threads, inertia, push, push) * inner(system_.threads, inertia, way, way));
   return std::min(tolerated_share * most, std::max(lost(point), -work));
 }
 

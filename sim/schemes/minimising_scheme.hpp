@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+#include "sim/parallel/vectors.hpp"
 #include "sim/schemes/energy_books.hpp"
 #include "sim/schemes/scheme.hpp"
 #include "sim/solvers/minimiser.hpp"
@@ -15,7 +16,7 @@ class MinimisingScheme : public Scheme {
  public:
   using MakeSolver = std::function<std::unique_ptr<Minimiser>(const StepObjective& objective)>;
 
-  [[nodiscard]] double residual() override { return norm(point_.gradient); }
+  [[nodiscard]] double residual() override { return norm(system_.threads, point_.gradient); }
   [[nodiscard]] double error() override { return solver_->error(point_); }
   [[nodiscard]] double unbalanced() override { return point_.gradient.rowwise().norm().sum(); }
   [[nodiscard]] std::optional<Accuracy> accuracy() const override { return solver_->accuracy(); }

@@ -44,7 +44,7 @@ StepReport Sdirk2::advance(State& state, StepForces& forces) {
 void Sdirk2::find_forces(const State& state, StepForces& forces) {
   const double start = system_.time(state.step), half = system_.step / 2;
   stage_ = state;
-  kernels().add_multiple(static_cast<std::size_t>(state.x.size()), half, state.v.data(), stage_.x.data());
+  add_multiple(system_.threads, half, state.v, stage_.x);
   system_.place_pins(start + half, stage_.x);
   force_ = forces.of_place(stage_, start + half);
   if (!forces.any_of_velocity()) return;
@@ -64,12 +64,12 @@ void Sdirk2::find_second_forces(double time, StepForces& forces) {
 
 void Sdirk2::solve(double end, StepReport& report) {
   objective_.begin(stage_.x, stage_.v, force_, end);
-  point_.x = objective_.y();
+  copy(system_.threads, objective_.y(), point_.x);
   point_.value = objective_.evaluate(point_.x, point_.gradient);
   const StepReport stage = solver_->minimise(point_, [] { return true; });
   if (free_) balance_momentum(system_.cloth, objective_, point_);
-  stage_.v = (point_.x - stage_.x) / objective_.duration();
-  stage_.x = point_.x;
+  divided_difference(system_.threads, point_.x, stage_.x, objective_.duration(), stage_.v);
+  copy(system_.threads, point_.x, stage_.x);
   report.iterations += stage.iterations;
   report.converged = report.converged && stage.converged;
   report.rise = std::max(report.rise, stage.rise);

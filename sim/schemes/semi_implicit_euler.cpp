@@ -6,7 +6,7 @@ namespace drape {
 
 SemiImplicitEuler::SemiImplicitEuler(const System& system)
     : system_(system),
-      springs_(system.springs, system.cloth.vertex_count()),
+      springs_(system.springs, system.cloth.vertex_count(), system.threads),
       pull_(explicit_pull(system, "semi-implicit Euler")) {}
 
 StepReport SemiImplicitEuler::advance(State& state, StepForces& forces) {

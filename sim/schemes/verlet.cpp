@@ -1,21 +1,19 @@
 #include "sim/schemes/verlet.hpp"
 
-#include "sim/kernels/vertices.hpp"
+#include "sim/parallel/vectors.hpp"
 #include "sim/schemes/explicit_step.hpp"
 
 namespace drape {
 
 Verlet::Verlet(const System& system)
     : system_(system),
-      springs_(system.springs, system.cloth.vertex_count()),
+      springs_(system.springs, system.cloth.vertex_count(), system.threads),
       pull_(explicit_pull(system, "velocity Verlet")) {}
 
 StepReport Verlet::advance(State& state, StepForces& forces) {
   const double half = system_.step / 2;
   const double middle = system_.time(state.step) + half, end = system_.time(state.step + 1);
-  const auto drift = [&] {
-    kernels().add_multiple(static_cast<std::size_t>(state.x.size()), half, state.v.data(), state.x.data());
-  };
+  const auto drift = [&] { add_multiple(system_.threads, half, state.v, state.x); };
   const bool of_velocity = forces.any_of_velocity();
   const bool at_once = !of_velocity && system_.filters.empty() && system_.pin_motions.empty();
   system_.begin(state);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "sim/parallel/vectors.hpp"
+
 namespace drape {
 namespace {
 
@@ -10,7 +12,8 @@ std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 
-LbfgsHistory::LbfgsHistory(int vertex_count) : last_preconditioned_(vertex_count, 3) {
+LbfgsHistory::LbfgsHistory(int vertex_count, const Threads& threads)
+    : threads_(threads), last_preconditioned_(vertex_count, 3) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   for (Pair& pair : pairs_) {
     pair.step.resize(vertex_count, 3);
@@ -31,24 +34,24 @@ void LbfgsHistory::moved(const Vertices& direction, double length, double slope)
   } else {
     ++count_;
   }
-  newest().step = -length * direction;
+  scale(threads_, -length, direction, newest().step);
   newest().step_gradient = -length * slope;
 }
 
 void LbfgsHistory::observe(const Vertices& gradient, const Vertices& preconditioned) {
   const double before = gradient_norm_;
-  gradient_norm_ = dot(gradient, preconditioned);
+  gradient_norm_ = dot(threads_, gradient, preconditioned);
   if (pending_) {
     Pair& pair = newest();
-    pair.preconditioned = preconditioned - last_preconditioned_;
+    subtract(threads_, preconditioned, last_preconditioned_, pair.preconditioned);
     // Of the gradient before the move: A⁻¹q·∇g = ∇g_new·A⁻¹∇g_old − ∇g_old·A⁻¹∇g_old.
-    pair.preconditioned_gradient = dot(gradient, last_preconditioned_) - before;
+    pair.preconditioned_gradient = dot(threads_, gradient, last_preconditioned_) - before;
   }
   measure(gradient);
   // A pair without positive curvature says nothing about a minimum nearby; g has none only in exact arithmetic.
   if (pending_ && !(newest().step_change[slot(count_ - 1)] > 0)) --count_;
   pending_ = false;
-  last_preconditioned_ = preconditioned;
+  copy(threads_, preconditioned, last_preconditioned_);
 }
 
 void LbfgsHistory::measure(const Vertices& gradient) {
@@ -58,8 +61,7 @@ void LbfgsHistory::measure(const Vertices& gradient) {
     vectors[index(2 * k)] = pair(k).step.data();
     vectors[index(2 * k + 1)] = pair(k).preconditioned.data();
   }
-  kernels().dots(static_cast<std::size_t>(gradient.size()), 2 * count_, vectors.data(), gradient.data(),
-                 products.data());
+  dots(threads_, std::span(vectors).first(index(2 * count_)), gradient, products.data());
   for (int k = 0; k < count_; ++k) {
     const double step_gradient = products[index(2 * k)], preconditioned_gradient = products[index(2 * k + 1)];
     if (pending_) {
@@ -75,8 +77,10 @@ void LbfgsHistory::measure(const Vertices& gradient) {
 }
 
 void LbfgsHistory::find_direction(const Vertices& preconditioned, Vertices& direction) const {
-  direction = preconditioned;
-  if (count_ == 0) return;
+  if (count_ == 0) {
+    copy(threads_, preconditioned, direction);
+    return;
+  }
   std::array<double, capacity> alpha{}, beta{};
   for (int k = count_ - 1; k >= 0; --k) {
     double projection = pair(k).step_gradient;
@@ -102,9 +106,7 @@ void LbfgsHistory::find_direction(const Vertices& preconditioned, Vertices& dire
     vectors[index(2 * k + 1)] = pair(k).preconditioned.data();
     factors[index(2 * k + 1)] = -alpha[index(k)];
   }
-  kernels().add_multiples(static_cast<std::size_t>(direction.size()), 2 * count_, vectors.data(), factors.data(),
-                          direction.data());
-  direction *= scale;
+  combine(threads_, scale, preconditioned, std::span(vectors).first(index(2 * count_)), factors.data(), direction);
 }
 
 }  // namespace drape

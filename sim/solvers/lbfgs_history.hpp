@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "sim/kernels/vertices.hpp"
+#include "sim/parallel/threads.hpp"
 
 namespace drape {
 
@@ -16,7 +17,8 @@ class LbfgsHistory {
   /// Pairs kept. Iterations to Newton's accuracy with 1, 3, 5, 8 pairs: 43, 40, 40, 39 (20×20, k = 180, ε = 1e-3).
   static constexpr int capacity = 4;
 
-  explicit LbfgsHistory(int vertex_count);
+  /// @param threads that share its passes; they must outlive it
+  explicit LbfgsHistory(int vertex_count, const Threads& threads = one_thread());
 
   void clear();
 
@@ -46,6 +48,7 @@ class LbfgsHistory {
   [[nodiscard]] Pair& newest() { return pair(count_ - 1); }
   void measure(const Vertices& gradient);
 
+  const Threads& threads_;
   std::array<Pair, capacity> pairs_;
   std::array<std::size_t, capacity> order_{};  // every slot once: the pairs kept, oldest first, then the free ones
   int count_ = 0;                              // pairs kept

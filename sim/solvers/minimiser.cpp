@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "sim/parallel/vectors.hpp"
+
 namespace drape {
 namespace {
 
@@ -55,7 +57,7 @@ bool Minimiser::balanced(const Iterate& point, double change) {
     case StoppingRule::change:
       return false;  // a change says little about how far the minimum is: who asks for more gets it
     case StoppingRule::gradient:
-      return norm(point.gradient) < accuracy_.tolerance;
+      return norm(objective_.threads(), point.gradient) < accuracy_.tolerance;
     case StoppingRule::error:
       break;
   }
@@ -75,11 +77,9 @@ double Minimiser::error(const Iterate& point) {
 }
 
 double Minimiser::descend(Iterate& point, const Vertices& direction, double slope) {
-  const auto count = static_cast<std::size_t>(point.x.size());
   for (double length = 1; length >= shortest_move; length /= 2) {
     if (length < 1) stop_.look();
-    trial_.x = point.x;
-    kernels().add_multiple(count, -length, direction.data(), trial_.x.data());
+    sum(objective_.threads(), point.x, -length, direction, trial_.x);
     trial_.value = objective_.evaluate(trial_.x, trial_.gradient);
     // Near the minimum g changes by less than it can be computed to; the direction is trusted there.
     const double highest = point.value - sufficient_decrease * length * slope + objective_.rounding(point.value);

@@ -2,6 +2,7 @@
 
 #include "sim/linear/conjugate_gradients.hpp"
 #include "sim/linear/newton_cholesky.hpp"
+#include "sim/parallel/vectors.hpp"
 
 namespace drape {
 namespace {
@@ -26,7 +27,8 @@ void Newton::find_newton_step(const Iterate& point, Vertices& direction) {
 
 double Newton::iterate(Iterate& point) {
   find_newton_step(point, direction_);
-  return descend(point, direction_, dot(point.gradient, direction_)) * norm(direction_);
+  return descend(point, direction_, dot(objective().threads(), point.gradient, direction_)) *
+         norm(objective().threads(), direction_);
 }
 
 }  // namespace drape

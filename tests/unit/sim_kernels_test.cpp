@@ -142,9 +142,9 @@ TEST_P(KernelsVersion, SweepsBandsAlike) {
         ASSERT_TRUE(same(to_a, to_b)) << what;
 
         reference.kick_bands(a.stretch(count, after), {factor.data(), y_columns, 0.013, Springs::columns(to_a),
-                                                       Springs::columns(a.springs.positions)});
+                                                       a.springs.columns(), Springs::columns(a.springs.positions)});
         tested.kick_bands(b.stretch(count, after), {factor.data(), y_columns, 0.013, Springs::columns(to_b),
-                                                    Springs::columns(b.springs.positions)});
+                                                    b.springs.columns(), Springs::columns(b.springs.positions)});
         ASSERT_TRUE(same(to_a, to_b) && same(a.springs.positions, b.springs.positions)) << what;
       }
     }

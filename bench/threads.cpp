@@ -1,0 +1,130 @@
+// What several threads gain: bench/drape_threads [CELLS…], as Markdown. Wall-clock times, so the machine must be idle;
+// each is the least of several rounds, in which the numbers of threads take turns.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bench/moving_cloth.hpp"
+#include "sim/effects/gravity.hpp"
+#include "sim/parallel/vectors.hpp"
+#include "sim/simulation.hpp"
+
+namespace drape {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int rounds = 9;
+
+/// The seconds that it takes to call this.
+double seconds_of(const auto& run) {
+  const auto begin = Clock::now();
+  run();
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// 1, 2, 4, … and all that the machine has.
+std::vector<int> thread_counts() {
+  const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::vector<int> counts;
+  for (int count = 1; count < all; count *= 2) counts.push_back(count);
+  counts.push_back(all);
+  return counts;
+}
+
+/// A row of the table: the least seconds by each number of threads, and what the first is of them.
+std::string row(const std::string& name, const std::vector<double>& seconds, int batch) {
+  std::string text = fmt::format("| {} |", name);
+  for (const double each : seconds) text += fmt::format(" {:.4g} |", 1e6 * each / batch);
+  for (std::size_t k = 1; k < seconds.size(); ++k) text += fmt::format(" {:.2f} |", seconds.front() / seconds[k]);
+  return text;
+}
+
+/// @param make makes what is run, for a number of threads
+template <class Make>
+std::vector<double> measure(const Make& make) {
+  std::vector<decltype(make(1))> subjects;
+  for (const int count : thread_counts()) subjects.push_back(make(count));
+  std::vector<double> least(subjects.size(), 1e9);
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t k = 0; k < subjects.size(); ++k) least[k] = std::min(least[k], seconds_of(subjects[k]));
+  }
+  return least;
+}
+
+struct Case {
+  const char* name;
+  Method method;
+  int batch;  ///< iterations of its one step, or steps of one that has none
+};
+constexpr Case cases[] = {{"semi-implicit step", Method::semi_implicit, 10},
+                          {"liu13 iteration", Method::liu13, 10},
+                          {"quasi-newton iteration", Method::quasi_newton, 10},
+                          {"implicit iteration", Method::implicit, 1}};
+
+std::string row_of(const Case& c, int cells) {
+  SimulationSettings settings{.cloth = make_moving_cloth(cells), .effects = {Gravity{}}};
+  settings.step = c.method == Method::semi_implicit ? 0.02 / cells : 0.02;
+  // A tolerance that no iteration meets.
+  settings.integrator = {.method = c.method, .stop = StoppingRule::change, .tolerance = 0, .max_iterations = c.batch};
+  const std::vector<double> seconds = measure([&](int threads) {
+    settings.threads = threads;
+    const auto simulation = std::make_shared<Simulation>(settings);
+    return [simulation, start = simulation->state(), steps = c.method == Method::semi_implicit ? c.batch : 1] {
+      simulation->restore(start);
+      for (int step = 0; step < steps; ++step) simulation->step();
+    };
+  });
+  return row(fmt::format("{}, {}²", c.name, cells), seconds, c.batch);
+}
+
+std::string row_of_forks() {
+  constexpr int forks = 2000;
+  return row("dividing an empty loop", measure([](int count) {
+               return [threads = std::make_shared<Threads>(count), count] {
+                 for (int i = 0; i < forks; ++i) threads->for_each(count, [](int) {});
+               };
+             }),
+             forks);
+}
+
+std::string row_of_memory() {
+  constexpr Eigen::Index vertices = 8'000'000;
+  const auto numbers = std::make_shared<Vertices>(Vertices::Constant(vertices, 3, 0.5));
+  constexpr int megabytes = vertices * 3 * 8 / 1'000'000;
+  return row("reading 1 MB of 192", measure([&](int count) {
+               return [threads = std::make_shared<Threads>(count), numbers] {
+                 if (dot(*threads, *numbers, *numbers) == 0) std::abort();
+               };
+             }),
+             megabytes);
+}
+
+}  // namespace
+}  // namespace drape
+
+int main(int argc, char** argv) {
+  using namespace drape;
+  std::string head = "| µs |", line = "|---|";
+  for (const int count : thread_counts()) head += fmt::format(" {} thread{} |", count, count == 1 ? "" : "s");
+  for (std::size_t k = 1; k < thread_counts().size(); ++k) head += fmt::format(" 1 ÷ {} |", thread_counts()[k]);
+  for (std::size_t k = 1; k < 2 * thread_counts().size(); ++k) line += "---|";
+  fmt::print("{}\n{}\n{}\n{}\n", head, line, row_of_forks(), row_of_memory());
+  std::vector<int> sizes;
+  for (int i = 1; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
+  if (sizes.empty()) sizes = {20, 100, 300};
+  for (const int cells : sizes) {
+    for (const Case& c : cases) {
+      fmt::print("{}\n", row_of(c, cells));
+      std::fflush(stdout);
+    }
+  }
+}

@@ -1,0 +1,141 @@
+#include "sim/parallel/threads.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace drape {
+namespace {
+
+// Awake for about as long as waking takes, some tens of microseconds, and longer than what lies between two loops of a
+// step.
+constexpr int give_way_at = 1000;
+constexpr int asleep_at = 1100;
+
+// What is left of a loop, in one number, so that a thread which comes late cannot take a part of the next one by
+// mistake: the loop's number and how many parts nobody has begun.
+constexpr int bits_of_parts = 32;
+constexpr std::uint64_t one_loop = std::uint64_t{1} << bits_of_parts;
+constexpr std::uint64_t parts_mask = one_loop - 1;
+
+}  // namespace
+
+bool Patience::wait() {
+  if (++waits_ > give_way_at) {
+    std::this_thread::yield();
+  } else {
+#ifdef __x86_64__
+    __builtin_ia32_pause();
+#endif
+  }
+  return waits_ > asleep_at;
+}
+
+/// The others, and the loop that is divided.
+class Threads::Crew {
+ public:
+  explicit Crew(int others) {
+    members_.reserve(static_cast<std::size_t>(others));
+    try {
+      for (int i = 0; i < others; ++i) members_.emplace_back([this] { serve(); });
+    } catch (const std::system_error&) {
+      // The system has no more threads to give: those that there are will do.
+    }
+  }
+  ~Crew() {
+    ending_ = true;
+    left_.fetch_add(one_loop);  // a loop without parts, which wakes them
+    left_.notify_all();
+  }
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  void divide(int parts, void* given, void (*call)(void* given, int part)) {
+    given_ = given;
+    call_ = call;
+    parts_ = parts;
+    done_.store(0, std::memory_order_relaxed);
+    const std::uint64_t loop = left_.load(std::memory_order_relaxed) / one_loop + 1;
+    left_.store(loop * one_loop + static_cast<std::uint64_t>(parts));
+    left_.notify_all();
+    take_parts();
+    Patience patience;
+    for (int done = done_.load(std::memory_order_acquire); done < parts; done = done_.load(std::memory_order_acquire)) {
+      if (patience.wait()) done_.wait(done, std::memory_order_acquire);
+    }
+    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+  }
+
+ private:
+  void serve() {
+    Patience patience;
+    while (!ending_) {
+      const std::uint64_t seen = left_.load();
+      if ((seen & parts_mask) != 0) {
+        take_parts();
+        patience = {};
+      } else if (patience.wait()) {
+        left_.wait(seen);
+        patience = {};
+      }
+    }
+  }
+
+  /// Computes parts of the loop until none is left.
+  void take_parts() {
+    std::uint64_t left = left_.load();
+    while ((left & parts_mask) != 0) {
+      if (!left_.compare_exchange_weak(left, left - 1)) continue;
+      // Whoever has a part keeps the loop from ending, so what is said of it stays as it is.
+      const int part = parts_ - static_cast<int>(left & parts_mask);
+      try {
+        call_(given_, part);
+      } catch (...) {
+        note(part, std::current_exception());
+      }
+      const int all = parts_;
+      if (done_.fetch_add(1, std::memory_order_acq_rel) + 1 == all) done_.notify_one();
+      left = left_.load();
+    }
+  }
+
+  void note(int part, std::exception_ptr error) {
+    const std::scoped_lock lock(mutex_);
+    if (error_ && part_of_error_ < part) return;
+    error_ = std::move(error);
+    part_of_error_ = part;
+  }
+
+  // On cache lines of their own: one is written by everybody for each part, and looked at all the time.
+  alignas(64) std::atomic<std::uint64_t> left_ = 0;
+  alignas(64) std::atomic<int> done_ = 0;
+  alignas(64) std::atomic<bool> ending_ = false;
+  void* given_ = nullptr;
+  void (*call_)(void*, int) = nullptr;
+  int parts_ = 0;
+  std::mutex mutex_;
+  std::exception_ptr error_;
+  int part_of_error_ = 0;
+  std::vector<std::jthread> members_;  // last: they end before the rest goes
+};
+
+Threads::Threads(int count) : count_(std::max(1, count)) {}
+Threads::~Threads() = default;
+
+void Threads::divide(int parts, void* given, void (*call)(void* given, int part)) const {
+  if (!crew_) crew_ = std::make_unique<Crew>(count_ - 1);
+  crew_->divide(parts, given, call);
+}
+
+const Threads& one_thread() {
+  static const Threads one;
+  return one;
+}
+
+}  // namespace drape

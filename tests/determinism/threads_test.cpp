@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/linear/constant_factor.hpp"
+#include "sim/parallel/vectors.hpp"
+#include "sim/simulation.hpp"
+#include "sim/spring_network.hpp"
+#include "tests/support/setups.hpp"
+
+// What several threads compute together has the bits of one, however many there are.
+
+namespace drape::test {
+namespace {
+
+constexpr int cells = 92;  // enough vertices to be divided, and few more
+constexpr std::array counts{2, 3, 8};
+
+Cloth large_cloth() { return cloth_of(make_grid(cells, cells), 1, 180, {0, cells}); }
+
+TEST(Threads, ComputeEveryPartOnce) {
+  for (const int count : {1, 2, 3, 8}) {
+    const Threads threads(count);
+    for (int loop = 0; loop < 200; ++loop) {
+      std::vector<int> calls(static_cast<std::size_t>(loop), 0);
+      threads.for_each(loop, [&](int part) { ++calls[static_cast<std::size_t>(part)]; });
+      ASSERT_EQ(calls, std::vector<int>(static_cast<std::size_t>(loop), 1)) << count << " threads";
+    }
+  }
+}
+
+// A part may wait for those before it: they have begun. One that waited for ever would keep the test from ending.
+TEST(Threads, BeginPartsInTheirOrder) {
+  const Threads threads(3);
+  std::vector<std::atomic<bool>> done(100);
+  threads.for_each(100, [&](int part) {
+    for (int before = 0; before < part; ++before) {
+      while (!done[static_cast<std::size_t>(before)]) {
+      }
+    }
+    done[static_cast<std::size_t>(part)] = true;
+  });
+  for (const auto& each : done) EXPECT_TRUE(each);
+}
+
+TEST(Threads, HandOnWhatTheFirstPartThrows) {
+  const Threads threads(3);
+  for (int loop = 0; loop < 50; ++loop) {
+    std::atomic<int> calls = 0;
+    try {
+      threads.for_each(20, [&](int part) {
+        ++calls;
+        if (part == 7 || part == 13) throw std::runtime_error(std::to_string(part));
+      });
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "7");
+    }
+    EXPECT_EQ(calls, 20);
+  }
+}
+
+TEST(Threads, SumVectorsToTheSameBits) {
+  const Vertices a = random_vertices(20'000, 1), b = random_vertices(20'000, 2);
+  const double product = dot(one_thread(), a, b);
+  EXPECT_NEAR(product, a.cwiseProduct(b).sum(), 1e-9);
+  for (const int count : counts) {
+    const Threads threads(count);
+    EXPECT_EQ(dot(threads, a, b), product);
+    EXPECT_EQ(norm(threads, a), norm(one_thread(), a));
+    Vertices sums(a.rows(), 3);
+    sum(threads, a, 0.3, b, sums);
+    EXPECT_TRUE(same_bits(sums, Vertices(a + 0.3 * b))) << count << " threads";
+  }
+}
+
+/// A pass of each kind over a cloth's springs.
+struct SpringPasses {
+  Vertices gradient, moved, velocities, product;
+  double value, energy;
+
+  SpringPasses(const Cloth& cloth, const Threads& threads) {
+    const SpringNetwork springs(cloth.springs, cloth.vertex_count(), threads);
+    const Eigen::Index n = cloth.vertex_count();
+    const Vertices x = cloth.positions + 0.002 * random_vertices(n, 1), y = x + 0.001 * random_vertices(n, 2);
+    const Eigen::VectorXd inertia = Eigen::VectorXd::Constant(n, 3.0), factor = Eigen::VectorXd::Constant(n, -0.01);
+    gradient.resize(n, 3);
+    value = springs.evaluate(inertia, y, x, gradient);
+    product = random_vertices(n, 3);
+    energy = springs.add_value_gradient(x, product);
+    SpringNetwork::Blocks blocks;
+    springs.compute_blocks(x, blocks);
+    springs.add_product(blocks, y, product);
+    moved = x;
+    velocities = random_vertices(n, 4);
+    for (int step = 0; step < 3; ++step) springs.kick_and_drift(factor, y, 0.01, velocities, moved);
+  }
+};
+
+TEST(Threads, ComputeSpringsToTheSameBits) {
+  Cloth cloth = large_cloth();
+  // Some that are in no band, and more parts than a band's offset leaves whole.
+  cloth.springs.push_back({.i = 5, .j = cloth.vertex_count() - 7, .rest_length = 1, .stiffness = 10});
+  const SpringPasses alone(cloth, one_thread());
+  for (const int count : {2, 3, 8, 50}) {
+    const Threads threads(count);
+    const SpringPasses together(cloth, threads);
+    EXPECT_EQ(together.value, alone.value);
+    EXPECT_EQ(together.energy, alone.energy);
+    EXPECT_TRUE(same_bits(together.gradient, alone.gradient)) << count << " threads";
+    EXPECT_TRUE(same_bits(together.product, alone.product)) << count << " threads";
+    EXPECT_TRUE(same_bits(together.moved, alone.moved)) << count << " threads";
+    EXPECT_TRUE(same_bits(together.velocities, alone.velocities)) << count << " threads";
+  }
+}
+
+TEST(Threads, SolveToTheSameBits) {
+  const Cloth cloth = large_cloth();
+  const Vertices b = random_vertices(cloth.vertex_count(), 1);
+  for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
+    const auto solution = [&](const Threads& threads) {
+      const System system(cloth, 0.02, threads);
+      ConstantFactor factor(system, system.step, precision);
+      EXPECT_GT(factor.parts(), 8);
+      Vertices x = b, y = b;
+      factor.solve(b, x);
+      EXPECT_NEAR(factor.subtract_solution(b, y), x.norm(), 1e-9 * x.norm());
+      EXPECT_TRUE(same_bits(y, Vertices(b - x)));
+      return x;
+    };
+    const Vertices alone = solution(one_thread());
+    for (const int count : counts) {
+      const Threads threads(count);
+      EXPECT_TRUE(same_bits(solution(threads), alone)) << count << " threads";
+    }
+  }
+}
+
+class ThreadsOfASimulation : public testing::TestWithParam<NamedMethod> {};
+INSTANTIATE_TEST_SUITE_P(Of, ThreadsOfASimulation,
+                         testing::Values(all_methods[0], all_methods[1], all_methods[3], all_methods[4], all_methods[5],
+                                         all_methods[8]),
+                         method_name);
+
+TEST_P(ThreadsOfASimulation, GiveTheSameBits) {
+  SimulationSettings settings = setup(large_cloth(), GetParam(), 0.0005);
+  settings.cloth.velocities.rowwise() = Eigen::RowVector3d(0.5, 0, -6);
+  settings.effects = {Gravity{}, homework_sphere(), homework_damping()};
+  const auto run = [&](int threads) {
+    settings.threads = threads;
+    Simulation simulation(settings);
+    for (int step = 0; step < 3; ++step) simulation.step();
+    return simulation.state();
+  };
+  const State alone = run(1);
+  for (const int count : counts) {
+    const State together = run(count);
+    EXPECT_TRUE(same_bits(together.x, alone.x)) << count << " threads";
+    EXPECT_TRUE(same_bits(together.v, alone.v)) << count << " threads";
+  }
+}
+
+}  // namespace
+}  // namespace drape::test
