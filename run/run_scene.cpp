@@ -48,12 +48,8 @@ class Pipeline {
     result_.steps_wanted = extent_.steps;
     result_.recorded = options.recorded != nullptr;
     if (!outputs_.none()) result_.frames_wanted = extent_.frames.count();
-    if (!options.recorded) {
-      SimulationSettings settings = scene.simulation;
-      settings.threads = options.threads;
-      const Timing timing = options.time_effects ? Timing::effects : Timing::none;
-      simulation_.emplace(std::move(settings), timing, heeding(stop_.get_token()));
-    }
+    const Timing timing = options.time_effects ? Timing::effects : Timing::none;
+    if (!options.recorded) simulation_.emplace(settings_of(scene, options), timing, heeding(stop_.get_token()));
     if (!options.motion) return;
     recorder_.emplace(*options.motion, options.from.get(), scene, extent_, result_.statistics, [this] {
       if (reasons_.lose_motion()) stop_.request_stop();

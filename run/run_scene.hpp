@@ -39,6 +39,13 @@ struct RunOptions {
   StepObserver* observer = nullptr;  ///< told of every step too, on the thread that simulates, after it is recorded
 };
 
+/// What is simulated: what the scene says, by as many threads as the run has for it.
+inline SimulationSettings settings_of(const Scene& scene, const RunOptions& options) {
+  SimulationSettings settings = scene.simulation;
+  settings.threads = options.threads;
+  return settings;
+}
+
 enum class Outcome { completed, interrupted, diverged };
 
 /// "completed", "interrupted" or "diverged".
