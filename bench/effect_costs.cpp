@@ -122,7 +122,7 @@ Subject make(const Case& c, int cells, bool with) {
 std::vector<std::string> register_effect_costs() {
   std::vector<std::string> names;
   for (const Case& c : cases()) {
-    for (const int cells : c.name.starts_with("body") ? std::vector{20, 60, 99} : std::vector{20, 60}) {
+    for (const int cells : c.name.starts_with("body") ? std::vector{20, 60, 100} : std::vector{20, 60}) {
       names.push_back(fmt::format("effect_{}/{}", c.name, cells));
       for (const bool with : {true, false}) {
         register_subject(names.back(), with ? "with" : "without", steps,

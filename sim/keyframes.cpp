@@ -34,6 +34,11 @@ bool same(double a, double b) {
 
 }  // namespace
 
+std::vector<Keyframe> starting_at(std::vector<Keyframe> keyframes, const Eigen::Vector3d& value) {
+  if (keyframes.empty() || keyframes.front().time > 0) keyframes.insert(keyframes.begin(), {0, value});
+  return keyframes;
+}
+
 Keyframes::Keyframes(std::vector<Keyframe> keyframes, Interpolation interpolation) : keyframes_(std::move(keyframes)) {
   if (keyframes_.empty()) throw std::invalid_argument("a motion needs at least one keyframe");
   for (std::size_t i = 1; i < keyframes_.size(); ++i) {

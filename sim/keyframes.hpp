@@ -17,6 +17,9 @@ enum class Interpolation {
   smooth   ///< with a continuous speed
 };
 
+/// Keyframes from 0 s on: with one of this value then, unless there is one.
+std::vector<Keyframe> starting_at(std::vector<Keyframe> keyframes, const Eigen::Vector3d& value);
+
 /// A value over time that passes through keyframes, and equals them to the bit there.
 ///
 /// Smooth is a cubic Hermite curve in each coordinate, whose slope at a keyframe is 0 at the ends and where the value

@@ -1,6 +1,6 @@
 #include "sim/mesh_motion.hpp"
 
-#include <algorithm>
+#include "sim/between.hpp"
 
 namespace drape {
 
@@ -9,18 +9,10 @@ void MeshMotion::place(double time, Vertices& x) const {
     x = mesh.positions;
     return;
   }
-  const auto after = std::ranges::upper_bound(times, time) - times.begin();
-  if (after == 0) {
-    x = samples.front();
-  } else if (after == std::ssize(times)) {
-    x = samples.back();
-  } else {
-    const auto k = static_cast<std::size_t>(after);
-    const double share = (time - times[k - 1]) / (times[k] - times[k - 1]);
-    // At a sample itself its very bits.
-    x = samples[k - 1];
-    if (share != 0) x += share * (samples[k] - samples[k - 1]);
-  }
+  const auto [before, after, share] = between(times, time);
+  // At a sample itself its very bits.
+  x = samples[before];
+  if (before != after) x += share * (samples[after] - samples[before]);
 }
 
 }  // namespace drape

@@ -1,6 +1,7 @@
 #include "sim/moving_body.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace drape {
@@ -18,31 +19,38 @@ std::shared_ptr<const PlacedMesh> MovingBody::mesh_at(double time) const {
     return shapes_.back().mesh;
   }
   shape_->place(time, scratch_);
+  if (last_.rows() == scratch_.rows()) travel_ += std::sqrt((scratch_ - last_).rowwise().squaredNorm().maxCoeff());
+  last_.swap(scratch_);
   // A step looks at its start and its end: those of two times stay, and others that nobody holds are used again.
   const auto last = shapes_.end() - std::min<std::ptrdiff_t>(2, std::ssize(shapes_));
   const auto idle = std::find_if(shapes_.begin(), last, [](const Shape& s) { return s.mesh.use_count() == 1; });
   if (idle == last) {
-    shapes_.push_back({time, std::make_shared<PlacedMesh>(topology_, scratch_)});
+    shapes_.push_back({time, std::make_shared<PlacedMesh>(topology_, last_, travel_)});
   } else {
     idle->time = time;
-    idle->mesh->place(scratch_);
+    idle->mesh->place(last_, travel_);
     std::rotate(idle, idle + 1, shapes_.end());
   }
   return shapes_.back().mesh;
 }
 
-Point MovingBody::point_at(int triangle, const Point& weights, double time) const {
-  const BodyAt now = at(time);
-  const Triangle& t = topology_->triangles[static_cast<std::size_t>(triangle)];
-  Point sum = Point::Zero();
-  for (std::size_t c = 0; c < 3; ++c) {
-    sum += weights[static_cast<Eigen::Index>(c)] * now.mesh->points()[static_cast<std::size_t>(t[c])];
-  }
-  return now.pose.out(sum);
-}
+MovingBody::Way::Way(const MovingBody& body, double from, double to)
+    : topology_(body.topology()),
+      from_(body.at(from)),
+      to_(body.at(to)),
+      still_(from_.mesh == to_.mesh && from_.pose.turn == to_.pose.turn && from_.pose.place == to_.pose.place) {}
 
-Eigen::Vector3d MovingBody::displacement(int triangle, const Point& weights, double from, double to) const {
-  return point_at(triangle, weights, to) - point_at(triangle, weights, from);
+Eigen::Vector3d MovingBody::Way::of(int triangle, const Point& weights) const {
+  if (still_) return Eigen::Vector3d::Zero();
+  const Triangle& corners = topology_.triangles[static_cast<std::size_t>(triangle)];
+  const auto point_in = [&](const BodyAt& body) {
+    Point sum = Point::Zero();
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum += weights[static_cast<Eigen::Index>(c)] * body.mesh->points()[static_cast<std::size_t>(corners[c])];
+    }
+    return body.pose.out(sum);
+  };
+  return point_in(to_) - point_in(from_);
 }
 
 Eigen::Vector3d MovingBody::displacement(double from, double to) const {

@@ -1,26 +1,19 @@
 #include "sim/pin_motion.hpp"
 
 #include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <map>
 #include <numbers>
 
 #include "sim/mesh_anchors.hpp"
+#include "sim/rigid_motion.hpp"
 
 namespace drape {
 namespace {
 
 constexpr double radians = std::numbers::pi / 180;
-
-std::array<Eigen::Matrix3d, 3> turns(const Eigen::Vector3d& degrees) {
-  std::array<Eigen::Matrix3d, 3> about;
-  for (int axis = 0; axis < 3; ++axis) {
-    about[static_cast<std::size_t>(axis)] =
-        Eigen::AngleAxisd(degrees[axis] * radians, Eigen::Vector3d::Unit(axis)).toRotationMatrix();
-  }
-  return about;
-}
 
 }  // namespace
 
@@ -57,14 +50,14 @@ void PinMotion::drive(double at, Vertices& v) const {
 
 Eigen::Vector3d PinMotion::position(std::size_t k, double time) const {
   if (anchors) return anchors->at(k, time).position;
-  const auto about = turns(turn->at(time));
+  const auto about = turns_about_axes(turn->at(time));
   const Eigen::Vector3d arm = base.row(static_cast<Eigen::Index>(k)).transpose() - middle;
   return middle + about[2] * (about[1] * (about[0] * arm)) + path.at(time);
 }
 
 Eigen::Vector3d PinMotion::velocity(std::size_t k, double time) const {
   if (anchors) return anchors->at(k, time).velocity;
-  const auto about = turns(turn->at(time));
+  const auto about = turns_about_axes(turn->at(time));
   // The turns about x, y and z one after the other: each turns what those before have made, and carries their rates.
   const Eigen::Vector3d rates = turn->velocity(time) * radians;
   Eigen::Vector3d arm = base.row(static_cast<Eigen::Index>(k)).transpose() - middle, rate = Eigen::Vector3d::Zero();

@@ -6,12 +6,19 @@
 //   const Eigen::Vector3d corner = spinning.at(0.5).out({0.1, 0, 0});  // a quarter of a turn later: (0, 0.1, 1)
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <optional>
 
+#include "sim/keyframes.hpp"
 #include "sim/sphere_track.hpp"
 
 namespace drape {
+
+/// Turns about the fixed x, y and z axes, which follow one another.
+std::array<Eigen::Matrix3d, 3> turns_about_axes(const Eigen::Vector3d& degrees);
+/// All three.
+Eigen::Matrix3d turn_about_axes(const Eigen::Vector3d& degrees);
 
 /// Where a body is: its own coordinates turned, then moved.
 struct Pose {
@@ -29,7 +36,9 @@ class RigidMotion {
   /// @param path  of the body's origin; its radius does not matter
   /// @param turn  of the body at 0 s
   /// @param orbit if given, the body turns with it: what faces its axis goes on facing it
-  RigidMotion(std::shared_ptr<const SphereTrack> path, const Eigen::Matrix3d& turn, std::optional<Orbit> orbit);
+  /// @param turns if given, about the axes beside its place, on top of `turn` [degrees]
+  RigidMotion(std::shared_ptr<const SphereTrack> path, const Eigen::Matrix3d& turn,
+              std::optional<Orbit> orbit = std::nullopt, std::optional<Keyframes> turns = std::nullopt);
 
   [[nodiscard]] Pose at(double time) const;
 
@@ -37,6 +46,7 @@ class RigidMotion {
   std::shared_ptr<const SphereTrack> path_;
   Eigen::Matrix3d turn_;
   std::optional<Orbit> orbit_;
+  std::optional<Keyframes> turns_;
 };
 
 }  // namespace drape

@@ -10,6 +10,7 @@
 #include "scene/usd/skin.hpp"
 #include "scene/usd/stage.hpp"
 #include "scene/usd/xform.hpp"
+#include "sim/between.hpp"
 
 namespace drape {
 namespace {
@@ -59,13 +60,9 @@ class UsdSphereTrack final : public SphereTrack {
 }  // namespace
 
 Eigen::Affine3d TransformTrack::at(double time) const {
-  const auto next = std::upper_bound(times.begin(), times.end(), time);
-  if (next == times.begin()) return transforms.front();
-  if (next == times.end()) return transforms.back();
-  const auto i = static_cast<std::size_t>(next - times.begin());
-  const double weight = (time - times[i - 1]) / (times[i] - times[i - 1]);
-  Eigen::Affine3d result = transforms[i - 1];
-  result.matrix() += weight * (transforms[i].matrix() - transforms[i - 1].matrix());
+  const auto [before, after, share] = between(times, time);
+  Eigen::Affine3d result = transforms[before];
+  if (before != after) result.matrix() += share * (transforms[after].matrix() - transforms[before].matrix());
   return result;
 }
 

@@ -14,10 +14,12 @@ namespace {
 using Index = std::size_t;
 
 // How far a vertex may go from where it was expected before candidates are searched anew, in thicknesses.
-constexpr double search_slack = 0.25;
-constexpr int solver_sweeps = 8;   // over all contacts, each time some are added
-constexpr int impact_passes = 10;  // with impulses, before what collides goes with the body
+constexpr double search_slack = 0.1;
+constexpr double impact_part = 0.5;  // of what is kept free: how near something may come on its way
+constexpr int solver_sweeps = 8;     // over all contacts, each time some are added
+constexpr int impact_passes = 10;    // with impulses, before what collides goes with the body
 constexpr int most_hold_rounds = 50;
+constexpr double margin = 1;  // how far the cloth goes before what is near is searched anew, in thicknesses
 // The least of a contact's weight on the cloth that has to be on free vertices: they go as many times as fast as it as
 // this goes into one.
 constexpr double least_free_share = 0.25;
@@ -29,14 +31,16 @@ bool opposite(const FeaturePair& pair, const std::array<double, 4>& weights) {
 
 }  // namespace
 
+double BodyContact::reach() const { return (kept_part + search_slack) * law_.thickness; }
+
 BodyContact::BodyContact(std::shared_ptr<const MovingBody> body, const BodyLaw& law, const Cloth& cloth)
     : body_(std::move(body)),
       law_(law),
       cloth_count_(cloth.vertex_count()),
-      cloth_patches_(make_patches(cloth.triangles, 0, cloth.vertex_count())),
-      end_(body_->at(0)) {
-  const Index body_count = end_.mesh->points().size(), count = Index(cloth_count_) + body_count;
-  body_patches_ = make_patches(body_->topology().triangles, cloth_count_, static_cast<int>(body_count));
+      start_(body_->at(0)),
+      end_(start_),
+      candidates_(body_->topology(), static_cast<int>(end_.mesh->points().size()), cloth, margin * law.thickness) {
+  const Index count = Index(cloth_count_) + end_.mesh->points().size();
   for (Eigen::Index i = 0; i < cloth.masses.size(); ++i) moving_.inverse_masses.push_back(1 / cloth.masses[i]);
   for (const int pin : cloth.pins) moving_.inverse_masses[Index(pin)] = 0;
   moving_.inverse_masses.resize(count, 0);
@@ -46,44 +50,65 @@ BodyContact::BodyContact(std::shared_ptr<const MovingBody> body, const BodyLaw& 
   found_for_.resize(count);
   changed_.resize(count);
   moved_.resize(count);
+  far_.resize(count);
   held_.resize(count);
-  boxes_ = end_.mesh->boxes();
-  tree_.build(boxes_);
-  start_ = end_;
-  for (Eigen::Index i = 0; i < cloth.rest.rows(); ++i) x_[Index(i)] = target_[Index(i)] = cloth.rest.row(i).transpose();
-  for (const Patch& patch : cloth_patches_) cloth_boxes_.push_back(swept_box(patch, x_, target_, 0));
-  cloth_tree_.build(cloth_boxes_);
+  place_body();
 }
 
 void BodyContact::apply(const Vertices& x, double time, double h, Vertices& v) {
   converged_ = true;
   if (!x.allFinite() || !v.allFinite()) return;  // diverged: nothing to keep apart
-  load(x, time, h, v);
+  start_ = body_->at(time);
+  end_ = body_->at(time + h);
+  if (clear(x, h, v)) return;
+  load(x, h, v);
   if (!resolved()) {
     converged_ = false;
     return;
   }
-  find_candidates();
-  if (pairs_.empty()) return;
+  look_at_stop();
+  candidates_.find({x_, target_, *start_.mesh, *end_.mesh}, reach());
+  if (candidates_.pairs().empty()) return;
+  found_for_ = target_;
+  std::ranges::fill(changed_, 1);
+  for (Index i = 0; i < x_.size(); ++i) moving_.velocities[i] = (target_[i] - x_[i]) / h;
+  std::ranges::fill(moved_, 0);
   repel();
   stop_impacts();
   if (!impacts_.empty()) go_with_body();
   store(x, v);
 }
 
-void BodyContact::load(const Vertices& x, double time, double h, const Vertices& v) {
+bool BodyContact::clear(const Vertices& x, double h, const Vertices& v) const {
+  Box before{x.colwise().minCoeff().transpose(), x.colwise().maxCoeff().transpose()}, after = before;
+  after.low += h * v.colwise().minCoeff().transpose();
+  after.high += h * v.colwise().maxCoeff().transpose();
+  // A box around the turned box: no farther from its middle than all of the sides together.
+  const auto turned = [](const Box& box, const Pose& pose) -> Box {
+    const Point middle = pose.in((box.low + box.high) / 2);
+    const Point half = pose.turn.transpose().cwiseAbs() * ((box.high - box.low) / 2);
+    return {middle - half, middle + half};
+  };
+  const Box from = turned(before, start_.pose), to = turned(after, end_.pose);
+  const double reach = law_.thickness;
+  const Box way{from.low.cwiseMin(to.low).array() - reach, from.high.cwiseMax(to.high).array() + reach};
+  const Box &body = start_.mesh->tree().bounds(), &moved = end_.mesh->tree().bounds();
+  return !way.overlaps({body.low.cwiseMin(moved.low), body.high.cwiseMax(moved.high)});
+}
+
+void BodyContact::load(const Vertices& x, double h, const Vertices& v) {
   h_ = h;
-  std::ranges::fill(moved_, 0);
-  start_ = body_->at(time);
-  end_ = body_->at(time + h);
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
     const Point from = x.row(i).transpose(), to = from + h * v.row(i).transpose();
     x_[Index(i)] = start_.pose.in(from);
     target_[Index(i)] = end_.pose.in(to);
   }
+  if (body_->deforms()) place_body();
+}
+
+void BodyContact::place_body() {
   std::ranges::copy(start_.mesh->points(), x_.begin() + cloth_count_);
   std::ranges::copy(end_.mesh->points(), target_.begin() + cloth_count_);
-  for (Index i = 0; i < x_.size(); ++i) moving_.velocities[i] = (target_[i] - x_[i]) / h;
 }
 
 bool BodyContact::resolved() const {
@@ -97,61 +122,6 @@ void BodyContact::store(const Vertices& x, Vertices& v) const {
     if (moved_[Index(i)] == 0) continue;
     v.row(i) = (end_.pose.out(target_[Index(i)]).transpose() - x.row(i)) / h_;
   }
-}
-
-void BodyContact::find_candidates() {
-  look_at_stop();
-  if (body_->deforms()) {
-    for (Index t = 0; t < boxes_.size(); ++t) boxes_[t] = swept_box(body_patches_[t], x_, target_, 0);
-    tree_.refit(boxes_);
-  }
-  pairs_.clear();
-  const double reach = (kept_part + search_slack) * law_.thickness;
-  for (Index k = 0; k < cloth_patches_.size(); ++k) cloth_boxes_[k] = swept_box(cloth_patches_[k], x_, target_, reach);
-  cloth_tree_.refit(cloth_boxes_);
-  cloth_tree_.for_overlapping(tree_, [&](int k, int t) {
-    const Patch& patch = cloth_patches_[Index(k)];
-    if (cloth_boxes_[Index(k)].overlaps(boxes_[Index(t)]) && !apart(patch, t, reach)) add_pairs(patch, t);
-  });
-  found_for_ = target_;
-  std::ranges::fill(changed_, 1);
-}
-
-bool BodyContact::apart(const Patch& cloth, int triangle, double reach) const {
-  const Point& axis = start_.mesh->face_normal(triangle);
-  const Triangle &a = cloth.corners, &b = body_patches_[Index(triangle)].corners;
-  double above = std::numeric_limits<double>::infinity(), below = above;
-  for (const std::vector<Point>* at : {&x_, &target_}) {
-    const auto height = [&](int i) { return axis.dot((*at)[Index(i)]); };
-    const double a0 = height(a[0]), a1 = height(a[1]), a2 = height(a[2]);
-    const double b0 = height(b[0]), b1 = height(b[1]), b2 = height(b[2]);
-    above = std::min(above, std::min({a0, a1, a2}) - std::max({b0, b1, b2}));
-    below = std::min(below, std::min({b0, b1, b2}) - std::max({a0, a1, a2}));
-  }
-  return std::max(above, below) > reach;
-}
-
-void BodyContact::add_pairs(const Patch& cloth, int triangle) {
-  const Patch& body = body_patches_[Index(triangle)];
-  const auto &a = cloth.corners, &b = body.corners;
-  for (Index c = 0; c < 3; ++c) {
-    if (cloth.own_vertex[c]) add({{Feature::vertex_triangle, {a[c], b[0], b[1], b[2]}}, triangle, -1});
-    if (body.own_vertex[c]) {
-      add({{Feature::vertex_triangle, {b[c], a[0], a[1], a[2]}}, triangle, static_cast<int>(c)});
-    }
-    if (!cloth.own_edge[c]) continue;
-    for (Index d = 0; d < 3; ++d) {
-      if (!body.own_edge[d]) continue;
-      add({{Feature::edge_edge, {a[c], a[(c + 1) % 3], b[d], b[(d + 1) % 3]}}, triangle, static_cast<int>(d)});
-    }
-  }
-}
-
-void BodyContact::add(const BodyPair& met) {
-  const auto& v = met.pair.vertices;
-  if (std::none_of(v.begin(), v.end(), [&](int i) { return is_free(i); })) return;
-  const double reach = (kept_part + search_slack) * law_.thickness;
-  if (may_come_near(met.pair.feature, gather(x_, v), gather(target_, v), reach)) pairs_.push_back(met);
 }
 
 FourPoints BodyContact::moves(const FeaturePair& pair) const {
@@ -184,7 +154,7 @@ std::optional<Contact> BodyContact::contact(const BodyPair& met, double time, bo
   const FourPoints start = gather(x_, pair.vertices), move = moves(pair);
   FourPoints p = start;
   for (Index i = 0; i < 4; ++i) p[i] += time * move[i];
-  const std::array<double, 4> weights = nearest(pair.feature, p).weights;
+  const std::array<double, 4> weights = near ? met.before.weights : nearest(pair.feature, p).weights;
   if (is_at_pin(pair, weights) || (near && !opposite(pair, weights))) return std::nullopt;
   Point before = Point::Zero(), change = Point::Zero();
   for (Index i = 0; i < 4; ++i) {
@@ -201,6 +171,8 @@ std::optional<Contact> BodyContact::contact(const BodyPair& met, double time, bo
   if ((out.isZero(0) ? before : out).dot(normal) < 0) normal = -normal;
   const double gap = before.dot(normal), kept = kept_part * law_.thickness;
   if (gap < 0 || (near && gap + change.dot(normal) >= kept)) return std::nullopt;
+  // Across the normal they may miss each other. Then they are a pair or not as the search has it.
+  if (near && before.norm() > reach() && !comes_within(pair.feature, start, move, reach())) return std::nullopt;
   const double speed = gap < kept ? (kept - gap) * std::min(law_.rate, 1 / h_) : (kept - gap) / h_;
   return Contact(pair, weights, normal, speed, moving_);
 }
@@ -215,31 +187,46 @@ void BodyContact::solve() {
 
 void BodyContact::repel() {
   contacts_.clear();
-  for (const BodyPair& met : pairs_) {
+  for (const BodyPair& met : candidates_.pairs()) {
     if (const auto found = contact(met, 0, true)) contacts_.push_back(*found);
   }
   if (!contacts_.empty()) solve();
 }
 
 void BodyContact::move_targets() {
-  bool far = false;
+  bool any_far = false;
+  std::ranges::fill(far_, 0);
   for (Index i = 0; i < Index(cloth_count_); ++i) {
     const Point target = x_[i] + h_ * moving_.velocities[i];
     if (!is_free(static_cast<int>(i)) || target == target_[i]) continue;
     target_[i] = target;
     changed_[i] = moved_[i] = 1;
-    far |= (target - found_for_[i]).norm() > search_slack * law_.thickness;
+    if (astray(i) <= search_slack * law_.thickness) continue;
+    found_for_[i] = target;
+    far_[i] = 1;
+    any_far = true;
   }
-  if (far) find_candidates();
+  if (any_far) candidates_.find_again({x_, found_for_, *start_.mesh, *end_.mesh}, reach(), far_);
+}
+
+double BodyContact::astray(std::size_t i) const {
+  const Point to = target_[i] - x_[i], way = found_for_[i] - x_[i];
+  const double squared = way.squaredNorm();
+  // What stops earlier on its way meets nothing else, unless the body comes.
+  const double part = body_->deforms() || !(squared > 0) ? 1 : std::clamp(to.dot(way) / squared, 0.0, 1.0);
+  return (to - part * way).norm();
 }
 
 void BodyContact::find_impacts() {
   look_at_stop();
   impacts_.clear();
-  for (const BodyPair& met : pairs_) {
+  const double widest = impact_part * kept_part * law_.thickness;
+  for (const BodyPair& met : candidates_.pairs()) {
     const FeaturePair& pair = met.pair;
     if (std::ranges::none_of(pair.vertices, [&](int i) { return changed_[Index(i)] != 0; })) continue;
-    const double widest = 0.5 * kept_part * law_.thickness;
+    // Most do not move as far as they are apart.
+    const double apart = std::sqrt(met.before.squared);
+    if (largest_change(pair.feature, moves(pair)) <= apart - std::min(kept_gap * apart, widest)) continue;
     const auto time = time_of_impact(pair.feature, gather(x_, pair.vertices), moves(pair), widest);
     if (!time) continue;
     if (const auto found = contact(met, *time, false)) impacts_.push_back({met, *found});

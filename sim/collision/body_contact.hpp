@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "sim/collision/body_candidates.hpp"
 #include "sim/collision/contacts.hpp"
-#include "sim/collision/patches.hpp"
 #include "sim/moving_body.hpp"
 #include "sim/system.hpp"
 
@@ -38,27 +38,20 @@ class BodyContact final : public MotionFilter {
   [[nodiscard]] bool converged() const override { return converged_; }
 
  private:
-  /// Features that may meet, and which of the body's it is: a triangle, or a corner of it or the edge that begins
-  /// there.
-  struct BodyPair {
-    FeaturePair pair;
-    int triangle, corner;
-  };
   struct Impact {
     BodyPair met;
     Contact contact;
   };
 
-  void load(const Vertices& x, double time, double h, const Vertices& v);
+  /// Whether all of the cloth stays further from all of the body than anything matters.
+  [[nodiscard]] bool clear(const Vertices& x, double h, const Vertices& v) const;
+  void load(const Vertices& x, double h, const Vertices& v);
   /// Whether the places are so exact that cloth and body can be told apart.
   [[nodiscard]] bool resolved() const;
+  void place_body();
   void store(const Vertices& x, Vertices& v) const;
-  void find_candidates();
-  /// Whether a plane along a triangle of the body lies between it and one of the cloth in the whole step, further than
-  /// `reach` [m] from both together.
-  [[nodiscard]] bool apart(const Patch& cloth, int triangle, double reach) const;
-  void add_pairs(const Patch& cloth, int triangle);
-  void add(const BodyPair& met);
+  /// What may come so near in a step is looked at [m].
+  [[nodiscard]] double reach() const;
   [[nodiscard]] bool is_free(int vertex) const { return moving_.inverse_mass(vertex) > 0; }
   /// Whether two features meet at a pin, or almost: where that is, nothing else can change.
   [[nodiscard]] bool is_at_pin(const FeaturePair& pair, const std::array<double, 4>& weights) const;
@@ -76,24 +69,23 @@ class BodyContact final : public MotionFilter {
   void solve();
   /// Of features that collide on their way, with a contact when they do.
   void find_impacts();
-  /// The target of every vertex whose velocity has changed; finds the candidates anew if one went further than they
-  /// were found for.
+  /// The target of every vertex whose velocity has changed; finds its candidates anew if it went further than they were
+  /// found for.
   void move_targets();
+  /// How far a vertex is from the way for which its candidates were found [m].
+  [[nodiscard]] double astray(std::size_t i) const;
 
   std::shared_ptr<const MovingBody> body_;
   BodyLaw law_;
   int cloth_count_;  // the body's vertices are numbered on from the cloth's
-  std::vector<Patch> cloth_patches_, body_patches_;
-  std::vector<Box> cloth_boxes_, boxes_;  // of the cloth's patches, and of the body's
-  TriangleTree cloth_tree_, tree_;        // of those
-
   double h_ = 0;
   BodyAt start_, end_;
+  BodyCandidates candidates_;
   MovingVertices moving_;
   std::vector<Point> x_, target_, found_for_;  // in the body's coordinates
   std::vector<char> changed_;                  // vertices whose targets changed since impacts were last looked for
   std::vector<char> moved_, held_;             // vertices of other velocities than they came with; with the body's
-  std::vector<BodyPair> pairs_;
+  std::vector<char> far_;                      // vertices whose pairs are to be found anew
   std::vector<Contact> contacts_;
   std::vector<Impact> impacts_;
   bool converged_ = true;

@@ -23,12 +23,16 @@ Point from_second_to_first(Feature feature, const FourPoints& p) {
 
 }  // namespace
 
-bool may_come_near(Feature feature, const FourPoints& from, FourPoints to, double reach) {
+bool kept_apart(Feature feature, const FourPoints& from, const FourPoints& to, double reach) {
   // On straight lines a distance along a fixed axis changes linearly: what it separates at both ends, it separates in
   // between.
   const Point axis = from_second_to_first(feature, from);
   const double far = reach * axis.norm();
-  if (separated(feature, axis, from, far) && separated(feature, axis, to, far)) return false;
+  return separated(feature, axis, from, far) && separated(feature, axis, to, far);
+}
+
+bool may_come_near(Feature feature, const FourPoints& from, FourPoints to, double reach) {
+  if (kept_apart(feature, from, to, reach)) return false;
   for (std::size_t i = 0; i < 4; ++i) to[i] -= from[i];
   const double near = reach + largest_change(feature, to);
   return nearest(feature, from).squared <= near * near;

@@ -23,6 +23,10 @@ inline FourPoints gather(const std::vector<Point>& points, const std::array<int,
           points[static_cast<std::size_t>(v[2])], points[static_cast<std::size_t>(v[3])]};
 }
 
+/// Whether two features stay further apart than `reach` [m] while their points go on straight lines, as far as a plane
+/// between their middles shows it.
+bool kept_apart(Feature feature, const FourPoints& from, const FourPoints& to, double reach);
+
 /// Whether two features may come nearer than `reach` [m] while their points go on straight lines; never misses any that
 /// do.
 bool may_come_near(Feature feature, const FourPoints& from, FourPoints to, double reach);

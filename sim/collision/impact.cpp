@@ -41,4 +41,18 @@ std::optional<double> time_of_impact(Feature feature, FourPoints p, FourPoints m
   return time;
 }
 
+bool comes_within(Feature feature, FourPoints p, const FourPoints& move, double distance) {
+  const double speed = largest_change(feature, move), least = 0.8 * distance;
+  double time = 0;
+  for (int step = 0; step < max_steps; ++step) {
+    const double apart = std::sqrt(nearest(feature, p).squared);
+    if (apart <= distance) return true;
+    const double forward = (apart - least) / speed;
+    if (!(time + forward <= 1)) return false;
+    time += forward;
+    for (std::size_t i = 0; i < 4; ++i) p[i] += forward * move[i];
+  }
+  return false;
+}
+
 }  // namespace drape

@@ -24,4 +24,8 @@ double largest_change(Feature feature, const FourPoints& move);
 std::optional<double> time_of_impact(Feature feature, FourPoints p, FourPoints move,
                                      double widest = std::numeric_limits<double>::infinity());
 
+/// Whether two features that move so come nearer than a distance [m], or almost: not if they stay further apart, and
+/// always if they come nearer than 0.8 of it. Found in the same way.
+bool comes_within(Feature feature, FourPoints p, const FourPoints& move, double distance);
+
 }  // namespace drape

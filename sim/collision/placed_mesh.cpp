@@ -12,6 +12,9 @@ namespace {
 
 using Index = std::size_t;
 
+// What a triangle's area is at least beside the square of its longest edge, both twice: else it is its edges.
+constexpr double least_area = 1e-8;
+
 /// An edge as a triangle runs along it.
 struct Run {
   Edge edge;
@@ -64,17 +67,19 @@ MeshTopology::MeshTopology(const std::vector<Triangle>& all, int vertex_count) {
   }
 }
 
-PlacedMesh::PlacedMesh(std::shared_ptr<const MeshTopology> topology, const Vertices& x)
+PlacedMesh::PlacedMesh(std::shared_ptr<const MeshTopology> topology, const Vertices& x, double travel)
     : topology_(std::move(topology)),
       points_(Index(x.rows())),
       normals_(topology_->triangles.size()),
-      boxes_(topology_->triangles.size()) {
+      facets_(topology_->triangles.size()),
+      boxes_(topology_->triangles.size()),
+      travel_(travel) {
   update(x);
   tree_.build(boxes_);
 }
 
-void PlacedMesh::place(const Vertices& x) {
-  ++moves_;
+void PlacedMesh::place(const Vertices& x, double travel) {
+  travel_ = travel;
   update(x);
   tree_.refit(boxes_);
 }
@@ -87,18 +92,24 @@ void PlacedMesh::update(const Vertices& x) {
     const Triangle& corners = topology_->triangles[t];
     const Point &a = points_[Index(corners[0])], &b = points_[Index(corners[1])], &c = points_[Index(corners[2])];
     boxes_[t] = {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
-    const Point area = (b - a).cross(c - a);
+    const Point ab = b - a, ac = c - a, area = ab.cross(ac);
     volume += area.dot(a - origin);
-    const double length = area.norm();
-    normals_[t] = length > 0 ? Point(area / length) : Point(Point::Zero());
+    const double length = area.norm(), inverse = length > 0 ? 1 / length : 0;
+    normals_[t] = inverse * area;
+    const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
+    const bool flat = length <= least_area * longest;
+    const double scale = flat ? std::numeric_limits<double>::quiet_NaN() : inverse * inverse;
+    const Point second = scale * ac.cross(area), third = scale * area.cross(ab);
+    facets_[t] = {a,
+                  flat ? Point(Point::Zero()) : normals_[t],
+                  second,
+                  third,
+                  {1 / (second + third).squaredNorm(), 1 / second.squaredNorm(), 1 / third.squaredNorm()}};
   }
   if (solid() && volume < 0) {
     for (Point& normal : normals_) normal = -normal;
+    for (Facet& facet : facets_) facet.normal = -facet.normal;
   }
-}
-
-const Point& PlacedMesh::corner(int triangle, std::size_t c) const {
-  return points_[Index(topology_->triangles[Index(triangle)][c])];
 }
 
 Point PlacedMesh::normal_at(int triangle, const Point& weights) const {
@@ -124,26 +135,15 @@ Point PlacedMesh::normal_at(int triangle, const Point& weights) const {
   return sum;
 }
 
-Foot PlacedMesh::foot(const Point& point, int triangle, const Nearest& near) const {
+Foot PlacedMesh::foot_on_edge(const Point& point, int triangle, const Nearest& near) const {
   Foot foot{.triangle = triangle, .weights = {-near.weights[1], -near.weights[2], -near.weights[3]}};
   const Point away = point - foot.weights[0] * corner(triangle, 0) - foot.weights[1] * corner(triangle, 1) -
                      foot.weights[2] * corner(triangle, 2);
   const Point out = normal_at(triangle, foot.weights);
-  const double side = out.dot(away);
-  if ((foot.weights.array() != 0).all() && !out.isZero(0)) {
-    // Along the triangle's own normal: what lies on a flat face is pushed in one direction.
-    foot.distance = out.dot(point - corner(triangle, 0));
-    foot.normal = out;
-  } else {
-    const double length = std::sqrt(near.squared);
-    foot.distance = side < 0 ? -length : length;
-    foot.normal = length > 0 ? Point(away / foot.distance) : Point(out.stableNormalized());
-  }
-  if (!solid() && foot.distance < 0) {
-    foot.distance = -foot.distance;
-    foot.normal = -foot.normal;
-  }
-  return foot;
+  const double side = out.dot(away), length = std::sqrt(near.squared);
+  foot.distance = side < 0 ? -length : length;
+  foot.normal = length > 0 ? Point(away / foot.distance) : Point(out.stableNormalized());
+  return on_its_side(foot);
 }
 
 std::optional<Foot> PlacedMesh::find(const Point& point, double reach, int hint) const {
@@ -155,7 +155,8 @@ std::optional<Foot> PlacedMesh::find(const Point& point, double reach, int hint)
   Nearest best{};
   int found = -1;
   const auto look_at = [&](int t) {
-    const Nearest near = nearest(Feature::vertex_triangle, {point, corner(t, 0), corner(t, 1), corner(t, 2)});
+    if (least_squared(t, point) > limit) return;
+    const Nearest near = nearest_on(t, point);
     if (!(near.squared < limit || (near.squared == limit && (found < 0 || t < found)))) return;
     best = near;
     found = t;

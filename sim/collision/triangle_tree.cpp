@@ -19,15 +19,15 @@ void enclose(Box& box, const Box& other) {
 
 }  // namespace
 
-void TriangleTree::build(std::span<const Box> boxes) {
+void TriangleTree::build(std::span<const Box> boxes, int leaf_size) {
   order_.resize(boxes.size());
   std::iota(order_.begin(), order_.end(), 0);
   nodes_.clear();
-  split(boxes, 0, static_cast<int>(boxes.size()));
+  split(boxes, 0, static_cast<int>(boxes.size()), leaf_size);
   refit(boxes);
 }
 
-void TriangleTree::split(std::span<const Box> boxes, int first, int count) {
+void TriangleTree::split(std::span<const Box> boxes, int first, int count, int leaf_size) {
   const std::size_t node = nodes_.size();
   const bool leaf = count <= leaf_size;
   nodes_.push_back({empty_box(), 0, first, leaf ? count : 0});
@@ -44,8 +44,8 @@ void TriangleTree::split(std::span<const Box> boxes, int first, int count) {
     const int half = count / 2;
     std::nth_element(begin, begin + half, end,
                      [&](int k, int l) { return std::pair(middle_of(k)[axis], k) < std::pair(middle_of(l)[axis], l); });
-    split(boxes, first, half);
-    split(boxes, first + half, count - half);
+    split(boxes, first, half, leaf_size);
+    split(boxes, first + half, count - half, leaf_size);
   }
   nodes_[node].skip = nodes_.size();
 }

@@ -16,8 +16,8 @@ namespace drape {
 /// is refitted: the same tree around other places.
 class TriangleTree {
  public:
-  /// Makes the tree: halves of the boxes along the longest side, down to a few.
-  void build(std::span<const Box> boxes);
+  /// Makes the tree: halves of the boxes along the longest side, down to leaves of a few.
+  void build(std::span<const Box> boxes, int leaf_size = 4);
   /// Moves the boxes that it was built for.
   void refit(std::span<const Box> boxes);
 
@@ -42,29 +42,12 @@ class TriangleTree {
     }
   }
 
-  /// Calls visit(k, l) for every box k and box l of another tree that overlap, and some that do not.
+  /// Calls visit(boxes) for the boxes of every leaf.
   template <class Visit>
-  void for_overlapping(const TriangleTree& other, Visit&& visit) const {
-    std::array<std::pair<std::size_t, std::size_t>, 2 * most_depth> stack;
-    std::size_t height = 0;
-    stack[height++] = {0, 0};
-    while (height > 0) {
-      const auto [n, m] = stack[--height];
-      const Node &node = nodes_[n], &beside = other.nodes_[m];
-      if (!node.box.overlaps(beside.box)) continue;
-      const bool leaf = node.skip == n + 1, other_leaf = beside.skip == m + 1;
-      if (leaf && other_leaf) {
-        for (int k = node.first; k < node.first + node.count; ++k) {
-          for (int l = beside.first; l < beside.first + beside.count; ++l) {
-            visit(order_[static_cast<std::size_t>(k)], other.order_[static_cast<std::size_t>(l)]);
-          }
-        }
-      } else if (!leaf && (other_leaf || node.skip - n >= beside.skip - m)) {
-        stack[height++] = {nodes_[n + 1].skip, m};
-        stack[height++] = {n + 1, m};
-      } else {
-        stack[height++] = {n, other.nodes_[m + 1].skip};
-        stack[height++] = {n, m + 1};
+  void for_leaves(Visit&& visit) const {
+    for (const Node& node : nodes_) {
+      if (node.count > 0) {
+        visit(std::span(order_).subspan(static_cast<std::size_t>(node.first), static_cast<std::size_t>(node.count)));
       }
     }
   }
@@ -107,10 +90,9 @@ class TriangleTree {
     std::size_t skip;  // the node after all that is below this one
     int first, count;  // of the boxes of a leaf, in order_; none of others
   };
-  static constexpr int leaf_size = 4;
   static constexpr std::size_t most_depth = 128;  // halves of what an int counts, two of each wait at most
 
-  void split(std::span<const Box> boxes, int first, int count);
+  void split(std::span<const Box> boxes, int first, int count, int leaf_size);
   static double squared_distance(const Box& box, const Eigen::Vector3d& p) {
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -25,7 +25,7 @@ struct ContactLaw;
 /// A triangle mesh that the cloth collides with: it pushes the cloth's vertices out of a layer around it as a sphere
 /// does, and lets nothing through, however far it moves in a step, see BodyContact. A closed mesh is solid, another is
 /// a shell with two sides that are alike. It rests at `center`, or moves as a whole in one of three ways: straight on,
-/// on an orbit with which it turns, or on keyframes; and it may change its shape.
+/// on an orbit with which it turns, or on keyframes. It may turn around its place on the way, and change its shape.
 struct Body {
   static constexpr std::string_view name = "body";
   static constexpr bool repeatable = true;
@@ -48,6 +48,7 @@ struct Body {
   Eigen::Vector3d orbit_axis = Orbit{}.axis;      ///< of any length but 0; counterclockwise seen from its tip
   std::vector<Keyframe> keyframes = {};           ///< of `center`, at increasing times from 0 s on [s, m]
   Interpolation interpolation = Interpolation::linear;
+  std::vector<Keyframe> turns = {};  ///< angles about the fixed x axis, then y, then z, from 0 at 0 s on [degrees]
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;
@@ -56,6 +57,7 @@ struct Body {
  private:
   [[nodiscard]] ContactLaw law() const;
   [[nodiscard]] std::shared_ptr<const MovingBody> body() const;
+  [[nodiscard]] std::shared_ptr<const SphereTrack> path(const std::optional<Orbit>& orbit) const;
 };
 
 /// A box around the origin: eight vertices, two triangles a side, seen counterclockwise from outside.

@@ -172,7 +172,7 @@ struct ContactFilter final : MotionFilter {
     // The push was evaluated where the vertices are, or solved for where they go.
     const bool at_end = law.response == Response::implicit_energy;
     const auto now = surface.at(at_end ? time + h : time);
-    const Eigen::Vector3d of_all = surface.displacement(time, time + h);
+    const auto drifts = way_of(surface, time, time + h);
     const double damping = 1 - 1 / (1 + 2 * h * std::sqrt(law.stiffness));
     const double softest = std::min(std::sqrt(law.stiffness), 1 / h);
     const double absorbed = law.restitution ? 1 : 0;
@@ -185,7 +185,7 @@ struct ContactFilter final : MotionFilter {
       if (!find_contact(now, i, point, contact)) continue;
       if (start && start->was_outside(i)) continue;  // it was not pushed
       const Eigen::Vector3d n = contact.normal();
-      const Eigen::Vector3d drift = displacement_at(surface, contact, time, time + h, of_all) / h;
+      const Eigen::Vector3d drift = drifts.of(contact) / h;
       const Eigen::Vector3d relative = v.row(i).transpose() - drift;
       double outward = relative.dot(n);
       const Eigen::Vector3d along = relative - outward * n;

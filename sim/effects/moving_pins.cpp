@@ -120,15 +120,12 @@ PinMotion MovingPins::motion(const Cloth& cloth) const {
     motion.anchors = std::make_shared<MeshAnchors>(*follow, motion.base, 0);
     return motion;
   }
-  const auto starting_at = [this](std::vector<Keyframe> all, const Eigen::Vector3d& start) {
-    if (all.empty() || all.front().time > 0) all.insert(all.begin(), {0, start});
-    return Keyframes(std::move(all), interpolation);
-  };
   const bool to_places = path == Path::position && !keyframes.empty();
-  motion.path = starting_at(keyframes, to_places ? middle(cloth) : Eigen::Vector3d::Zero());
+  const Eigen::Vector3d from = to_places ? middle(cloth) : Eigen::Vector3d::Zero();
+  motion.path = Keyframes(starting_at(keyframes, from), interpolation);
   if (to_places) motion.base.rowwise() -= middle(cloth).transpose();
   if (turns.empty()) return motion;
-  motion.turn = starting_at(turns, Eigen::Vector3d::Zero());
+  motion.turn = Keyframes(starting_at(turns, Eigen::Vector3d::Zero()), interpolation);
   motion.middle = to_places ? Eigen::Vector3d::Zero() : middle(cloth);
   return motion;
 }

@@ -82,13 +82,13 @@ struct ReboundFilter final : MotionFilter {
   void apply(const Vertices& x, double time, double h, Vertices& v) override {
     turns_.clear();
     const auto before = surface.at(time), after = surface.at(time + h);
-    const Eigen::Vector3d of_all = surface.displacement(time, time + h);
+    const auto drifts = way_of(surface, time, time + h);
     SurfaceContact contact;
     for (const int i : free) {
       if (!start->was_outside(i)) continue;
       const Eigen::Vector3d from = x.row(i).transpose(), mean = v.row(i).transpose();
       if (!find_contact(after, i, from + h * mean, contact)) continue;
-      const Eigen::Vector3d drift = displacement_at(surface, contact, time, time + h, of_all) / h;
+      const Eigen::Vector3d drift = drifts.of(contact) / h;
       // The gap on the way there is c + b·t + fall/2·t².
       const double fall = gravity.dot(contact.normal()), c = std::max(0.0, before.gap(from));
       const double b = (contact.gap - c) / h - 0.5 * fall * h;

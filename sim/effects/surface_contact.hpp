@@ -27,16 +27,21 @@ bool find_contact(const Shape& shape, Eigen::Index vertex, const Eigen::Vector3d
   }
 }
 
-/// How far the part of a surface that a vertex touches goes from one time to another [s], where its parts do not move
-/// alike: then it has a displacement(contact, from, to).
-/// @param of_all its displacement(from, to) [m]
+/// How far the parts of a surface go in a while, where all of them go alike.
+struct CommonWay {
+  Eigen::Vector3d all;  ///< [m]
+
+  [[nodiscard]] const Eigen::Vector3d& of(const SurfaceContact&) const { return all; }
+};
+
+/// How far the part of a surface that a vertex touches goes from one time to another [s]: of(contact) of what this
+/// returns. Where the parts do not move alike, the surface has a way(from, to).
 template <class Surface>
-Eigen::Vector3d displacement_at(const Surface& surface, const SurfaceContact& contact, double from, double to,
-                                const Eigen::Vector3d& of_all) {
-  if constexpr (requires { surface.displacement(contact, from, to); }) {
-    return surface.displacement(contact, from, to);
+auto way_of(const Surface& surface, double from, double to) {
+  if constexpr (requires { surface.way(from, to); }) {
+    return surface.way(from, to);
   } else {
-    return of_all;
+    return CommonWay{surface.displacement(from, to)};
   }
 }
 

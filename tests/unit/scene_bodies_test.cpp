@@ -51,6 +51,35 @@ TEST(SceneBodies, MoveStraightOnKeyframesOrTurnWithTheirOrbit) {
   EXPECT_LT((corner("rotate = [0, 0, 90]", 0) - RowVector3d(-1, 1, 1)).norm(), 1e-14);
 }
 
+TEST(SceneBodies, TurnOnKeyframes) {
+  const SceneFolder folder;
+  const auto corner = [&](const std::string& lines, double time) {
+    return RowVector3d(shape_at(folder.load(with_body("box = [2, 2, 2]\n" + lines)), time).positions.row(7));
+  };
+  // From 0 at 0 s on, as pins do: a quarter of a turn about z in one second, and then it stays.
+  const std::string quarter = "rotations = [{ time = 1, rotate = [0, 0, 90] }]\n";
+  EXPECT_EQ(corner(quarter, 0), RowVector3d(1, 1, 1));
+  EXPECT_LT((corner(quarter, 0.5) - RowVector3d(0, std::sqrt(2.0), 1)).norm(), 1e-14);
+  EXPECT_LT((corner(quarter, 3) - RowVector3d(-1, 1, 1)).norm(), 1e-14);
+  // Around its place, wherever that is, and on top of how it is turned: about the fixed x axis first, then z.
+  const std::string both = "rotate = [90, 0, 0]\n" + quarter + "velocity = [0, 0, 5]";
+  EXPECT_LT((corner(both, 1) - RowVector3d(1, 1, 6)).norm(), 1e-14);
+  EXPECT_LT((corner("rotations = [{ time = 0, rotate = [0, 0, 90] }]", 0) - RowVector3d(-1, 1, 1)).norm(), 1e-14);
+  EXPECT_EQ(folder.problems(with_body("box = [1, 1, 1]\norbit_period = 2\n" + quarter)),
+            "scene.toml:9:13: rotations: omit them on an orbit: the body turns with it");
+}
+
+TEST(SceneBodies, AreFilesWithYUpAndSequencesOfAnyRate) {
+  const SceneFolder folder;
+  folder.write("tent.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+  const MeshShape tent = shape_at(folder.load(with_body("file = { file = \"tent.obj\", up = \"y\" }")), 0);
+  EXPECT_EQ(RowVector3d(tent.positions.row(2)), RowVector3d(0, 0, 2));
+  folder.write("wave1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.write("wave2.obj", "v 0 0 0\nv 1 0 0\nv 0 1 8\nf 1 2 3\n");
+  const Scene wave = folder.load(with_body("file = { file = \"wave{frame}.obj\", fps = 2 }"));
+  EXPECT_EQ(shape_at(wave, 0.25).positions(2, 2), 4);
+}
+
 TEST(SceneBodies, SayWhatIsWrong) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems(with_body("thickness = 0.1")), "scene.toml:6:1: missing key 'box' in [effects.body]");

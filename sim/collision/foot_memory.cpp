@@ -1,0 +1,158 @@
+#include "sim/collision/foot_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace drape {
+namespace {
+
+using Index = std::size_t;
+
+// How far a point may go from where it was before its triangles are searched anew, in reaches, if there are few.
+constexpr double walk = 0.5;
+// What is nearer than another by less is as near, in reaches: far more than rounding.
+constexpr double equal = 1e-6;
+// How often a few triangles are compared before they are measured from where the point is now.
+constexpr int patience = 16;
+
+/// The square of a little less than a distance, so that rounding does not matter; −1 of none.
+double square_of_part(double distance) { return distance > 0 ? (1 - 1e-9) * distance * distance : -1; }
+
+}  // namespace
+
+FootMemory::FootMemory(std::size_t points, double reach) : reach_(reach), known_(points), near_(points) {}
+
+bool FootMemory::find_slowly(const PlacedMesh& mesh, std::size_t k, const Point& point, Foot& foot) {
+  Known& known = known_[k];
+  Near& near = near_[k];
+  // Every distance has changed by that at most.
+  double moved = (point - known.point).norm() + std::abs(mesh.travel() - known.travel);
+  if (moved * moved < known.clear_squared) return false;
+  if (!covers(near, moved)) {
+    look(mesh, point, known, near);
+    moved = 0;
+  } else if (++near.asked > patience) {
+    look_again(mesh, point, moved, known, near);
+    moved = 0;
+  }
+  if (near.count == 0) return false;
+  if (covers(near, moved)) return find_among(mesh, point, moved, known.triangle, near, foot);
+  // More triangles than there is room for are as near.
+  foot = mesh.find(point, reach_, known.triangle).value_or(Foot{.distance = reach_});
+  return foot.distance < reach_;
+}
+
+bool FootMemory::covers(const Near& near, double moved) const {
+  return near.count > 0 && near.nearest + 2 * moved + equal * reach_ < near.all_within;
+}
+
+bool FootMemory::find_among(const PlacedMesh& mesh, const Point& point, double moved, int first, const Near& near,
+                            Foot& foot) const {
+  int triangle = first;
+  Nearest best = mesh.nearest_on(triangle, point);
+  const double may_be_nearest = near.nearest + 2 * moved + equal * reach_;
+  for (Index j = 0; j < Index(near.count) && near.least[j] <= may_be_nearest; ++j) {
+    const int other = near.triangles[j];
+    if (other == first || mesh.least_squared(other, point) > best.squared) continue;
+    const Nearest there = mesh.nearest_on(other, point);
+    if (!(there.squared < best.squared || (there.squared == best.squared && other < triangle))) continue;
+    best = there;
+    triangle = other;
+  }
+  foot = mesh.foot(point, triangle, best);
+  return foot.distance < reach_;
+}
+
+void FootMemory::look(const PlacedMesh& mesh, const Point& point, Known& known, Near& near) const {
+  known = {.point = point, .travel = mesh.travel()};
+  near.count = near.asked = 0;
+  const double far = 2 * reach_, away = mesh.tree().distance(point);
+  if (away > far) {
+    known.clear_squared = square_of_part(away - reach_);
+    return;
+  }
+  // One more than there is room for says how far what is left out is at least.
+  std::array<double, most + 1> least;
+  std::array<int, most + 1> triangles;
+  Index count = 0;
+  int nearest = -1;
+  double within = mesh.solid() ? std::numeric_limits<double>::infinity() : far, limit = within * within;
+  double best = limit;
+  mesh.tree().for_nearest(point, limit, [&](int t) {
+    const double squared = mesh.least_squared(t, point);
+    if (squared >= limit) return;
+    const double distance = std::sqrt(squared);
+    if (squared <= best) {
+      const double exactly = mesh.nearest_on(t, point).squared;
+      if (exactly < best) {
+        best = exactly;
+        nearest = t;
+      }
+    }
+    Index at = std::min(count, most);
+    for (; at > 0 && least[at - 1] > distance; --at) {
+      least[at] = least[at - 1];
+      triangles[at] = triangles[at - 1];
+    }
+    least[at] = distance;
+    triangles[at] = t;
+    count = std::min(count + 1, most + 1);
+    within = std::min(within, std::sqrt(best) + 2 * walk * reach_);
+    if (count > most) within = std::min(within, least[most]);
+    limit = within * within;
+  });
+  if (nearest < 0) {
+    known.clear_squared = square_of_part(far - reach_);
+    return;
+  }
+  near.nearest = std::sqrt(best);
+  near.count = static_cast<int>(std::min(count, most));
+  near.all_within = within;
+  std::copy_n(least.begin(), near.count, near.least.begin());
+  std::copy_n(triangles.begin(), near.count, near.triangles.begin());
+  remember(mesh, point, nearest, known, near);
+}
+
+void FootMemory::look_again(const PlacedMesh& mesh, const Point& point, double moved, Known& known, Near& near) const {
+  near.asked = 0;
+  near.all_within -= moved + equal * reach_;
+  double best = std::numeric_limits<double>::infinity();
+  int nearest = -1;
+  for (Index j = 0; j < Index(near.count); ++j) {
+    const int triangle = near.triangles[j];
+    const double squared = mesh.least_squared(triangle, point), distance = std::sqrt(squared);
+    if (squared <= best) {
+      const double exactly = mesh.nearest_on(triangle, point).squared;
+      if (exactly < best) {
+        best = exactly;
+        nearest = triangle;
+      }
+    }
+    Index at = j;
+    for (; at > 0 && near.least[at - 1] > distance; --at) {
+      near.least[at] = near.least[at - 1];
+      near.triangles[at] = near.triangles[at - 1];
+    }
+    near.least[at] = distance;
+    near.triangles[at] = triangle;
+  }
+  near.nearest = std::sqrt(best);
+  remember(mesh, point, nearest, known, near);
+}
+
+void FootMemory::remember(const PlacedMesh& mesh, const Point& point, int nearest, Known& known,
+                          const Near& near) const {
+  double second = near.all_within;
+  for (Index j = 0; j < std::min(Index(2), Index(near.count)); ++j) {
+    if (near.triangles[j] != nearest) second = std::min(second, near.least[j]);
+  }
+  const Foot foot = mesh.foot(point, nearest, mesh.nearest_on(nearest, point));
+  known = {.point = point,
+           .travel = mesh.travel(),
+           .clear_squared = square_of_part(foot.distance - reach_),
+           .alone_squared = square_of_part((second - near.nearest - equal * reach_) / 2),
+           .triangle = nearest};
+}
+
+}  // namespace drape
