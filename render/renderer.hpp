@@ -21,9 +21,9 @@
 
 namespace drape {
 
-/// Draws frames without a window. Has a GL context of its own for as long as it lives: make, use and destroy it on one
-/// thread. Several may live on a thread. The context of one that has gone, with its compiled shaders, is taken by the
-/// next that is made, on whatever thread. The same frame gives the same bytes, on any number of threads inside Mesa.
+/// Draws frames without a window. Owns a GL context for its lifetime: make, use and destroy it on one thread, which may
+/// have several. The next renderer, on any thread, reuses the context and the compiled shaders of one that has been
+/// destroyed. The same frame gives the same bytes, on any number of threads inside Mesa.
 class Renderer {
  public:
   /// @param data_folder  holds shaders/
@@ -41,19 +41,19 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Draws what comes next from another place.
+  /// Draws the following frames from another viewpoint.
   void look_from(const View& view);
 
   /// @throws std::invalid_argument if the frame has another number of vertices
   /// @throws OutputError if OpenGL reports an error
   Image draw(const Frame& frame);
 
-  /// Draws the cloth in colours of its vertices, which show something about them, in place of its texture or colour.
+  /// Draws the cloth with a colour per vertex, which shows something about it, in place of its texture or colour.
   /// @param vertex_colors one for each vertex; they are lit like any other
   /// @throws std::invalid_argument if there is not one for each vertex
   Image draw(const Frame& frame, const std::vector<Rgb>& vertex_colors);
 
-  /// What draws: OpenGL's renderer and version.
+  /// The OpenGL renderer in use, and its version.
   [[nodiscard]] std::string description() const;
 
  private:

@@ -34,7 +34,7 @@ struct Camera {
 /// in a scene.
 enum class ColorBy { stretch, speed, curvature };
 
-/// What things look like. Colours are sRGB.
+/// The look of a picture. Colours are sRGB.
 struct Look {
   std::filesystem::path texture = {};  ///< an image file; empty: the plain `color`
   Rgb color{0.85, 0.65, 0.13};         ///< of the cloth, where it has no texture
@@ -69,7 +69,7 @@ struct Video {
   double speed = 1;
   Eigen::Vector2i size{480, 400};
 
-  /// The number of the last frame of a motion, of which frame k is taken at k·speed/fps seconds.
+  /// The number of a motion's last frame. Frame k is taken at k·speed/fps seconds.
   /// @param duration of the motion [s]
   [[nodiscard]] double last_frame(double duration) const {
     // Both are products of decimal fractions: a frame at the motion's end must not miss it by their rounding.

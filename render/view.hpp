@@ -13,12 +13,12 @@
 
 namespace drape {
 
-/// How near and how far from the camera's plane things are drawn [m], 0 < near < far.
+/// The near and far clipping distances from the camera's plane [m], 0 < near < far.
 struct DepthRange {
   double near = 0.1, far = 100;
 };
 
-/// A perspective camera, all of it known.
+/// A perspective camera with all of its parameters known.
 struct View {
   Eigen::Vector3d position{0, 0, 1};  ///< [m]
   Eigen::Vector3d target{0, 0, 0};    ///< what is in the middle of the picture [m]

@@ -34,31 +34,31 @@ struct Cloth {
   [[nodiscard]] int vertex_count() const { return static_cast<int>(positions.rows()); }
 };
 
-/// The diagonal of the box around the cloth as it starts, or its longest spring's rest length where that is more [m].
+/// The diagonal of the box around the cloth as it starts, or the rest length of its longest spring if larger [m].
 double size_of(const Cloth& cloth);
 
-/// The homework's cloth: one spring per edge of `rest`, as long as there and all equally stiff, and the total mass
-/// shared equally by all vertices.
+/// The homework's cloth: one spring per edge of `rest`, with the edge's length and the same stiffness everywhere, and
+/// the total mass shared equally among all vertices.
 /// @param start    the mesh whose positions the cloth starts from, at rest
-/// @param rest     the same triangles in the shape whose edge lengths the springs want to have
+/// @param rest     the same triangles in the shape whose edge lengths are the rest lengths
 /// @param mass     of the whole cloth, positive [kg]
 /// @param stiffness of every spring, positive [N/m]
 /// @param pins     vertices that do not move, in any order
-/// @throws std::invalid_argument if start and rest do not match, or a pin is no vertex
+/// @throws std::invalid_argument if start and rest do not match, or a pin is not a vertex
 Cloth make_cloth(const Mesh& start, const Mesh& rest, double mass, double stiffness, std::vector<int> pins);
 
-/// Gives every vertex the mass of a third of each rest triangle at it, so that a mesh's cells do not matter: a sheet
-/// has the same mass per area wherever it is finer.
+/// Gives every vertex the mass of a third of each rest triangle at it, so that the mesh does not matter: fine and
+/// coarse parts of a sheet have the same mass per area.
 /// @param density of the cloth, positive [kg/m²]
 /// @throws std::invalid_argument if a vertex has no triangle with an area
 void share_mass_by_area(double density, Cloth& cloth);
 
 /// Gives every spring the stiffness E·A/l², l its rest length and A the area of the rest triangles at it (Van Gelder
 /// 1998, "Approximate simulation of elastic membranes by triangulated spring meshes"), so that a force stretches a
-/// sheet by as much however fine its mesh is. What E is follows from the mesh. Per area the springs at angles θ hold
-/// ½E·3⟨ε(θ)²⟩ where edges have all directions alike: that is the uniaxial stiffness E with a Poisson's ratio of 1/3.
-/// On a grid with one diagonal it is E along the edges while shear is free to follow, with no contraction, and 1.2 E
-/// where shear is held (docs/scene-format.md).
+/// sheet by the same amount however fine its mesh is. What E means depends on the mesh. Per area the springs at angles
+/// θ hold ½E·3⟨ε(θ)²⟩ where edges have all directions alike: that is the uniaxial stiffness E with a Poisson's ratio of
+/// 1/3. On a grid with one diagonal it is E along the edges while shear is free to follow, with no contraction, and 1.2
+/// E where shear is held (docs/scene-format.md).
 /// @param modulus E, force per width and strain, positive [N/m]
 /// @throws std::invalid_argument if a spring has no triangle with an area
 void stiffen_by_area(double modulus, Cloth& cloth);

@@ -16,7 +16,7 @@
 
 namespace drape {
 
-/// What is known of one moment: where everything is, which is what a drawing needs, and how the cloth moves.
+/// One moment of a motion: where everything is, which is all that drawing needs, and how the cloth moves.
 struct Frame {
   int index = 0;                          ///< number of the frame, from 0
   double time = 0;                        ///< [s], in the scene's time
@@ -24,7 +24,7 @@ struct Frame {
   std::vector<Collider> colliders = {};   ///< in the order of the scene
   Vertices velocities = {};               ///< n×3 [m/s]; empty unless asked for
   std::optional<Energies> energies = {};  ///< absent unless asked for
-  int iterations = 0;                     ///< of the step that it is in, or ends with
+  int iterations = 0;                     ///< of the step that contains this moment, or ends at it
 };
 
 }  // namespace drape

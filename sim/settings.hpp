@@ -31,13 +31,13 @@ inline constexpr std::string_view explicit_title(Method method) {
   return method == Method::verlet ? "velocity Verlet" : "semi-implicit Euler";
 }
 
-/// How time advances with a method that is not explicit.
+/// The time integration of an implicit method.
 enum class TimeScheme {
   backward_euler,  ///< of first order
   sdirk2           ///< of second order, in two stages (Alexander 1977)
 };
 
-/// How a motion is computed, in a name: a method and, where it is implicit, its scheme.
+/// A method and, if it is implicit, its scheme: together they have a name.
 struct StepMethod {
   Method method = Method::liu13;
   TimeScheme scheme = TimeScheme::backward_euler;
@@ -59,7 +59,7 @@ inline constexpr std::array step_methods{
     StepMethod{Method::quasi_newton, TimeScheme::sdirk2},
 };
 
-/// The power of the step with which the error of a motion falls.
+/// The order of convergence: the error of a motion falls with this power of the step.
 inline constexpr int order_of(StepMethod how) {
   return how.method == Method::verlet || how.scheme == TimeScheme::sdirk2 ? 2 : 1;
 }
@@ -79,7 +79,7 @@ enum class LinearSolver {
   conjugate_gradients  ///< preconditioned with Liu13's matrix
 };
 
-/// The scene's [integrator] table. Keys that a method does not use are ignored by it.
+/// The scene's [integrator] table. A method ignores the keys that it does not use.
 struct IntegratorSettings {
   Method method = Method::quasi_newton;
   TimeScheme scheme = TimeScheme::backward_euler;

@@ -49,8 +49,8 @@ class Simulation {
   ///         before the step; what is said of the last step below is not.
   StepReport step();
 
-  /// Takes the last step back, where a stop is possible; once, and not if anything was restored since. For whoever is
-  /// interrupted while he looks at a step that is over.
+  /// Takes the last step back, where a stop is possible; once, and not if anything was restored since. For an
+  /// interruption that comes while a finished step is being examined.
   void take_back();
 
   /// Continues from another state of the same cloth, at any step.

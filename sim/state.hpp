@@ -19,11 +19,11 @@ struct State {
   std::int64_t step = 0;
 };
 
-/// A hash of a state to the bit: of its step, its positions and its velocities. Two runs that agree in it agree in all
-/// that follows; it tells states apart, but is not cryptographic.
+/// A hash of a state to the bit: of its step, its positions and its velocities. Two runs with the same hash agree from
+/// there on. It tells states apart, but is not cryptographic.
 std::uint64_t hash_of(const State& state);
 
-/// What a simulation remembers of the energy of its motion, to recognise one that blows up.
+/// What a simulation remembers of its energy, to recognise a blow-up.
 struct EnergyMemory {
   double explained = 0;  ///< [J]
   Vertices looked_at;    ///< where the cloth was when it last looked, n×3 [m]
