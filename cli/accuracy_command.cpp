@@ -114,6 +114,7 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
   AccuracyOptions options = arguments.options;
   options.methods = parse_methods(arguments.methods);
   options.parts = parse_parts(arguments.parts);
+  options.of_several_scenes = arguments.scenes.size() > 1;
   const std::vector<AnimatedBy> animations = parse_animations(arguments.animations);
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, options.overrides);
   // What is wrong is said before hours of work.

@@ -50,6 +50,7 @@ struct AccuracyOptions {
   RunCount runs = {};
   AccuracyParts parts = {};
   GlBackend backend = GlBackend::automatic;  ///< of the films
+  bool of_several_scenes = false;            ///< a method that cannot compute one of them is left out there
 };
 
 /// What is kept of a case that was measured.

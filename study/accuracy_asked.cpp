@@ -32,16 +32,19 @@ html::ChartPoint point_of(const SceneAccuracy& scene, const MotionPoint& p, doub
           {}};
 }
 
-/// Cost across, and something of the motions up: with an accuracy that was asked for, and dashed with fixed steps.
+/// Cost across, and something of the motions up, for methods of an order: with an accuracy that was asked for, and
+/// dashed with fixed steps.
 template <class Value>
-html::Chart by_cost(const SceneAccuracy& scene, const std::string& title, const std::string& y_title, Value value) {
+html::Chart by_cost(const SceneAccuracy& scene, int order, const std::string& title, const std::string& y_title,
+                    Value value) {
   html::Chart chart{title, cost_title, y_title, html::Scale::logarithmic, html::Scale::logarithmic, {}, {}};
   for (const auto* points : {&scene.asked, &scene.fixed}) {
     const bool fixed = points == &scene.fixed;
     for (const StepMethod method : scene.options.methods) {
+      if (order_of(method) != order) continue;
       html::ChartSeries series = method_series(step_method_name(method));
       if (fixed) series.name += ", fixed steps";
-      series.other = series.other || fixed;
+      series.other = fixed;
       for (const MotionPoint& p : *points) {
         if (p.method != method || !p.measured.failure.empty()) continue;
         series.points.push_back(point_of(scene, p, p.measured.cost().median, value(p), fixed ? "h" : "accuracy"));
@@ -203,23 +206,29 @@ std::vector<NamedChart> asked_charts(const SceneAccuracy& scene) {
   std::vector<NamedChart> charts;
   if (!scene.asked.empty()) charts.push_back({scene.name + "-asked-and-got", asked_and_got(scene)});
   if (scene.asked.empty() && scene.fixed.empty()) return charts;
-  charts.push_back({scene.name + "-error-cost",
-                    by_cost(scene,
-                            fmt::format("Error at {:g} s by what the motion costs, with an accuracy that was asked for "
-                                        "and, dashed, with fixed steps and the default tolerance.",
-                                        scene.options.times.front()),
-                            "error [m]", [](const MotionPoint& p) { return p.errors.front().max; })});
-  if (!scene.options.parts.films) return charts;
-  html::Chart films =
-      by_cost(scene,
-              fmt::format("How different the film looks: the mean FLIP error of its frames up to {:g} s, "
-                          "0 to 1, by what the motion costs.",
-                          scene.options.times.back()),
-              "FLIP error", [](const MotionPoint& p) { return p.flip.value_or(NAN); });
-  if (scene.film_unknown && *scene.film_unknown > 0) {
-    films.levels.push_back({*scene.film_unknown, "uncertainty of the reference"});
+  for (const int order : {1, 2}) {
+    const std::string of_order = order == 1 ? "Methods of first order" : "Methods of second order";
+    const std::string of_second = order == 1 ? "" : "-second-order";
+    html::Chart errors =
+        by_cost(scene, order,
+                fmt::format("{}: error at {:g} s by what the motion costs, with an accuracy that was asked for and, "
+                            "dashed, with fixed steps and the default tolerance.",
+                            of_order, scene.options.times.front()),
+                "error [m]", [](const MotionPoint& p) { return p.errors.front().max; });
+    if (errors.series.empty()) continue;
+    charts.push_back({scene.name + "-error-cost" + of_second, std::move(errors)});
+    if (!scene.options.parts.films) continue;
+    html::Chart films =
+        by_cost(scene, order,
+                fmt::format("{}: how different the film looks, the mean FLIP error of its frames up to {:g} s, "
+                            "0 to 1, by what the motion costs.",
+                            of_order, scene.options.times.back()),
+                "FLIP error", [](const MotionPoint& p) { return p.flip.value_or(NAN); });
+    if (scene.film_unknown && *scene.film_unknown > 0) {
+      films.levels.push_back({*scene.film_unknown, "uncertainty of the reference"});
+    }
+    charts.push_back({scene.name + "-film" + of_second, std::move(films)});
   }
-  charts.push_back({scene.name + "-film", std::move(films)});
   return charts;
 }
 

@@ -103,6 +103,7 @@ void add_asked_case(AccuracyCases& cases, const Scene& scene, const std::string&
 
 void leave_out_methods(const Scene& scene, const std::string& file, AccuracyOptions& options,
                        std::vector<std::string>& notes) {
+  const std::vector<StepMethod> given = options.methods;
   std::erase_if(options.methods, [&](StepMethod method) {
     StudyCase what = by_default(file, options, method, "");
     what.overrides.emplace_back("time.accuracy=1");  // so no step is refused for its length
@@ -115,6 +116,7 @@ void leave_out_methods(const Scene& scene, const std::string& file, AccuracyOpti
       return true;
     }
   });
+  if (options.methods.empty()) options.methods = given;  // which says why it cannot be run
 }
 
 AccuracyCases accuracy_cases(const Scene& scene, const std::string& file, const AccuracyOptions& options,

@@ -22,7 +22,7 @@ struct AccuracyCases {
   std::vector<StepCase> fixed;  ///< with a time step and the default tolerance
 };
 
-/// Takes out of the options the methods that cannot compute the scene whatever the step.
+/// Takes out of the options the methods that cannot compute the scene whatever the step, unless none can.
 /// @param notes gets a sentence about each
 void leave_out_methods(const Scene& scene, const std::string& file, AccuracyOptions& options,
                        std::vector<std::string>& notes);

@@ -9,6 +9,7 @@
 #include "study/accuracy_asked.hpp"
 #include "study/accuracy_charts.hpp"
 #include "study/accuracy_cheapest.hpp"
+#include "study/accuracy_summary.hpp"
 #include "study/profile.hpp"
 
 namespace drape {
@@ -160,6 +161,8 @@ StudyReport accuracy_report(const AccuracyStudy& study) {
   report.seconds = study.seconds;
   report.provenance = study.provenance;
   report.answer = answer_section(study);
+  if (auto summary = asked_summary(scenes)) report.sections.push_back(std::move(*summary));
+  if (auto summary = solve_summary(scenes)) report.sections.push_back(std::move(*summary));
   if (auto profile = profile_section(scenes)) report.sections.push_back(std::move(*profile));
   for (const SceneAccuracy& scene : scenes) {
     add_findings(report, scene);

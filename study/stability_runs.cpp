@@ -7,6 +7,7 @@
 
 #include "core/build_info.hpp"
 #include "core/read_file.hpp"
+#include "scene/method_names.hpp"
 #include "study/runs_file.hpp"
 #include "study/stability_map.hpp"
 

@@ -152,6 +152,18 @@ TEST(Study, OfAccuracySaysWhatItCannotMeasure) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
+// A profile over many scenes counts it as a miss.
+TEST(Study, OfSeveralScenesLeavesAMethodOutWhereItCannotRun) {
+  const SceneFolder folder;
+  folder.write("a.toml", swing);
+  folder.write("b.toml", swing + "[effects.sphere]\ncenter = [0, 0, -1]\nradius = 0.1\nresponse = \"implicit\"\n");
+  const Finished finished = drape(folder,
+                                  "study accuracy a.toml b.toml --parts asked --times 0.1 --steps 0.02 --accuracies "
+                                  "1e-3 --methods quasi-newton,semi-implicit --runs 1 --animate none -o results");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  EXPECT_NE(finished.text.find("semi-implicit cannot compute"), std::string::npos) << finished.text;
+}
+
 TEST(Study, OfScalingWritesEverything) {
   const SceneFolder folder;
   const Finished finished = drape(folder, "study scaling --largest 10 --runs 1 -o results");
