@@ -6,8 +6,6 @@
 #include "sim/make_system.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/schemes/registry.hpp"
-#include "sim/schemes/substep_guard.hpp"
-#include "sim/schemes/substeps.hpp"
 #include "sim/spring_network.hpp"
 #include "sim/step_forces.hpp"
 
@@ -108,10 +106,8 @@ void Simulation::Motion::enter_phase() {
 }
 
 std::unique_ptr<Scheme> Simulation::Motion::make_scheme() {
-  if (!settings.accuracy) return method_type(settings.integrator.method).make(settings.integrator, *system);
-  const auto make = [this](double step) { return make_system(settings, step, measured(), stop, threads); };
-  const int fewest = SubstepGuard::fewest_halvings(settings.step, guard->longest_step());
-  return std::make_unique<SubstepScheme>(settings, fewest, make);
+  return drape::make_scheme(settings, *system, *guard,
+                            [this](double step) { return make_system(settings, step, measured(), stop, threads); });
 }
 
 StepReport Simulation::Motion::step() {

@@ -8,12 +8,12 @@ BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver
     : MinimisingScheme(system, system.step, make_solver), books_(system, objective_, solver_->accuracy()) {}
 
 StepReport BackwardEuler::advance(State& state, StepForces& forces) {
+  const Expected expected = take_expected();
   system_.begin(state);
   const Vertices& force = forces.all(state, system_.time(state.step));
   objective_.begin(state.x, state.v, force, system_.time(state.step + 1));
   books_.begin(state, point_.x);
-  copy(system_.threads, objective_.y(), point_.x);
-  point_.value = objective_.evaluate(point_.x, point_.gradient);
+  begin_point(state.x, state.v, expected.late);
   StepReport report = solver_->minimise(point_, [this] { return !books_.gains(point_, true); });
   // A step that a small change ended has been looked at.
   const bool looked = report.converged && solver_->accuracy().rule == StoppingRule::change;

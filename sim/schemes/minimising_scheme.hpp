@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "sim/parallel/vectors.hpp"
 #include "sim/schemes/energy_books.hpp"
@@ -16,6 +18,7 @@ class MinimisingScheme : public Scheme {
  public:
   using MakeSolver = std::function<std::unique_ptr<Minimiser>(const StepObjective& objective)>;
 
+  void expect(const Vertices& early, const Vertices& late) override { expected_ = {&early, &late}; }
   [[nodiscard]] double residual() override { return norm(system_.threads, point_.gradient); }
   [[nodiscard]] double error() override { return solver_->error(point_); }
   [[nodiscard]] double unbalanced() override { return point_.gradient.rowwise().norm().sum(); }
@@ -30,11 +33,34 @@ class MinimisingScheme : public Scheme {
         point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
         free_(is_free(system)) {}
 
+  struct Expected {
+    const Vertices *early = nullptr, *late = nullptr;
+  };
+  /// What the step that begins expects, and no other will, even if this one does not come to its end.
+  Expected take_expected() { return std::exchange(expected_, {}); }
+
+  /// Sets the point to where a minimisation begins: where an acceleration leads from x and v, or if null to the
+  /// objective's y.
+  void begin_point(const Vertices& x, const Vertices& v, const Vertices* expected) {
+    if (expected != nullptr) {
+      const double t = objective_.duration();
+      point_.x = x + t * v + t * t * *expected;
+      for (const int pin : system_.cloth.pins) point_.x.row(pin) = objective_.y().row(pin);
+      point_.value = objective_.evaluate(point_.x, point_.gradient);
+      if (std::isfinite(point_.value)) return;
+    }
+    copy(system_.threads, objective_.y(), point_.x);
+    point_.value = objective_.evaluate(point_.x, point_.gradient);
+  }
+
   const System& system_;
   StepObjective objective_;
   std::unique_ptr<Minimiser> solver_;
   Iterate point_;
   bool free_;  // see is_free()
+
+ private:
+  Expected expected_;
 };
 
 }  // namespace drape

@@ -10,6 +10,7 @@
 #include "sim/schemes/sdirk2_guard.hpp"
 #include "sim/schemes/semi_implicit_euler.hpp"
 #include "sim/schemes/substep_guard.hpp"
+#include "sim/schemes/substeps.hpp"
 #include "sim/schemes/verlet.hpp"
 #include "sim/solvers/local_global.hpp"
 #include "sim/solvers/newton.hpp"
@@ -58,6 +59,14 @@ std::unique_ptr<StabilityGuard> make_guard(const SimulationSettings& settings, c
   auto guard = method_type(settings.integrator.method).make_guard(settings.integrator, system);
   if (!settings.accuracy) return guard;
   return std::make_unique<SubstepGuard>(std::move(guard), settings.step);
+}
+
+std::unique_ptr<Scheme> make_scheme(const SimulationSettings& settings, const System& system,
+                                    const StabilityGuard& guard,
+                                    const std::function<System(double step)>& make_system) {
+  if (!settings.accuracy) return method_type(settings.integrator.method).make(settings.integrator, system);
+  const int fewest = SubstepGuard::fewest_halvings(settings.step, guard.longest_step());
+  return std::make_unique<SubstepScheme>(settings, fewest, make_system);
 }
 
 std::optional<std::string> stability_problem(const SimulationSettings& settings, const System& system) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,13 @@ const MethodType& method_type(Method method);
 
 /// The guard of a motion with these settings, with an accuracy a SubstepGuard.
 std::unique_ptr<StabilityGuard> make_guard(const SimulationSettings& settings, const System& system);
+
+/// What takes the steps of a motion with these settings: the method's scheme, and nothing else unless an accuracy is
+/// asked for; then a SubstepScheme.
+/// @param guard of the motion @param make_system with steps of another length [s], for an accuracy
+/// @throws UsageError as MethodType::make does
+std::unique_ptr<Scheme> make_scheme(const SimulationSettings& settings, const System& system,
+                                    const StabilityGuard& guard, const std::function<System(double step)>& make_system);
 
 /// Why the motion cannot be computed with these settings, in a sentence: the step is beyond what the method's guard
 /// allows. Nothing where it can.

@@ -22,6 +22,10 @@ class Scheme {
   /// Zero for a method that minimises nothing. Not counted in the step: it is evaluated when asked for.
   [[nodiscard]] virtual double residual() { return 0; }
 
+  /// Has the next step expect these accelerations, early in it and at its end, n×3 [m/s²]: what solves for where the
+  /// cloth goes begins where they lead, and is the sooner there. They must stay until then.
+  virtual void expect(const Vertices& /*early*/, const Vertices& /*late*/) {}
+
   // Likewise, for a method that minimises nothing zero, and nothing:
 
   /// How far the worst vertex is from the exact solution of the last step, estimated [m]; see Minimiser::error.

@@ -20,18 +20,19 @@ Sdirk2::Sdirk2(const System& system, const MakeSolver& make_solver)
 StepReport Sdirk2::advance(State& state, StepForces& forces) {
   const double start = system_.time(state.step), end = system_.time(state.step + 1);
   const double first = start + tableau::gamma * system_.step;
+  const Expected expected = take_expected();
   StepReport report;
   system_.begin(state);
   system_.correct_half(state);
   find_forces(state, forces);
   stage_ = state;
   pushes_.begin(state.x, start);
-  solve(first, report);
+  solve(first, expected.early, report);
   pushes_.add(stage_.x, first, 1 - tableau::gamma);
   if (forces.any_of_velocity()) find_second_forces(first, forces);
   stage_.x = state.x + tableau::rest * (stage_.x - state.x);
   stage_.v = state.v + tableau::rest * (stage_.v - state.v);
-  solve(end, report);
+  solve(end, expected.late, report);
   pushes_.add(stage_.x, end, tableau::gamma);
   pushes_.limit(start, end, stage_.v);
   state.v = stage_.v;
@@ -62,10 +63,9 @@ void Sdirk2::find_second_forces(double time, StepForces& forces) {
   force_ += (of_stage_ - (1 - tableau::gamma) * of_start_) / tableau::gamma;
 }
 
-void Sdirk2::solve(double end, StepReport& report) {
+void Sdirk2::solve(double end, const Vertices* expected, StepReport& report) {
   objective_.begin(stage_.x, stage_.v, force_, end);
-  copy(system_.threads, objective_.y(), point_.x);
-  point_.value = objective_.evaluate(point_.x, point_.gradient);
+  begin_point(stage_.x, stage_.v, expected);
   const StepReport stage = solver_->minimise(point_, [] { return true; });
   if (free_) balance_momentum(system_.cloth, objective_, point_);
   divided_difference(system_.threads, point_.x, stage_.x, objective_.duration(), stage_.v);

@@ -38,8 +38,8 @@ class Sdirk2 final : public MinimisingScheme {
   void find_forces(const State& state, StepForces& forces);
   /// Of the second: as force_ they give the step what the weights δ and 1 − δ do.
   void find_second_forces(double time, StepForces& forces);
-  /// A step of backward Euler of γh seconds from stage_, which becomes its end.
-  void solve(double end, StepReport& report);
+  /// A step of backward Euler of γh seconds from stage_, which becomes its end; see begin_point().
+  void solve(double end, const Vertices* expected, StepReport& report);
 
   State stage_;
   Vertices force_;                      // of a stage [N]

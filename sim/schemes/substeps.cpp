@@ -12,22 +12,28 @@
 namespace drape {
 namespace {
 
-constexpr int gap = 2;  // halvings between the two motions
-constexpr int shorter_in_longer = 1 << gap;
+constexpr int gap = 2, widest_gap = 3;    // halvings between the two motions
 constexpr int halvings_to_look_with = 6;  // where a step takes about the same time whatever k, as implicit ones do
 constexpr std::size_t most_kept = 4;      // attempts
 
-constexpr double solve_share = 0.3;  // of the accuracy
+constexpr double halfway = 0.5;            // to the motion of higher order
+constexpr double apart_of_same_order = 9;  // times the error of the shorter substeps
 constexpr double most_default_errors = 10;
 
-/// How many times the error of the shorter substeps the two motions are apart, see SubstepScheme.
-double apart_per_error(int order) { return order == 1 ? 2 : 9; }
+/// What the solves may do wrong, of the accuracy.
+double solve_share(int order) { return order == 1 ? 0.2 : 0.1; }
 /// How much looser the longer substeps are solved.
-double looser(int order) { return order == 1 ? 3 : 6; }
+double looser(int order) { return order == 1 ? 4 : 10; }
 
-/// The same with the method that is fastest with long steps. Where they end does not depend on it.
-IntegratorSettings solved_fast(IntegratorSettings integrator) {
-  if (!is_explicit(integrator.method)) integrator.method = Method::quasi_newton;
+/// What the longer substeps are of: of second order whatever the scheme, and solved by the method that is fastest with
+/// long steps. Where they end does not depend on it.
+IntegratorSettings beside(IntegratorSettings integrator) {
+  if (is_explicit(integrator.method)) {
+    integrator.method = Method::verlet;
+  } else {
+    integrator.method = Method::quasi_newton;
+    integrator.scheme = TimeScheme::sdirk2;
+  }
   integrator.max_iterations.reset();
   return integrator;
 }
@@ -70,52 +76,81 @@ struct SubstepScheme::Motion {
   void begin(const State& start, int halvings) {
     state = start;
     state.step <<= halvings;
+    known_ = false;
   }
 
-  StepReport advance() {
+  /// @param early, late what to expect, see Scheme::expect(); or both null
+  StepReport advance(const Vertices* early, const Vertices* late) {
     system.stop.look();
-    StepReport report = scheme->advance(state, forces);
+    if (late != nullptr) scheme->expect(*early, *late);
+    const bool solves = scheme->accuracy().has_value();
+    if (solves) before_ = state.v;
+    const StepReport report = scheme->advance(state, forces);
     ++state.step;
+    if (!solves) return report;
+    acceleration_ = (state.v - before_) / system.step;
+    known_ = true;
     return report;
   }
+  /// Of the last substep, if there is one and it solves for where it ends [m/s²].
+  [[nodiscard]] const Vertices* acceleration() const { return known_ ? &acceleration_ : nullptr; }
 
   System system;
   StepForces forces;
   std::unique_ptr<Scheme> scheme;
   State state;
+
+ private:
+  Vertices acceleration_, before_;
+  bool known_ = false;
 };
 
-/// Two motions through a step, one in 2^k substeps and beside it one in a quarter as many.
+/// Two motions through a step, one in 2^k substeps and beside it one in a quarter or an eighth as many.
 class SubstepScheme::Attempt {
  public:
   Attempt(const SubstepScheme& owner, const State& start, int k)
       : halvings(k),
-        apart_per_error_(apart_per_error(owner.order_)),
+        gap_(owner.gap_for(k)),
         shorter_(owner.make_system_, std::ldexp(owner.step_, -k), owner.integrator_, start, owner.acceleration_, 1),
-        longer_(owner.make_system_, std::ldexp(owner.step_, gap - k), solved_fast(owner.integrator_), start,
-                owner.acceleration_, looser(owner.order_)) {}
+        longer_(owner.make_system_, std::ldexp(owner.step_, gap_ - k), beside(owner.integrator_), start,
+                owner.acceleration_, looser(owner.order_)),
+        taken_(owner.order_ == 1 && !is_explicit(owner.integrator_.method) && filters().empty() ? halfway : 0),
+        error_per_apart_(owner.order_ == 1 ? 1 - taken_ : 1 / apart_of_same_order) {}
 
   void begin(const State& start) {
     shorter_.begin(start, halvings);
-    longer_.begin(start, halvings - gap);
+    longer_.begin(start, halvings - gap_);
     done_ = 0;
-    parted_ = 0;
+    apart_ = 0;
   }
 
   /// Goes on by one of the longer substeps.
   void advance(StepReport& report) {
-    for (int i = 0; i < shorter_in_longer; ++i) add(shorter_.advance(), report);
-    add(longer_.advance(), report);
+    for (int i = 0; i < 1 << gap_; ++i) {
+      add(shorter_.advance(shorter_.acceleration(), shorter_.acceleration()), report);
+      if (i == 0 && shorter_.acceleration() != nullptr) early_ = *shorter_.acceleration();
+    }
+    add(longer_.advance(&early_, shorter_.acceleration()), report);
     ++done_;
-    parted_ = largest_distance(shorter_.state.x, longer_.state.x);
+    apart_ = largest_distance(shorter_.state.x, longer_.state.x);
   }
 
-  [[nodiscard]] bool over() const { return done_ == std::int64_t{1} << (halvings - gap); }
-  /// The error of the shorter substeps, as far as they have come [m].
-  [[nodiscard]] double estimate() const { return parted_ / apart_per_error_; }
+  [[nodiscard]] bool over() const { return done_ == std::int64_t{1} << (halvings - gap_); }
+  /// The error, as far as the motions have come [m].
+  [[nodiscard]] double estimate() const { return apart_ * error_per_apart_; }
   /// What it is at the end of the step if it grows in proportion to time.
-  [[nodiscard]] double projected() const { return std::ldexp(estimate() / static_cast<double>(done_), halvings - gap); }
-  [[nodiscard]] const Motion& result() const { return shorter_; }
+  [[nodiscard]] double projected() const {
+    return std::ldexp(estimate() / static_cast<double>(done_), halvings - gap_);
+  }
+  /// Where the step ends, see SubstepScheme: to the bit where the two motions are where they are the same.
+  void end(State& state) const {
+    state.x = shorter_.state.x;
+    state.v = shorter_.state.v;
+    if (taken_ == 0) return;
+    state.x += taken_ * (longer_.state.x - shorter_.state.x);
+    state.v += taken_ * (longer_.state.v - shorter_.state.v);
+  }
+  [[nodiscard]] const std::vector<std::unique_ptr<MotionFilter>>& filters() const { return shorter_.system.filters; }
   [[nodiscard]] Scheme& scheme() const { return *shorter_.scheme; }
 
   const int halvings;
@@ -126,10 +161,13 @@ class SubstepScheme::Attempt {
     report.rise = std::max(report.rise, substep.rise);
   }
 
-  double apart_per_error_;
+  int gap_;
   Motion shorter_, longer_;
+  Vertices early_;  // acceleration of the first of the shorter substeps beside one of the longer ones [m/s²]
+  double taken_;    // of the way from where the shorter substeps end to where the longer ones do
+  double error_per_apart_;
   std::int64_t done_ = 0;  // of the longer substeps
-  double parted_ = 0;      // [m]
+  double apart_ = 0;       // [m]
 };
 
 SubstepScheme::SubstepScheme(const SimulationSettings& settings, int fewest_halvings, MakeSystem make_system)
@@ -138,7 +176,7 @@ SubstepScheme::SubstepScheme(const SimulationSettings& settings, int fewest_halv
       integrator_(settings.integrator),
       make_system_(std::move(make_system)),
       order_(order_of(settings.integrator.step_method())),
-      acceleration_(solve_share * 2 * accuracy_ / (step_ * step_)),
+      acceleration_(solve_share(order_) * 2 * accuracy_ / (step_ * step_)),
       fewest_(std::max(fewest_halvings + gap,
                        integrator_.method == Method::liu13 ? fastest_for_local_global(make_system_(step_)) : 0)),
       most_(std::max(most_halvings, fewest_ + gap)),
@@ -156,6 +194,11 @@ SubstepScheme::Attempt& SubstepScheme::attempt(int halvings, const State& start)
   }
   std::rotate(attempts_.begin(), found, found + 1);
   return *attempts_.front();
+}
+
+int SubstepScheme::gap_for(int halvings) const {
+  const bool cheap = order_ == 1 && is_explicit(integrator_.method);
+  return cheap ? std::clamp(gap + halvings - fewest_, gap, widest_gap) : gap;
 }
 
 int SubstepScheme::halvings_for(double estimate, int halvings) const {
@@ -180,9 +223,8 @@ StepReport SubstepScheme::advance(State& state, StepForces& /*forces*/) {
     if (report.converged || next == most_) break;
     next = std::max(next + 1, halvings_for(now->projected(), next));
   }
-  state.x = now->result().state.x;
-  state.v = now->result().state.v;
-  for (const auto& filter : now->result().system.filters) report.converged = report.converged && filter->converged();
+  now->end(state);
+  for (const auto& filter : now->filters()) report.converged = report.converged && filter->converged();
   report.substeps = std::int64_t{1} << now->halvings;
   report.estimate = now->estimate();
   return report;

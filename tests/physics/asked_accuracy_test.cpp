@@ -124,6 +124,34 @@ TEST_P(AskedAccuracy, PinsMoveThroughTheSubstepsAndAreReleasedInTheirStep) {
   EXPECT_EQ(simulation.cloth().pins, std::vector{0});
 }
 
+// In free fall, where Euler's steps of h are g·h/2 too fast (backward, and at first semi-implicit), schemes of second
+// order do nothing wrong.
+TEST_P(AskedAccuracy, AFallingClothKnowsItsErrorExactly) {
+  SimulationSettings settings = swinging(GetParam(), 0.02);
+  settings.cloth.pins.clear();
+  Simulation simulation(settings);
+  const double start = settings.cloth.positions(0, 2);
+  const StepReport report = simulation.step();
+  const double fallen = start - simulation.state().x(0, 2), error = fallen - 0.5 * 9.8 * h * h;
+  const double of_euler = 0.5 * 9.8 * h * h / static_cast<double>(report.substeps);
+  // Backward Euler's is half taken away.
+  const double expected = GetParam().second_order() ? 0 : GetParam().is_explicit() ? of_euler : of_euler / 2;
+  EXPECT_NEAR(error, expected, 1e-6 * h * h);
+  EXPECT_NEAR(*report.estimate, expected, 1e-6 * h * h);
+}
+
+// A residual force on a vertex that is the same in every substep of h/n moves it by its tolerance·n²/2 in the step.
+TEST_P(AskedAccuracy, TheSolvesLeaveOutAFifthOfItAtMost) {
+  if (GetParam().is_explicit()) GTEST_SKIP() << "nothing is solved";
+  for (const double accuracy : {1e-3, 1e-5, 1e-7}) {
+    Simulation simulation(swinging(GetParam(), accuracy));
+    const StepReport report = simulation.step();
+    const double tolerance = simulation.accuracy().value().tolerance, n = static_cast<double>(report.substeps);
+    const double solved = GetParam().second_order() ? 1 - std::sqrt(0.5) : 1;  // of a substep at once: SDIRK2's stages
+    EXPECT_LE(tolerance * n * n / (2 * solved * solved), 0.2 * accuracy * (1 + 1e-9)) << accuracy;
+  }
+}
+
 TEST_P(AskedAccuracy, AtTheCapAStepSaysThatItHasNotConverged) {
   SimulationSettings settings = setup(cloth_of(make_grid(1, 1), 1, 1000, {0}), GetParam(), h);
   settings.cloth.velocities = random_vertices(4, 1);
@@ -136,6 +164,53 @@ TEST_P(AskedAccuracy, AtTheCapAStepSaysThatItHasNotConverged) {
   EXPECT_FALSE(report.converged);
   EXPECT_EQ(report.substeps, 4096);
   EXPECT_GT(report.estimate, 1e-25);
+}
+
+class AskedOfEuler : public testing::TestWithParam<NamedMethod> {};
+INSTANTIATE_TEST_SUITE_P(With, AskedOfEuler, testing::ValuesIn(implicit_methods), method_name);
+
+/// How many iterations a motion takes, and how far it ends from the reference.
+struct Work {
+  double iterations, error;
+};
+
+Work work_of(const SimulationSettings& settings, double time, const Vertices& reference) {
+  Simulation simulation(settings);
+  Work work{0, 0};
+  for (auto left = std::llround(time / settings.step); left > 0; --left)
+    work.iterations += simulation.step().iterations;
+  work.error = largest(simulation.state().x, reference);
+  return work;
+}
+
+// What somebody finds by hand is a point on the line through fixed steps that are halved again and again.
+TEST_P(AskedOfEuler, AtEqualErrorItTakesAtMostHalfAsManyIterationsAgainAsTheBestFixedStep) {
+  constexpr double time = 15 * h;
+  SimulationSettings exact = swinging(Method::verlet, 1);
+  exact.accuracy.reset();
+  exact.step = h / 512;
+  Simulation small(exact);
+  for (int i = 0; i < 512 * 15; ++i) small.step();
+  const Vertices reference = small.state().x;
+  std::vector<Work> fixed;
+  for (int halvings = 0; halvings <= 7; ++halvings) {
+    SimulationSettings settings = swinging(GetParam(), 1);
+    settings.accuracy.reset();
+    settings.step = std::ldexp(h, -halvings);
+    fixed.push_back(work_of(settings, time, reference));
+  }
+  for (const double accuracy : {1e-2, 1e-3, 1e-4}) {
+    const Work asked = work_of(swinging(GetParam(), accuracy), time, reference);
+    double best = INFINITY;
+    for (std::size_t i = 0; i < fixed.size(); ++i) {
+      if (fixed[i].error <= asked.error) best = std::min(best, fixed[i].iterations);
+      if (i + 1 == fixed.size() || !(fixed[i].error > asked.error && asked.error > fixed[i + 1].error)) continue;
+      const double part = std::log(fixed[i].error / asked.error) / std::log(fixed[i].error / fixed[i + 1].error);
+      const double more = fixed[i + 1].iterations / fixed[i].iterations;
+      best = std::min(best, fixed[i].iterations * std::pow(more, part));
+    }
+    EXPECT_LE(asked.iterations, 1.5 * best) << "accuracy " << accuracy << ", error " << asked.error;
+  }
 }
 
 class AskedExplicitly : public testing::TestWithParam<NamedMethod> {};
