@@ -30,7 +30,8 @@ class SceneStudy {
     result_.options = complete(asked, scene_);
     result_.step = scene_.simulation.step;
     result_.tolerance_unit = scene_.simulation.integrator.stop == StoppingRule::gradient ? "N" : "m";
-    if (asked.methods.empty() || asked.of_several_scenes) leave_out_methods(scene_, file, result_.options, result_.notes);
+    if (asked.methods.empty() || asked.of_several_scenes)
+      leave_out_methods(scene_, file, result_.options, result_.notes);
     cases_ = accuracy_cases(scene_, file, result_.options, result_.notes);
   }
 
