@@ -22,7 +22,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int rounds = 9;
+constexpr int fewest_rounds = 9;
+constexpr double shortest = 3;  // of all rounds together [s]
+constexpr double turn = 0.05;   // of one number of threads: until all of them are awake, and then some [s]
 
 /// The seconds that it takes to call this.
 double seconds_of(const auto& run) {
@@ -54,8 +56,15 @@ std::vector<double> measure(const Make& make) {
   std::vector<decltype(make(1))> subjects;
   for (const int count : thread_counts()) subjects.push_back(make(count));
   std::vector<double> least(subjects.size(), 1e9);
-  for (int round = 0; round < rounds; ++round) {
-    for (std::size_t k = 0; k < subjects.size(); ++k) least[k] = std::min(least[k], seconds_of(subjects[k]));
+  const auto begin = Clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  for (int round = 0; round < fewest_rounds || elapsed() < shortest; ++round) {
+    for (std::size_t k = 0; k < subjects.size(); ++k) {
+      const auto begun = Clock::now();
+      do {
+        least[k] = std::min(least[k], seconds_of(subjects[k]));
+      } while (std::chrono::duration<double>(Clock::now() - begun).count() < turn);
+    }
   }
   return least;
 }
@@ -66,8 +75,8 @@ struct Case {
   int batch;  ///< iterations of its one step, or steps of one that has none
 };
 constexpr Case cases[] = {{"semi-implicit step", Method::semi_implicit, 10},
-                          {"liu13 iteration", Method::liu13, 10},
-                          {"quasi-newton iteration", Method::quasi_newton, 10},
+                          {"liu13 iteration", Method::liu13, 2},
+                          {"quasi-newton iteration", Method::quasi_newton, 6},
                           {"implicit iteration", Method::implicit, 1}};
 
 std::string row_of(const Case& c, int cells) {
@@ -87,7 +96,7 @@ std::string row_of(const Case& c, int cells) {
 }
 
 std::string row_of_forks() {
-  constexpr int forks = 2000;
+  constexpr int forks = 100;
   return row("dividing an empty loop", measure([](int count) {
                return [threads = std::make_shared<Threads>(count), count] {
                  for (int i = 0; i < forks; ++i) threads->for_each(count, [](int) {});
