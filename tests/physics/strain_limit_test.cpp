@@ -6,6 +6,7 @@
 
 #include "sim/effects/strain_limit.hpp"
 #include "sim/simulation.hpp"
+#include "sim/system.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/setups.hpp"
 
@@ -112,6 +113,44 @@ TEST(StrainLimitAlone, KeepsBothMomentaOfAFreeCloth) {
   EXPECT_LE(most, 1.05 * 1.001 + 1e-9);
   EXPECT_LT((momentum(settings.cloth, simulation.state()) - p).norm(), 1e-12 * p.norm());
   EXPECT_LT((angular_momentum(settings.cloth, simulation.state()) - l).norm(), 1e-11 * l.norm());
+}
+
+/// How far vertices are taken, by mass [√kg·m].
+double way(const Cloth& cloth, const Vertices& from, const Vertices& to) {
+  return std::sqrt(cloth.masses.dot((to - from).rowwise().squaredNorm()));
+}
+
+// Where a step ends is the nearest place at which no edge is too long (but for edges that turn): from there, no way to
+// another such place leads back to where it would have ended (Kinderlehrer and Stampacchia 1980, theorem I.2.3).
+TEST(StrainLimitAlone, FindsTheNearestPlaceWithinTheLimits) {
+  for (int seed = 1; seed <= 6; ++seed) {
+    const Cloth cloth = cloth_of(irregular_mesh(6 + 2 * seed), 1, 5, {0, 3});
+    constexpr double limit = 1.02, h = 0.01;
+    System system(cloth, h);
+    drape::StrainLimit{.max_stretch = limit, .iterations = 20000, .tolerance = 1e-5}.install(system);
+    const Vertices& x = cloth.positions;
+    Vertices wanted = x + 0.05 * x;  // it grows by a twentieth, and all of it is thrown about a little
+    wanted += 0.004 * random_vertices(cloth.vertex_count(), seed);
+    for (const int pin : cloth.pins) wanted.row(pin) = x.row(pin);
+    Vertices v = (wanted - x) / h;
+    system.filters.front()->apply(x, 0, h, v);
+    ASSERT_TRUE(system.filters.front()->converged()) << seed;
+    const Vertices found = x + h * v;
+    EXPECT_LE(extremes(cloth, found).most, limit * (1 + 1e-5) + 1e-9) << seed;
+    const double taken = way(cloth, wanted, found);
+    EXPECT_GT(taken, 1e-3) << seed;
+    // Between the place where it starts and any other it is within the limits.
+    for (const double part : {0.0, 0.2, 0.5, 0.9}) {
+      const Vertices other = x + part * (found - x);
+      const Vertices back = wanted - found, there = other - found;
+      const double product = cloth.masses.dot(back.cwiseProduct(there).rowwise().sum());
+      EXPECT_LE(product, 0.02 * taken * way(cloth, found, other)) << seed << ", " << part;
+    }
+    // The impulses pull no more than they have to: with less of all of them an edge is too long.
+    for (const double part : {0.9, 0.99}) {
+      EXPECT_GT(extremes(cloth, wanted + part * (found - wanted)).most, limit * (1 + 1e-5)) << seed;
+    }
+  }
 }
 
 // One spring that is squeezed and pushed aside at once: it is held by a push along where it was, which turns nothing;
