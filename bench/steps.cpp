@@ -13,6 +13,7 @@
 #include "bench/effect_costs.hpp"
 #include "bench/encoding.hpp"
 #include "bench/equal_accuracy.hpp"
+#include "bench/factoring.hpp"
 #include "bench/moving_cloth.hpp"
 #include "bench/ratio_table.hpp"
 #include "bench/subject.hpp"
@@ -112,6 +113,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> drawing = drape::register_drawing();
   for (std::string& name : drawing) effects.push_back(std::move(name));
   std::vector<std::string> encoding = drape::register_encoding();
+  std::vector<std::string> factoring = drape::register_factoring();
 
   // Ours first, so that the caller's own flags win.
   std::vector<std::string> defaults{"--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=11"};
@@ -126,7 +128,8 @@ int main(int argc, char** argv) {
   drape::RatioReporter reporter({{.first = "drape", .second = "textbook", .cases = std::move(names)},
                                  {.first = "second order", .second = "first order", .cases = std::move(schemes)},
                                  {.first = "with", .second = "without", .cases = std::move(effects)},
-                                 {.first = "drape", .second = "ffmpeg", .cases = std::move(encoding)}});
+                                 {.first = "drape", .second = "ffmpeg", .cases = std::move(encoding)},
+                                 {.first = "fronts", .second = "cholmod", .cases = std::move(factoring)}});
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();
 }

@@ -2,8 +2,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <mutex>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace drape {
@@ -36,6 +42,24 @@ Eigen::VectorXd starting_vector(const Eigen::VectorXd& scale) {
   return v.norm() > 0 ? Eigen::VectorXd(v.normalized()) : v;
 }
 
+/// The last component of the unit eigenvector that belongs to the largest eigenvalue of a tridiagonal matrix T: with
+/// value·I − T = L D Lᵀ the last entry of D is zero, and the vector the solution of Lᵀ p = (0, …, 0, 1) but for its
+/// length. All of them by Eigen would take k³ operations, more than the iterations of a small cloth.
+double last_component(const std::vector<double>& alpha, const std::vector<double>& beta, double value) {
+  const std::size_t k = alpha.size();
+  std::vector<double> pivots(k);
+  for (std::size_t i = 0; i < k; ++i) {
+    pivots[i] = value - alpha[i] - (i == 0 ? 0 : beta[i - 1] * beta[i - 1] / pivots[i - 1]);
+  }
+  double component = 1, squares = 1;
+  for (std::size_t i = k - 1; i-- > 0;) {
+    component *= beta[i] / pivots[i];
+    squares += component * component;
+  }
+  // A pivot of zero, from which no number comes: it had converged before.
+  return std::isnan(squares) ? 0 : 1 / std::sqrt(squares);
+}
+
 /// An upper bound of the largest eigenvalue of S [1/s²].
 double largest_eigenvalue(const std::vector<Spring>& bound_of_stiffness, const Eigen::VectorXd& scale,
                           const Stop& stop) {
@@ -55,10 +79,10 @@ double largest_eigenvalue(const std::vector<Spring>& bound_of_stiffness, const E
       const auto diagonal = Eigen::Map<const Eigen::VectorXd>(alpha.data(), k);
       const auto below = Eigen::Map<const Eigen::VectorXd>(beta.data(), k - 1);
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small;
-      small.computeFromTridiagonal(diagonal, below);
+      small.computeFromTridiagonal(diagonal, below, Eigen::EigenvaluesOnly);
       const double value = small.eigenvalues()[k - 1];
       // The residual of the Ritz vector bounds how far the eigenvalue can be.
-      const double error = beta.back() * std::abs(small.eigenvectors()(k - 1, k - 1));
+      const double error = beta.back() * last_component(alpha, beta, value);
       bound = value + error;
       if (exhausted || error <= tolerance * value) break;
     }
@@ -66,6 +90,43 @@ double largest_eigenvalue(const std::vector<Spring>& bound_of_stiffness, const E
     v = w / beta.back();
   }
   return bound;
+}
+
+/// A number for all that an eigenvalue depends on.
+struct Fingerprint {
+  std::array<std::uint64_t, 2> state{0x9e3779b97f4a7c15U, 0xc2b2ae3d27d4eb4fU};
+
+  void add(std::uint64_t word) {
+    state[0] = (state[0] ^ word) * 0x100000001b3U;
+    state[1] = (state[1] + word) * 0xd6e8feb86659fd93U;
+    for (std::uint64_t& half : state) half ^= half >> 29U;
+  }
+  bool operator==(const Fingerprint&) const = default;
+};
+
+Fingerprint fingerprint(const std::vector<Spring>& bound, const Eigen::VectorXd& scale) {
+  Fingerprint result;
+  for (const Spring& s : bound) {
+    result.add(static_cast<std::uint64_t>(s.i) << 32U | static_cast<std::uint64_t>(s.j));
+    result.add(std::bit_cast<std::uint64_t>(s.stiffness));
+  }
+  for (const double one : scale) result.add(std::bit_cast<std::uint64_t>(one));
+  return result;
+}
+
+/// The same, remembered: whoever checks a scene asks first, whoever simulates it asks again.
+double remembered_largest_eigenvalue(const std::vector<Spring>& bound, const Eigen::VectorXd& scale, const Stop& stop) {
+  static std::mutex mutex;
+  static std::optional<std::pair<Fingerprint, double>> last;
+  const Fingerprint key = fingerprint(bound, scale);
+  {
+    const std::lock_guard lock(mutex);
+    if (last && last->first == key) return last->second;
+  }
+  const double value = largest_eigenvalue(bound, scale, stop);
+  const std::lock_guard lock(mutex);
+  last.emplace(key, value);
+  return value;
 }
 
 /// The exponent of a power of four of about this size.
@@ -100,7 +161,7 @@ double safe_step(const System& system) {
   for (Spring& s : bound) s.stiffness = std::ldexp(s.stiffness, -unit_of_stiffness);
   const auto scale = [&](double mass) { return 1 / std::sqrt(std::ldexp(mass, -unit_of_mass)); };
   const double largest =
-      largest_eigenvalue(bound, free.cwiseProduct(system.cloth.masses.unaryExpr(scale)), system.stop);
+      remembered_largest_eigenvalue(bound, free.cwiseProduct(system.cloth.masses.unaryExpr(scale)), system.stop);
   double frequency = std::ldexp(std::sqrt(largest), (unit_of_stiffness - unit_of_mass) / 2);
 
   const double pushes = pushes_bound(system);

@@ -11,6 +11,7 @@ namespace drape {
 /// free vertices.
 ///
 /// λ_max is found by Lanczos iteration to a relative 1e-4 from below, and the error bound of that value is added to it.
+/// It is remembered until another one is asked for, as a scene is checked before it is simulated.
 double safe_step(const System& system);
 
 /// That of a vertex without springs under the forces which depend on its place [s], with every scheme that evaluates

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "sim/kernels/vertices.hpp"
+#include "sim/linear/dissection.hpp"
 #include "sim/linear/free_vertices.hpp"
+#include "sim/linear/multifrontal_cholesky.hpp"
 #include "sim/parallel/loops.hpp"
 
 namespace drape {
@@ -13,6 +16,10 @@ namespace {
 
 // A panel may store this many numbers for each entry of L in it: zeros cost less than leaving the panel.
 constexpr double tolerated_zeros = 1.6;
+
+// From so many rows on the factor is our own, by nested dissection and dense fronts: from there on faster than
+// CHOLMOD's (bench/README.md), in another order of the rows. Smaller cloth keeps the bits that it has always had.
+constexpr int fewest_rows_of_fronts = 20'000;
 
 /// The lower triangle of A over the free vertices.
 struct Matrix {
@@ -66,31 +73,57 @@ ConstantFactor::ConstantFactor(const System& system, double duration, Precision 
   row_.assign(static_cast<std::size_t>(vertex_count_), row_count_);
   if (row_count_ == 0) return;
   const Matrix matrix = assemble(system, duration, free);
-  SparseCholesky factor(matrix.pattern, FactorKind::simplicial, false,
-                        tolerated_zeros * (sizeof(double) + sizeof(float)));
-  system.stop.look();
-  if (!factor.factorize(matrix.values.data())) {
+  const bool factored = row_count_ < fewest_rows_of_fronts
+                            ? factor_columns(matrix.pattern, matrix.values, system.stop, free)
+                            : factor_fronts(matrix.pattern, matrix.values, system, free);
+  if (!factored) {
     throw UsageError(
         "the cloth's matrix is not positive definite to working precision: use a shorter step, softer springs or more "
         "mass");
   }
-
-  system.stop.look();
-  for (int row = 0; row < row_count_; ++row) {
-    row_[static_cast<std::size_t>(free.vertex(factor.permutation()[row]))] = row;
-  }
-  const auto columns = factor.columns();
-  find_panels(columns);
-  if (precision != Precision::single_precision) copy(columns, double_);
-  if (precision != Precision::double_precision) copy(columns, single_);
+  if (precision != Precision::double_precision) single_.values.assign(double_.values.begin(), double_.values.end());
+  if (precision == Precision::single_precision) double_ = {};
   find_places();
-  if (precision == Precision::automatic) {
-    if (single_suffices()) {
-      double_ = {};
-    } else {
-      single_ = {};
-    }
+  if (precision != Precision::automatic) return;
+  if (single_suffices()) {
+    double_ = {};
+  } else {
+    single_ = {};
   }
+}
+
+bool ConstantFactor::factor_columns(const LowerPattern& pattern, const std::vector<double>& values, const Stop& stop,
+                                    const FreeVertices& free) {
+  SparseCholesky factor(pattern, FactorKind::simplicial, false, tolerated_zeros * (sizeof(double) + sizeof(float)));
+  stop.look();
+  if (!factor.factorize(values.data())) return false;
+  stop.look();
+  number_rows(factor.permutation(), free);
+  find_panels(factor.columns());
+  copy(factor.columns());
+  return true;
+}
+
+bool ConstantFactor::factor_fronts(const LowerPattern& pattern, const std::vector<double>& values, const System& system,
+                                   const FreeVertices& free) {
+  system.stop.look();
+  // What is made of springs alone may have no rest shape.
+  const Vertices& shape = system.cloth.rest.rows() == vertex_count_ ? system.cloth.rest : system.cloth.positions;
+  Vertices places(row_count_, 3);
+  for (int f = 0; f < row_count_; ++f) places.row(f) = shape.row(free.vertex(f));
+  MultifrontalCholesky factor(pattern, dissect(pattern, places), sizeof(float));
+  if (!factor.factorize(values.data(), [&] { system.stop.look(); })) return false;
+  number_rows(factor.permutation().data(), free);
+  entries_ = factor.entries();
+  auto parts = std::move(factor).take();
+  panels_ = std::move(parts.panels);
+  rows_ = std::move(parts.rows);
+  double_.values = std::move(parts.values);
+  return true;
+}
+
+void ConstantFactor::number_rows(const int* permutation, const FreeVertices& free) {
+  for (int row = 0; row < row_count_; ++row) row_[static_cast<std::size_t>(free.vertex(permutation[row]))] = row;
 }
 
 void ConstantFactor::find_panels(const SparseCholesky::Columns& columns) {
@@ -116,15 +149,14 @@ void ConstantFactor::find_panels(const SparseCholesky::Columns& columns) {
   }
 }
 
-template <class T>
-void ConstantFactor::copy(const SparseCholesky::Columns& columns, Triangle<T>& triangle) const {
-  triangle.values.assign(entries_, T{0});
+void ConstantFactor::copy(const SparseCholesky::Columns& columns) {
+  double_.values.assign(entries_, 0.0);
   std::vector<int> place(static_cast<std::size_t>(row_count_));  // of a row among those below the panel
   const int* rows = rows_.data();
-  T* values = triangle.values.data();
+  double* values = double_.values.data();
   for (const Panel& panel : panels_) {
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(panel.width, panel.width);
-    T* below = values + panel.width * (panel.width + 1) / 2;
+    double* below = values + panel.width * (panel.width + 1) / 2;
     for (int p = 0; p < panel.row_count; ++p) place[static_cast<std::size_t>(rows[p])] = p;
     for (int c = 0; c < panel.width; ++c) {
       const int start = columns.starts[panel.first + c];
@@ -133,7 +165,7 @@ void ConstantFactor::copy(const SparseCholesky::Columns& columns, Triangle<T>& t
         if (r < panel.width) {
           dense(r, c) = columns.values[p];
         } else {
-          below[place[static_cast<std::size_t>(columns.rows[p])] * panel.width + c] = static_cast<T>(columns.values[p]);
+          below[place[static_cast<std::size_t>(columns.rows[p])] * panel.width + c] = columns.values[p];
         }
       }
     }
@@ -141,7 +173,7 @@ void ConstantFactor::copy(const SparseCholesky::Columns& columns, Triangle<T>& t
     const Eigen::MatrixXd inverse =
         dense.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(panel.width, panel.width));
     for (int r = 0; r < panel.width; ++r) {
-      for (int c = 0; c <= r; ++c) *values++ = static_cast<T>(inverse(r, c));
+      for (int c = 0; c <= r; ++c) *values++ = inverse(r, c);
     }
     values += panel.width * panel.row_count;
     rows += panel.row_count;

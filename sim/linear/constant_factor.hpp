@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sim/kernels/kernels.hpp"
+#include "sim/linear/free_vertices.hpp"
 #include "sim/linear/solve_tree.hpp"
 #include "sim/linear/sparse_cholesky.hpp"
 #include "sim/system.hpp"
@@ -18,8 +19,9 @@ enum class Precision { automatic, single_precision, double_precision };
 /// over the free vertices; the same n×n matrix for x, y and z. No Hessian of g exceeds it, so x − A⁻¹∇g(x) is the
 /// local/global step, and it never raises g.
 ///
-/// The factor is CHOLMOD's, repacked into panels of neighbouring columns; the three right-hand sides are solved side by
-/// side in one pass over it, by the system's threads in parts of it (SolveTree).
+/// The factor consists of panels of neighbouring columns: CHOLMOD's columns repacked, or from 20 000 free vertices on
+/// those of MultifrontalCholesky, whose bits differ. The three right-hand sides are solved side by side in one pass
+/// over it, by the system's threads in parts of it (SolveTree).
 class ConstantFactor {
  public:
   /// @param duration of an implicit step, h [s]
@@ -44,10 +46,15 @@ class ConstantFactor {
     std::vector<T> scratch;  // x, y, z and nothing of each place
   };
 
+  // Two ways to a factor in double precision. They return whether the matrix is positive definite.
+  [[nodiscard]] bool factor_columns(const LowerPattern& pattern, const std::vector<double>& values, const Stop& stop,
+                                    const FreeVertices& free);
+  [[nodiscard]] bool factor_fronts(const LowerPattern& pattern, const std::vector<double>& values, const System& system,
+                                   const FreeVertices& free);
+  void number_rows(const int* permutation, const FreeVertices& free);
   void find_panels(const SparseCholesky::Columns& columns);
-  template <class T>
-  void copy(const SparseCholesky::Columns& columns, Triangle<T>& triangle) const;
-  /// Divides what find_panels() has found, and gives each vertex its place.
+  void copy(const SparseCholesky::Columns& columns);
+  /// Divides the panels that have been found, and gives each vertex its place.
   void find_places();
   template <class T>
   void solve_packed(Triangle<T>& triangle, const Vertices& b) const;

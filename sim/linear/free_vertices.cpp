@@ -16,21 +16,30 @@ FreeVertices::FreeVertices(const Cloth& cloth) : numbers_(static_cast<std::size_
 }
 
 LowerPattern spring_pattern(const std::vector<Spring>& springs, const FreeVertices& free) {
-  std::vector<std::pair<int, int>> entries;  // column, row
-  entries.reserve(springs.size() + static_cast<std::size_t>(free.count()));
-  for (int f = 0; f < free.count(); ++f) entries.emplace_back(f, f);
-  for (const Spring& spring : springs) {
-    const auto [low, high] = std::minmax({free.number(spring.i), free.number(spring.j)});
-    if (low >= 0) entries.emplace_back(low, high);
-  }
-  std::sort(entries.begin(), entries.end());
-  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
+  using Index = std::size_t;
+  const auto n = static_cast<Index>(free.count());
+  const auto each = [&](const auto& visit) {
+    for (const Spring& spring : springs) {
+      const auto [low, high] = std::minmax({free.number(spring.i), free.number(spring.j)});
+      if (low >= 0) visit(static_cast<Index>(low), high);
+    }
+  };
+  std::vector<int> next(n + 1, 0);  // where the next row of a column goes; with one place for the diagonal
+  each([&](Index low, int) { ++next[low + 1]; });
+  for (Index c = 0; c < n; ++c) next[c + 1] += next[c] + 1;
+  std::vector<int> rows(static_cast<Index>(next[n]));
+  const std::vector<int> begins = next;
+  for (Index c = 0; c < n; ++c) rows[static_cast<Index>(next[c]++)] = static_cast<int>(c);
+  each([&](Index low, int high) { rows[static_cast<Index>(next[low]++)] = high; });
 
-  LowerPattern pattern;
-  pattern.starts.assign(static_cast<std::size_t>(free.count()) + 1, 0);
-  for (const auto& [column, row] : entries) {
-    pattern.rows.push_back(row);
-    pattern.starts[static_cast<std::size_t>(column) + 1] = static_cast<int>(pattern.rows.size());
+  LowerPattern pattern{.starts = {0}, .rows = {}};
+  pattern.starts.reserve(n + 1);
+  pattern.rows.reserve(rows.size());
+  for (Index c = 0; c < n; ++c) {
+    const auto begin = rows.begin() + begins[c], end = rows.begin() + begins[c + 1];
+    std::sort(begin, end);
+    pattern.rows.insert(pattern.rows.end(), begin, std::unique(begin, end));
+    pattern.starts.push_back(static_cast<int>(pattern.rows.size()));
   }
   return pattern;
 }

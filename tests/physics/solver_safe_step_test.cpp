@@ -31,6 +31,31 @@ TEST(SafeStep, OfAChainIsThatOfItsHighestFrequency) {
   }
 }
 
+// Each Lanczos iteration asks whether it is to stop.
+TEST(SafeStep, IsFoundOnceForACloth) {
+  const auto looks = [](const Cloth& cloth, double* step) {
+    int count = 0;
+    System system(cloth, 0.01);
+    system.stop = Stop([&count] { return ++count < 0; });
+    *step = safe_step(system);
+    return count;
+  };
+  Cloth cloth = chain(30, 70, 0.2);
+  double first = 0, again = 0, heavier = 0;
+  EXPECT_GT(looks(cloth, &first), 0);
+  EXPECT_EQ(looks(cloth, &again), 0);
+  EXPECT_EQ(again, first);
+  cloth.masses[15] *= 4;
+  EXPECT_GT(looks(cloth, &heavier), 0) << "it is another cloth";
+  EXPECT_NE(heavier, first);
+  cloth.masses[15] /= 4;
+  cloth.springs[3].stiffness *= 2;
+  EXPECT_GT(looks(cloth, &heavier), 0);
+  EXPECT_LT(heavier, first);
+  cloth.pins = {0, 15, 31};
+  EXPECT_GT(looks(cloth, &heavier), 0);
+}
+
 TEST(SafeStep, OfClothWithoutFreeSpringsIsInfinite) {
   Cloth cloth = chain(1, 50, 0.1);
   cloth.pins = {0, 1, 2};

@@ -40,6 +40,24 @@ TEST(ConstantFactor, SolvesToItsPrecision) {
   }
 }
 
+// Beyond 20 000 free vertices the factor is another one.
+TEST(ConstantFactor, SolvesForAnySizeOfCloth) {
+  for (const int cells : {139, 142}) {
+    const Cloth cloth = cloth_of(make_grid(cells, cells), 1, 180, {0, 7});
+    const System system(cloth, 0.02);
+    const Vertices b = random_vertices(cloth.vertex_count(), 1);
+    Vertices x = Vertices::Constant(cloth.vertex_count(), 3, 99);
+    ConstantFactor(system, system.step, Precision::double_precision).solve(b, x);
+    EXPECT_LT(residual(system, x, b), 1e-11) << cells;
+    ConstantFactor single(system, system.step, Precision::automatic);
+    EXPECT_TRUE(single.single_precision());
+    Vertices rounded = x;
+    single.solve(b, rounded);
+    EXPECT_LT((rounded - x).norm(), 1e-3 * x.norm()) << cells;
+    for (const int pin : cloth.pins) EXPECT_EQ(rounded.row(pin).norm(), 0);
+  }
+}
+
 TEST(ConstantFactor, SolvesForNumbersOfAnySize) {
   const Cloth cloth = cloth_of(make_grid(8, 8), 1, 180, {0, 8});
   const System system(cloth, 0.02);
