@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -14,6 +15,8 @@ using Index = std::size_t;
 
 // What a triangle's area is at least beside the square of its longest edge, both twice: else it is its edges.
 constexpr double least_area = 1e-8;
+// The sum of the two unit normals at an edge is shorter than this where it turns by more than 150°.
+constexpr double sharpest_fold = 0.5;
 
 /// An edge as a triangle runs along it.
 struct Run {
@@ -135,13 +138,27 @@ Point PlacedMesh::normal_at(int triangle, const Point& weights) const {
   return sum;
 }
 
+bool PlacedMesh::encloses(const Point& point) const {
+  double solid_angle = 0;
+  for (Index t = 0; t < normals_.size(); ++t) {
+    const auto to = [&](std::size_t c) { return Point(corner(static_cast<int>(t), c) - point); };
+    const Point a = to(0), b = to(1), c = to(2);
+    const double l = a.norm(), m = b.norm(), n = c.norm();
+    solid_angle += 2 * std::atan2(a.dot(b.cross(c)), l * m * n + a.dot(b) * n + b.dot(c) * l + c.dot(a) * m);
+  }
+  return std::abs(solid_angle) > 2 * std::numbers::pi;
+}
+
 Foot PlacedMesh::foot_on_edge(const Point& point, int triangle, const Nearest& near) const {
   Foot foot{.triangle = triangle, .weights = {-near.weights[1], -near.weights[2], -near.weights[3]}};
   const Point away = point - foot.weights[0] * corner(triangle, 0) - foot.weights[1] * corner(triangle, 1) -
                      foot.weights[2] * corner(triangle, 2);
   const Point out = normal_at(triangle, foot.weights);
-  const double side = out.dot(away), length = std::sqrt(near.squared);
-  foot.distance = side < 0 ? -length : length;
+  // Where a mesh is folded over itself, as a skin at an elbow may be, the normals at the fold say nothing.
+  const bool folded = solid() && out.squaredNorm() < sharpest_fold * sharpest_fold;
+  const bool inside = folded ? encloses(point) : out.dot(away) < 0;
+  const double length = std::sqrt(near.squared);
+  foot.distance = inside ? -length : length;
   foot.normal = length > 0 ? Point(away / foot.distance) : Point(out.stableNormalized());
   return on_its_side(foot);
 }

@@ -109,6 +109,9 @@ class PlacedMesh {
     return points_[static_cast<std::size_t>(topology_->triangles[static_cast<std::size_t>(triangle)][c])];
   }
   [[nodiscard]] Foot foot_on_edge(const Point& point, int triangle, const Nearest& near) const;
+  /// Whether the mesh is around a point, by the angle that it fills from there (Jacobson, Kavan and Sorkine-Hornung
+  /// 2013, "Robust inside-outside segmentation using generalized winding numbers"). It looks at every triangle.
+  [[nodiscard]] bool encloses(const Point& point) const;
   /// The same, on the other side where that is a shell's.
   [[nodiscard]] Foot on_its_side(Foot foot) const {
     if (!topology_->closed && foot.distance < 0) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -62,6 +63,31 @@ TEST(PlacedMesh, IsTheSameWhicheverTriangleIsLookedAtFirst) {
       EXPECT_EQ(hinted->normal, plain->normal);
     }
   }
+}
+
+TEST(PlacedMesh, IsNotAroundWhatIsBesideAFold) {
+  // A bar along y, whose section comes to a point at x = 0 where its two sides have gone through each other.
+  const std::array<std::array<double, 2>, 5> section{{{0, 0}, {1, 0.05}, {2, -1}, {2, 1}, {1, -0.05}}};  // x, z
+  Mesh bar;
+  bar.positions.resize(10, 3);
+  for (int i = 0; i < 5; ++i) {
+    const auto& [x, z] = section[static_cast<std::size_t>(i)];
+    bar.positions.row(i) << x, -1, z;
+    bar.positions.row(i + 5) << x, 1, z;
+    const int j = (i + 1) % 5;
+    bar.triangles.push_back({i, i + 5, j + 5});
+    bar.triangles.push_back({i, j + 5, j});
+  }
+  for (int i = 1; i < 4; ++i) {
+    bar.triangles.push_back({0, i, i + 1});
+    bar.triangles.push_back({5, i + 6, i + 5});
+  }
+  const PlacedMesh mesh = placed(bar);
+  ASSERT_TRUE(mesh.solid());
+  const auto beside = mesh.find({-0.3, 0.1, 0.01}, anywhere);
+  EXPECT_NEAR(beside->distance, std::hypot(0.3, 0.01), 1e-12);
+  EXPECT_LT(beside->normal.x(), 0);
+  EXPECT_LT(mesh.find({1.9, 0.1, 0.1}, anywhere)->distance, 0);
 }
 
 TEST(PlacedMesh, IsAShellUnlessItIsClosedAndRunsOneWay) {
