@@ -94,6 +94,7 @@ class Writer {
       const auto found = std::ranges::find(motions, key.name);
       if (found != motions.end()) return motion == static_cast<std::size_t>(found - motions.begin()) && motion < 3;
       if (key.name == "center") return motion != 2;
+      if (key.name == "rotations" && motion == 1) return false;
     }
     if (key.name == "rigidity" || key.name == "stiffness_bound" ||
         (table == "effects.moving_pins" && key.name == "keyframes"))
