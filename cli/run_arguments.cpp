@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 
 #include "cli/byte_count.hpp"
 #include "cli/frame_list.hpp"
@@ -18,9 +17,7 @@ namespace drape {
 namespace {
 
 constexpr const char* threads_help =
-    "Threads that share a step where the cloth has 8192 vertices or more, with the same bits for any number; default: "
-    "all "
-    "of the processor's, and half of them beside drawing";
+    "Threads that share a step where the cloth has 8192 vertices or more, with the same bits for any number; default 1";
 
 /// Sets the outputs: films and frames, and the motion file apart from them.
 void set_outputs(const RunArguments& arguments, const auto& expanded, RunOptions& options) {
@@ -60,14 +57,9 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
   options.poster = arguments.poster;
   options.sheet = parse_sheet(arguments.sheet, options.outputs);
   options.backend = arguments.backend;
-  options.threads = arguments.threads > 0 ? arguments.threads : default_threads(arguments.drawing);
+  options.threads = arguments.threads;
   options.time_effects = verbose || !arguments.records.stats.empty();
   return options;
-}
-
-int default_threads(bool drawing) {
-  const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  return drawing ? (all + 1) / 2 : all;
 }
 
 void add_file_limit(CLI::App& command, std::string& max_size, std::string& keep) {

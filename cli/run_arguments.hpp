@@ -21,7 +21,7 @@ struct RunArguments {
   double checkpoint_seconds = MotionOptions{}.checkpoint_seconds;
   RecordPaths records;
   GlBackend backend = GlBackend::automatic;
-  int threads = 0;  ///< that share a step; 0: default_threads()
+  int threads = 1;  ///< that share a step
   bool step_by_step = false;
   bool drawing = true;  ///< render; simulate draws nothing
 };
@@ -29,10 +29,6 @@ struct RunArguments {
 /// Adds the options that both have.
 /// @param scenes what may stand as a scene
 void add_shared_options(CLI::App& command, RunArguments& arguments, const char* scenes);
-
-/// How many threads share a step of a large cloth where nobody says it: one for each of the processor's where nothing
-/// else keeps them busy, and half of them beside what draws and encodes.
-int default_threads(bool drawing);
 
 /// Adds --max-size and --keep.
 void add_file_limit(CLI::App& command, std::string& max_size, std::string& keep);
