@@ -82,9 +82,11 @@ std::vector<State> motion_of(const SimulationSettings& settings, const Stop& sto
 TEST_P(Stopped, WhereverItIsTheStateIsThatBeforeTheStepAndTheRestTheSame) {
   const std::vector<SimulationSettings> all = cloths(GetParam());
   for (std::size_t i = 0; i < all.size(); ++i) {
+    // From here on the safe step is known, for which a first simulation asks too.
+    const State last = motion_of(all[i], {}).back();
     Question never;
     const std::vector<State> states = motion_of(all[i], never.stop());
-    expect_bits(states.back(), motion_of(all[i], {}).back());
+    expect_bits(states.back(), last);
     for (long k = 1; k <= never.asked; k += 1 + k / 4) {
       SCOPED_TRACE(testing::Message() << "cloth " << i << ", asked " << k << " of " << never.asked << " times");
       Question question{.asked = 0, .yes_at = k};
