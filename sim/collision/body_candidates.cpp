@@ -11,7 +11,8 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr int group_size = 12;  // triangles at most
+constexpr int group_size = 12;          // triangles at most
+constexpr std::size_t usual_near = 32;  // triangles of the body near a group: where there are more, its memory grows
 
 Box larger(const Box& box, double margin) { return {box.low.array() - margin, box.high.array() + margin}; }
 
@@ -91,6 +92,7 @@ BodyCandidates::BodyCandidates(const MeshTopology& body, int body_vertices, cons
   for (const auto& [patch_end, vertex_end] : ends) {
     groups_.push_back({std::span<const Patch>(cloth_patches_).subspan(patch, patch_end - patch),
                        std::span<const int>(vertices_).subspan(vertex, vertex_end - vertex), nothing});
+    groups_.back().near.reserve(usual_near);
     patch = patch_end;
     vertex = vertex_end;
   }

@@ -19,6 +19,7 @@ constexpr double impact_part = 0.5;  // of what is kept free: how near something
 constexpr int solver_sweeps = 8;     // over all contacts, each time some are added
 constexpr int impact_passes = 10;    // with impulses, before what collides goes with the body
 constexpr int most_hold_rounds = 50;
+constexpr std::size_t usual_impacts = 64;  // in a step
 constexpr double margin = 1;  // how far the cloth goes before what is near is searched anew, in thicknesses
 // The least of a contact's weight on the cloth that has to be on free vertices: they go as many times as fast as it as
 // this goes into one.
@@ -50,6 +51,7 @@ BodyContact::BodyContact(std::shared_ptr<const MovingBody> body, const BodyLaw& 
   found_for_.resize(count);
   changed_.resize(count);
   moved_.resize(count);
+  impacts_.reserve(usual_impacts);
   far_.resize(count);
   held_.resize(count);
   place_body();

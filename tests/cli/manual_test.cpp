@@ -137,7 +137,7 @@ TEST(Package, DependsOnEveryLibraryThatIsLoadedAtRunTime) {
   const std::string lists = test::content(DRAPE_SOURCE_DIR "/cmake/Debian.cmake");
   const std::regex library("\"(lib[^\"/ ]*\\.so\\.[0-9]+)\"");
   int count = 0;
-  for (const char* part : {"core", "codecs", "overlay", "render", "study", "output", "run", "cli"}) {
+  for (const char* part : {"core", "codecs", "overlay", "render", "figures", "study", "output", "run", "cli"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(DRAPE_SOURCE_DIR) / part)) {
       if (entry.path().extension() != ".cpp") continue;
       const std::string text = test::content(entry.path());
