@@ -9,6 +9,7 @@
 #include "sim/linear/dissection.hpp"
 #include "sim/linear/free_vertices.hpp"
 #include "sim/linear/multifrontal_cholesky.hpp"
+#include "sim/linear/substitution.hpp"
 #include "sim/parallel/loops.hpp"
 
 namespace drape {
@@ -47,22 +48,6 @@ Matrix assemble(const System& system, double duration, const FreeVertices& free)
   }
   return matrix;
 }
-
-/// The kernels for a number type.
-template <class T>
-struct Substitution;
-template <>
-struct Substitution<float> {
-  static constexpr auto pack = &Kernels::pack_single;
-  static constexpr auto unpack = &Kernels::unpack_single;
-  static constexpr auto subtract = &Kernels::subtract_packed_single;
-};
-template <>
-struct Substitution<double> {
-  static constexpr auto pack = &Kernels::pack_double;
-  static constexpr auto unpack = &Kernels::unpack_double;
-  static constexpr auto subtract = &Kernels::subtract_packed_double;
-};
 
 }  // namespace
 

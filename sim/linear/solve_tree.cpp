@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "sim/linear/substitution.hpp"
+
 namespace drape {
 namespace {
 
@@ -17,22 +19,6 @@ constexpr double tiny = 1.0 / 16;          // of a leaf: a subtree that its pare
 constexpr int none = -1;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-/// The kernels of a part.
-template <class T>
-struct SubstitutionOf;
-template <>
-struct SubstitutionOf<float> {
-  static constexpr auto solve = &Kernels::solve_single;
-  static constexpr auto forward = &Kernels::forward_single;
-  static constexpr auto backward = &Kernels::backward_single;
-};
-template <>
-struct SubstitutionOf<double> {
-  static constexpr auto solve = &Kernels::solve_double;
-  static constexpr auto forward = &Kernels::forward_double;
-  static constexpr auto backward = &Kernels::backward_double;
-};
 
 void wait_for(const std::atomic<unsigned>& done, unsigned solve) {
   Patience patience;
@@ -204,11 +190,11 @@ void SolveTree::forward(const Part& part, const PackedTriangle<T>& triangle, T* 
     }
   }
   for (const Run& run : part.runs) {
-    (kernels().*SubstitutionOf<T>::forward)({.panels = triangle.panels + run.first,
-                                             .panel_count = run.count,
-                                             .rows = triangle.rows + run.row,
-                                             .values = triangle.values + run.value},
-                                            x);
+    (kernels().*Substitution<T>::forward)({.panels = triangle.panels + run.first,
+                                           .panel_count = run.count,
+                                           .rows = triangle.rows + run.row,
+                                           .values = triangle.values + run.value},
+                                          x);
   }
 }
 
@@ -217,20 +203,20 @@ void SolveTree::backward(const Part& part, const PackedTriangle<T>& triangle, T*
   T* to = x + 4 * at(part.place + part.own);
   for (int k = 0; k < part.border; ++k, to += 4) std::copy_n(x + 4 * at(targets_[part.target + at(k)]), 4, to);
   for (auto run = part.runs.rbegin(); run != part.runs.rend(); ++run) {
-    (kernels().*SubstitutionOf<T>::backward)({.panels = triangle.panels + run->first,
-                                              .panel_count = run->count,
-                                              .rows = triangle.rows + run->row,
-                                              .values = triangle.values + run->value,
-                                              .row_total = run->row_total,
-                                              .value_total = run->value_total},
-                                             x);
+    (kernels().*Substitution<T>::backward)({.panels = triangle.panels + run->first,
+                                            .panel_count = run->count,
+                                            .rows = triangle.rows + run->row,
+                                            .values = triangle.values + run->value,
+                                            .row_total = run->row_total,
+                                            .value_total = run->value_total},
+                                           x);
   }
 }
 
 template <class T>
 void SolveTree::solve(const Threads& threads, const PackedTriangle<T>& triangle, T* x) const {
   if (parts_.size() <= 1) {
-    (kernels().*SubstitutionOf<T>::solve)(triangle, x);
+    (kernels().*Substitution<T>::solve)(triangle, x);
     return;
   }
   const unsigned solve = ++solves_;
