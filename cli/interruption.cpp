@@ -1,33 +1,52 @@
 #include "cli/interruption.hpp"
 
-#include <atomic>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
 #include <csignal>
+#include <system_error>
+#include <thread>
 
 namespace drape {
 namespace {
 
-std::atomic<bool> signalled = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only use lock-free atomics");
+std::array<int, 2> signals{-1, -1};  // a pipe: what a handler writes wakes whoever reads
 
-void handle(int) { signalled = true; }
+void handle(int) {
+  const int before = errno;
+  const char byte = 0;
+  [[maybe_unused]] const ssize_t written = write(signals[1], &byte, 1);  // a full pipe has woken the reader already
+  errno = before;
+}
 
-void install() {
+/// Waits for the first signal, and passes it on.
+void listen(std::stop_source source) {
+  char byte = 0;
+  while (read(signals[0], &byte, 1) != 1) {
+  }
+  source.request_stop();
+}
+
+std::stop_source install() {
+  std::stop_source source;
+  if (pipe2(signals.data(), O_CLOEXEC | O_NONBLOCK) != 0 || fcntl(signals[0], F_SETFL, 0) != 0) {
+    throw std::system_error(errno, std::generic_category(), "cannot listen for signals");
+  }
+  std::thread(listen, source).detach();  // as long as there is a process
   struct sigaction action {};
   action.sa_handler = handle;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
+  return source;
 }
 
 }  // namespace
 
 std::stop_source& interruption() {
-  static std::stop_source source = (install(), std::stop_source());
+  static std::stop_source source = install();
   return source;
-}
-
-bool interrupted() {
-  if (signalled) interruption().request_stop();
-  return interruption().stop_requested();
 }
 
 }  // namespace drape

@@ -155,7 +155,7 @@ ExitCode run_each(const std::vector<Scene>& scenes, const std::vector<RunOptions
     last.reset();
   };
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    if (i > 0 && interrupted()) {
+    if (i > 0 && interruption().stop_requested()) {
       end_last();
       if (worst != ExitCode::interrupted) spdlog::error("interrupted before {}", scenes[i].file.string());
       return ExitCode::interrupted;

@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-constexpr std::chrono::milliseconds watch_interval{100};
+constexpr std::chrono::milliseconds display_interval{100};
 
 }  // namespace
 
@@ -37,10 +37,7 @@ void WatchedWork::watch_to_its_end(bool quiet) {
 
 void WatchedWork::watch(bool quiet, const std::future<void>& until) {
   ProgressDisplay display(progress_, ProgressDisplay::fitting_style(quiet));
-  while (until.wait_for(watch_interval) != std::future_status::ready) {
-    static_cast<void>(interrupted());
-    display.update();
-  }
+  while (until.wait_for(display_interval) != std::future_status::ready) display.update();
   display.clear();
 }
 

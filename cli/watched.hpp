@@ -8,8 +8,7 @@
 
 namespace drape {
 
-/// Work on a thread of its own, whose progress is shown while this one listens for signals. The token is that of
-/// interruption().
+/// Work on a thread of its own, whose progress this one shows. The token is that of interruption().
 class WatchedWork {
  public:
   /// @param let_others_begin to be called, at most once, when what is left takes one core
@@ -35,8 +34,7 @@ class WatchedWork {
   std::future<void> done_;  // last: it is waited for before the others go
 };
 
-/// Does work on a thread of its own while this one shows its progress and listens for signals. The token is that of
-/// interruption().
+/// Does work on a thread of its own while this one shows its progress. The token is that of interruption().
 /// @param quiet no progress is shown
 /// @returns whether it was interrupted
 /// @throws what the work throws
