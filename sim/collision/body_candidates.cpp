@@ -216,13 +216,12 @@ void BodyCandidates::add_pairs(const Patch& patch, int triangle, const BodyStep&
 void BodyCandidates::add(const FeaturePair& pair, int triangle, int corner, const BodyStep& step, double reach) {
   const auto& v = pair.vertices;
   if (std::ranges::all_of(v, [&](int i) { return i >= cloth_count_ || pinned_[Index(i)] != 0; })) return;
-  const FourPoints from = gather(step.from, v);
-  FourPoints way = gather(step.to, v);
-  if (kept_apart(pair.feature, from, way, reach)) return;
-  for (Index i = 0; i < 4; ++i) way[i] -= from[i];
+  const FourPoints from = gather(step.from, v), to = gather(step.to, v);
+  if (kept_apart(pair.feature, from, to, reach)) return;
   const Nearest before = nearest(pair.feature, from);
-  const double near = reach + largest_change(pair.feature, way);
-  if (before.squared <= near * near) pairs_.push_back({pair, triangle, corner, before});
+  // When the step begins, no plane parts them better than the one across the line between their nearest points.
+  if (kept_apart(pair.feature, before.difference(from), from, to, reach)) return;
+  pairs_.push_back({pair, triangle, corner, before});
 }
 
 }  // namespace drape

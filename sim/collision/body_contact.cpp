@@ -15,9 +15,10 @@ using Index = std::size_t;
 
 // How far a vertex may go from where it was expected before candidates are searched anew, in thicknesses.
 constexpr double search_slack = 0.1;
-constexpr double impact_part = 0.5;  // of what is kept free: how near something may come on its way
-constexpr int solver_sweeps = 8;     // over all contacts, each time some are added
-constexpr int impact_passes = 10;    // with impulses, before what collides goes with the body
+constexpr double clearly = 1 + 1e-6;  // more than rounding
+constexpr double impact_part = 0.5;   // of what is kept free: how near something may come on its way
+constexpr int solver_sweeps = 8;      // over all contacts, each time some are added
+constexpr int impact_passes = 10;     // with impulses, before what collides goes with the body
 constexpr int most_hold_rounds = 50;
 constexpr std::size_t usual_impacts = 64;  // in a step
 constexpr double margin = 1;  // how far the cloth goes before what is near is searched anew, in thicknesses
@@ -153,16 +154,20 @@ bool BodyContact::is_at_pin(const FeaturePair& pair, const std::array<double, 4>
 
 std::optional<Contact> BodyContact::contact(const BodyPair& met, double time, bool near) const {
   const FeaturePair& pair = met.pair;
+  if (near && (!opposite(pair, met.before.weights) || is_at_pin(pair, met.before.weights))) return std::nullopt;
   const FourPoints start = gather(x_, pair.vertices), move = moves(pair);
   FourPoints p = start;
   for (Index i = 0; i < 4; ++i) p[i] += time * move[i];
   const std::array<double, 4> weights = near ? met.before.weights : nearest(pair.feature, p).weights;
-  if (is_at_pin(pair, weights) || (near && !opposite(pair, weights))) return std::nullopt;
+  if (!near && is_at_pin(pair, weights)) return std::nullopt;
   Point before = Point::Zero(), change = Point::Zero();
   for (Index i = 0; i < 4; ++i) {
     before += weights[i] * (start[i] - start[2]);
     change += weights[i] * move[i];
   }
+  const double kept = kept_part * law_.thickness;
+  // Most are not too near at the end however they move: for these no normal is needed.
+  if (near && std::sqrt(met.before.squared) - change.norm() > clearly * kept) return std::nullopt;
   const bool is_edge = pair.feature == Feature::edge_edge;
   const Point first = is_edge ? p[1] - p[0] : p[2] - p[1], second = is_edge ? p[3] - p[2] : p[3] - p[1];
   Point normal = first.cross(second);
@@ -171,7 +176,7 @@ std::optional<Contact> BodyContact::contact(const BodyPair& met, double time, bo
   normal.normalize();
   const Point out = outwards(met);
   if ((out.isZero(0) ? before : out).dot(normal) < 0) normal = -normal;
-  const double gap = before.dot(normal), kept = kept_part * law_.thickness;
+  const double gap = before.dot(normal);
   if (gap < 0 || (near && gap + change.dot(normal) >= kept)) return std::nullopt;
   // Across the normal they may miss each other. Then they are a pair or not as the search has it.
   if (near && before.norm() > reach() && !comes_within(pair.feature, start, move, reach())) return std::nullopt;
@@ -226,10 +231,11 @@ void BodyContact::find_impacts() {
   for (const BodyPair& met : candidates_.pairs()) {
     const FeaturePair& pair = met.pair;
     if (std::ranges::none_of(pair.vertices, [&](int i) { return changed_[Index(i)] != 0; })) continue;
-    // Most do not move as far as they are apart.
-    const double apart = std::sqrt(met.before.squared);
-    if (largest_change(pair.feature, moves(pair)) <= apart - std::min(kept_gap * apart, widest)) continue;
-    const auto time = time_of_impact(pair.feature, gather(x_, pair.vertices), moves(pair), widest);
+    // Most stay on their sides of a plane across the line between them.
+    const FourPoints from = gather(x_, pair.vertices), to = gather(target_, pair.vertices);
+    const double gap = std::min(kept_gap * std::sqrt(met.before.squared), widest);
+    if (kept_apart(pair.feature, met.before.difference(from), from, to, 2 * gap)) continue;
+    const auto time = time_of_impact(pair.feature, from, moves(pair), widest);
     if (!time) continue;
     if (const auto found = contact(met, *time, false)) impacts_.push_back({met, *found});
   }

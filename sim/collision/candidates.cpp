@@ -9,27 +9,7 @@ namespace {
 
 Box around(const Box& a, const Box& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
 
-/// Whether a plane across the axis lies between the two features, further than the distance from both together.
-bool separated(Feature feature, const Point& axis, const FourPoints& p, double distance) {
-  const double a = axis.dot(p[0]), b = axis.dot(p[1]), c = axis.dot(p[2]), d = axis.dot(p[3]);
-  const double gap = feature == Feature::vertex_triangle ? a - std::max({b, c, d}) : std::min(a, b) - std::max(c, d);
-  return gap > distance;
-}
-
-Point from_second_to_first(Feature feature, const FourPoints& p) {
-  if (feature == Feature::vertex_triangle) return p[0] - (p[1] + p[2] + p[3]) / 3;
-  return (p[0] + p[1] - p[2] - p[3]) / 2;
-}
-
 }  // namespace
-
-bool kept_apart(Feature feature, const FourPoints& from, const FourPoints& to, double reach) {
-  // On straight lines a distance along a fixed axis changes linearly: what it separates at both ends, it separates in
-  // between.
-  const Point axis = from_second_to_first(feature, from);
-  const double far = reach * axis.norm();
-  return separated(feature, axis, from, far) && separated(feature, axis, to, far);
-}
 
 bool may_come_near(Feature feature, const FourPoints& from, FourPoints to, double reach) {
   if (kept_apart(feature, from, to, reach)) return false;

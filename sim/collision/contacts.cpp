@@ -15,6 +15,7 @@ void Contact::apply(double coefficient, MovingVertices& moving) {
   Point relative = Point::Zero();
   for (std::size_t i = 0; i < 4; ++i) relative += weights[i] * moving.velocity(vertices[i]);
   const double speed = relative.dot(normal);
+  if (impulse == 0 && speed >= least_speed) return;  // as most do
   const double pushed = std::max(0.0, impulse + (least_speed - speed) / inverse_mass);
   if (pushed == 0 && impulse == 0) return;
 
@@ -25,6 +26,7 @@ void Contact::apply(double coefficient, MovingVertices& moving) {
   impulse = pushed;
   friction = slowed;
   for (std::size_t i = 0; i < 4; ++i) {
+    if (moving.inverse_mass(vertices[i]) == 0) continue;
     moving.velocities[static_cast<std::size_t>(vertices[i])] += weights[i] * moving.inverse_mass(vertices[i]) * change;
   }
 }

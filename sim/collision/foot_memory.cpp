@@ -27,17 +27,21 @@ bool FootMemory::find_slowly(const PlacedMesh& mesh, std::size_t k, const Point&
   Known& known = known_[k];
   Near& near = near_[k];
   // Every distance has changed by that at most.
-  double moved = (point - known.point).norm() + std::abs(mesh.travel() - known.travel);
-  if (moved * moved < known.clear_squared) return false;
+  const auto since = [&](const Point& place, double travel) {
+    return (point - place).norm() + std::abs(mesh.travel() - travel);
+  };
+  const double gone = since(known.point, known.travel);
+  if (gone * gone < known.clear_squared) return false;
+  double moved = since(near.point, near.travel);
   if (!covers(near, moved)) {
     look(mesh, point, known, near);
+    if (near.count == 0 || known.clear_squared > 0) return false;
     moved = 0;
   } else if (++near.asked > patience) {
-    look_again(mesh, point, moved, known, near);
+    look_again(mesh, point, moved, equal * reach_, near);
     moved = 0;
   }
-  if (near.count == 0) return false;
-  if (covers(near, moved)) return find_among(mesh, point, moved, known.triangle, near, foot);
+  if (covers(near, moved)) return find_among(mesh, point, moved, known, near, foot);
   // More triangles than there is room for are as near.
   foot = mesh.find(point, reach_, known.triangle).value_or(Foot{.distance = reach_});
   return foot.distance < reach_;
@@ -47,25 +51,48 @@ bool FootMemory::covers(const Near& near, double moved) const {
   return near.count > 0 && near.nearest + 2 * moved + equal * reach_ < near.all_within;
 }
 
-bool FootMemory::find_among(const PlacedMesh& mesh, const Point& point, double moved, int first, const Near& near,
+bool FootMemory::find_among(const PlacedMesh& mesh, const Point& point, double moved, Known& known, const Near& near,
                             Foot& foot) const {
-  int triangle = first;
+  int triangle = known.triangle;
   Nearest best = mesh.nearest_on(triangle, point);
+  // How near any other is at least: what is compared as it is here, the rest as it was.
+  double second = std::numeric_limits<double>::infinity(), not_compared = near.all_within;
   const double may_be_nearest = near.nearest + 2 * moved + equal * reach_;
-  for (Index j = 0; j < Index(near.count) && near.least[j] <= may_be_nearest; ++j) {
+  for (Index j = 0; j < Index(near.count); ++j) {
+    if (near.least[j] > may_be_nearest) {
+      not_compared = std::min(not_compared, near.least[j]);
+      break;
+    }
     const int other = near.triangles[j];
-    if (other == first || mesh.least_squared(other, point) > best.squared) continue;
+    if (other == known.triangle) continue;
+    const double least = mesh.least_squared(other, point);
+    if (least > best.squared) {
+      second = std::min(second, least);
+      continue;
+    }
     const Nearest there = mesh.nearest_on(other, point);
-    if (!(there.squared < best.squared || (there.squared == best.squared && other < triangle))) continue;
-    best = there;
-    triangle = other;
+    if (there.squared < best.squared || (there.squared == best.squared && other < triangle)) {
+      second = std::min(second, best.squared);
+      best = there;
+      triangle = other;
+    } else {
+      second = std::min(second, there.squared);
+    }
   }
+  const double runner_up = std::min(std::sqrt(second), not_compared - moved);
   foot = mesh.foot(point, triangle, best);
+  known = {.point = point,
+           .travel = mesh.travel(),
+           .clear_squared = square_of_part(foot.distance - reach_),
+           .alone_squared = square_of_part((runner_up - std::sqrt(best.squared) - equal * reach_) / 2),
+           .triangle = triangle};
   return foot.distance < reach_;
 }
 
 void FootMemory::look(const PlacedMesh& mesh, const Point& point, Known& known, Near& near) const {
   known = {.point = point, .travel = mesh.travel()};
+  near.point = point;
+  near.travel = mesh.travel();
   near.count = near.asked = 0;
   const double far = 2 * reach_, away = mesh.tree().distance(point);
   if (away > far) {
@@ -111,24 +138,20 @@ void FootMemory::look(const PlacedMesh& mesh, const Point& point, Known& known, 
   near.all_within = within;
   std::copy_n(least.begin(), near.count, near.least.begin());
   std::copy_n(triangles.begin(), near.count, near.triangles.begin());
-  remember(mesh, point, nearest, known, near);
+  known.triangle = nearest;
+  known.clear_squared = square_of_part(mesh.foot(point, nearest, mesh.nearest_on(nearest, point)).distance - reach_);
 }
 
-void FootMemory::look_again(const PlacedMesh& mesh, const Point& point, double moved, Known& known, Near& near) const {
+void FootMemory::look_again(const PlacedMesh& mesh, const Point& point, double moved, double rounding, Near& near) {
+  near.point = point;
+  near.travel = mesh.travel();
   near.asked = 0;
-  near.all_within -= moved + equal * reach_;
+  near.all_within -= moved + rounding;
   double best = std::numeric_limits<double>::infinity();
-  int nearest = -1;
   for (Index j = 0; j < Index(near.count); ++j) {
     const int triangle = near.triangles[j];
     const double squared = mesh.least_squared(triangle, point), distance = std::sqrt(squared);
-    if (squared <= best) {
-      const double exactly = mesh.nearest_on(triangle, point).squared;
-      if (exactly < best) {
-        best = exactly;
-        nearest = triangle;
-      }
-    }
+    if (squared <= best) best = std::min(best, mesh.nearest_on(triangle, point).squared);
     Index at = j;
     for (; at > 0 && near.least[at - 1] > distance; --at) {
       near.least[at] = near.least[at - 1];
@@ -138,21 +161,6 @@ void FootMemory::look_again(const PlacedMesh& mesh, const Point& point, double m
     near.triangles[at] = triangle;
   }
   near.nearest = std::sqrt(best);
-  remember(mesh, point, nearest, known, near);
-}
-
-void FootMemory::remember(const PlacedMesh& mesh, const Point& point, int nearest, Known& known,
-                          const Near& near) const {
-  double second = near.all_within;
-  for (Index j = 0; j < std::min(Index(2), Index(near.count)); ++j) {
-    if (near.triangles[j] != nearest) second = std::min(second, near.least[j]);
-  }
-  const Foot foot = mesh.foot(point, nearest, mesh.nearest_on(nearest, point));
-  known = {.point = point,
-           .travel = mesh.travel(),
-           .clear_squared = square_of_part(foot.distance - reach_),
-           .alone_squared = square_of_part((second - near.nearest - equal * reach_) / 2),
-           .triangle = nearest};
 }
 
 }  // namespace drape

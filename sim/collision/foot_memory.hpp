@@ -33,14 +33,16 @@ class FootMemory {
   /// Of a point what is enough if it has moved little, and the mesh not at all.
   struct Known {
     Point point = Point::Zero();
-    double travel = 0;          // of the mesh at that time
+    double travel = 0;          // of the mesh when the point was there
     double clear_squared = -1;  // how far it may go from there with no foot, squared; negative: not at all [m²]
     double alone_squared = -1;  // how far with its foot on the same triangle, likewise
     int triangle = -1;
   };
   /// The triangles that were near it.
   struct Near {
-    int count = 0, asked = 0;             // since when that was so
+    Point point = Point::Zero();
+    double travel = 0;                    // of the mesh when the point was there
+    int count = 0, asked = 0;             // since then
     double nearest = 0;                   // distance [m]
     double all_within = 0;                // every triangle that was nearer than this is among them
     std::array<double, most> least = {};  // how far they were at least, increasing
@@ -49,10 +51,9 @@ class FootMemory {
   bool find_slowly(const PlacedMesh& mesh, std::size_t k, const Point& point, Foot& foot);
   /// Searches what is near a point.
   void look(const PlacedMesh& mesh, const Point& point, Known& known, Near& near) const;
-  /// Measures how near it is from a point that is `moved` from where it was measured [m].
-  void look_again(const PlacedMesh& mesh, const Point& point, double moved, Known& known, Near& near) const;
-  void remember(const PlacedMesh& mesh, const Point& point, int nearest, Known& known, const Near& near) const;
-  bool find_among(const PlacedMesh& mesh, const Point& point, double moved, int first, const Near& near,
+  /// Measures how near it is from where the point is now, which is `moved` from where it was measured [m].
+  static void look_again(const PlacedMesh& mesh, const Point& point, double moved, double rounding, Near& near);
+  bool find_among(const PlacedMesh& mesh, const Point& point, double moved, Known& known, const Near& near,
                   Foot& foot) const;
   /// Whether the nearest triangle is one of those, however the distances have changed by so much [m].
   [[nodiscard]] bool covers(const Near& near, double moved) const;

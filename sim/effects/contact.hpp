@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,13 +39,31 @@ inline bool arrives(const std::shared_ptr<const StepStart>& start, Eigen::Index 
   return start && start->was_outside(static_cast<int>(i));
 }
 
+/// What a surface touches when a step begins, as the push finds it, for the friction in the same place at the same
+/// time.
+struct TouchedVertices {
+  struct Touched {
+    Eigen::Index vertex;
+    SurfaceContact contact;
+  };
+
+  double time = std::numeric_limits<double>::quiet_NaN();  // of nothing yet [s]
+  Vertices x;
+  std::vector<Touched> all;
+
+  /// Takes memory for as many, so that no step has to.
+  explicit TouchedVertices(Eigen::Index most) : x(most, 3) { all.reserve(static_cast<std::size_t>(most)); }
+  [[nodiscard]] bool are_those_of(const Vertices& places, double at) const { return time == at && x == places; }
+};
+
 /// The push as a force, a = stiffness·(−gap) outwards; where no direction leads outwards there is none.
 template <class Surface>
 struct PenaltyForce final : Force {
   Surface surface;
   double stiffness;
   const Eigen::VectorXd& masses;
-  std::shared_ptr<const StepStart> start;  // null without restitution
+  std::shared_ptr<const StepStart> start;    // null without restitution
+  std::shared_ptr<TouchedVertices> touched;  // null where nobody asks
 
   PenaltyForce(Surface s, double k, const Eigen::VectorXd& m, std::shared_ptr<const StepStart> begin)
       : surface(std::move(s)), stiffness(k), masses(m), start(std::move(begin)) {}
@@ -53,9 +72,16 @@ struct PenaltyForce final : Force {
 
   void add(const State& state, double time, Vertices& force) const override {
     const auto now = surface.at(time);
+    if (touched) {
+      touched->time = time;
+      touched->x = state.x;
+      touched->all.clear();
+    }
     SurfaceContact contact;
     for (Eigen::Index i = 0; i < state.x.rows(); ++i) {
-      if (!find_contact(now, i, state.x.row(i).transpose(), contact) || arrives(start, i)) continue;
+      if (!find_contact(now, i, state.x.row(i).transpose(), contact)) continue;
+      if (touched) touched->all.push_back({i, contact});
+      if (arrives(start, i)) continue;
       const double pressure = -masses[i] * stiffness * contact.gap / contact.length;
       force.row(i) += pressure * contact.outward.transpose();
     }
@@ -162,54 +188,77 @@ template <class Surface>
 struct ContactFilter final : MotionFilter {
   Surface surface;
   ContactLaw law;
-  std::vector<int> free;                   // the vertices that are not pinned
-  std::shared_ptr<const StepStart> start;  // null where nothing bounces
+  std::vector<int> free;                           // the vertices that are not pinned
+  std::shared_ptr<const StepStart> start;          // null where nothing bounces
+  std::shared_ptr<const TouchedVertices> touched;  // null where the push is solved for
 
-  ContactFilter(Surface s, const ContactLaw& l, std::vector<int> vertices, std::shared_ptr<const StepStart> begin)
-      : surface(std::move(s)), law(l), free(std::move(vertices)), start(std::move(begin)), halts_(free.size()) {}
+  ContactFilter(Surface s, const ContactLaw& l, std::vector<int> vertices, std::shared_ptr<const StepStart> begin,
+                std::shared_ptr<const TouchedVertices> pushed)
+      : surface(std::move(s)),
+        law(l),
+        free(std::move(vertices)),
+        start(std::move(begin)),
+        touched(std::move(pushed)),
+        halts_(free.size()) {}
 
   void apply(const Vertices& x, double time, double h, Vertices& v) override {
     // The push was evaluated where the vertices are, or solved for where they go.
     const bool at_end = law.response == Response::implicit_energy;
-    const auto now = surface.at(at_end ? time + h : time);
     const auto drifts = way_of(surface, time, time + h);
-    const double damping = 1 - 1 / (1 + 2 * h * std::sqrt(law.stiffness));
-    const double softest = std::min(std::sqrt(law.stiffness), 1 / h);
-    const double absorbed = law.restitution ? 1 : 0;
-    const bool halted = !at_end && h * std::sqrt(law.stiffness) > 1;
+    const Step step{h, 1 - 1 / (1 + 2 * h * std::sqrt(law.stiffness)), std::min(std::sqrt(law.stiffness), 1 / h),
+                    !at_end && h * std::sqrt(law.stiffness) > 1};
     halts_.clear();
+    if (touched && touched->are_those_of(x, time)) {
+      auto i = free.begin();
+      for (const auto& [vertex, contact] : touched->all) {
+        while (i != free.end() && *i < vertex) ++i;
+        if (i != free.end() && *i == vertex) change(*i, contact, step, drifts, v);
+      }
+      return;
+    }
+    const auto now = surface.at(at_end ? time + h : time);
     SurfaceContact contact;
     for (const int i : free) {
       Eigen::Vector3d point = x.row(i).transpose();
       if (at_end) point += h * v.row(i).transpose();
-      if (!find_contact(now, i, point, contact)) continue;
-      if (start && start->was_outside(i)) continue;  // it was not pushed
-      const Eigen::Vector3d n = contact.normal();
-      const Eigen::Vector3d drift = drifts.of(contact) / h;
-      const Eigen::Vector3d relative = v.row(i).transpose() - drift;
-      double outward = relative.dot(n);
-      const Eigen::Vector3d along = relative - outward * n;
-      double push = -h * law.stiffness * contact.gap;
-      const double taken = absorbed * std::max(0.0, outward + softest * contact.gap);
-      outward -= taken;
-      push = std::max(0.0, push - taken);
-      if (halted && taken > 0) {
-        halts_.add(i, -outward * n);
-        push = std::max(0.0, push - outward);
-      } else if (start) {
-        const double damped = std::min(push, damping * outward);
-        outward -= damped;
-        push -= damped;
-      }
-      const double speed = along.norm(), lost = law.friction * push;
-      const double kept = speed > lost ? 1 - lost / speed : 0;
-      v.row(i) = (drift + outward * n + kept * along).transpose();
+      if (find_contact(now, i, point, contact)) change(i, contact, step, drifts, v);
     }
   }
 
   void finish(Vertices& v) override { halts_.apply(v); }
 
  private:
+  /// What is the same for all vertices in a step.
+  struct Step {
+    double h, damping, softest;
+    bool halted;
+  };
+
+  template <class Ways>
+  void change(int i, const SurfaceContact& contact, const Step& step, const Ways& drifts, Vertices& v) {
+    if (start && start->was_outside(i)) return;  // it was not pushed
+    const Eigen::Vector3d n = contact.normal();
+    const Eigen::Vector3d drift = drifts.of(contact) / step.h;
+    const Eigen::Vector3d relative = v.row(i).transpose() - drift;
+    double outward = relative.dot(n);
+    const Eigen::Vector3d along = relative - outward * n;
+    double push = -step.h * law.stiffness * contact.gap;
+    const double taken = law.restitution ? std::max(0.0, outward + step.softest * contact.gap) : 0;
+    outward -= taken;
+    push = std::max(0.0, push - taken);
+    if (step.halted && taken > 0) {
+      halts_.add(i, -outward * n);
+      push = std::max(0.0, push - outward);
+    } else if (start) {
+      const double damped = std::min(push, step.damping * outward);
+      outward -= damped;
+      push -= damped;
+    }
+    const double speed = along.norm(), lost = law.friction * push;
+    const double kept = speed > lost ? 1 - lost / speed : 0;
+    v.row(i) = (drift + outward * n + kept * along).transpose();
+  }
+
   VelocityChanges halts_;
 };
 
@@ -227,14 +276,21 @@ void install_contact(const Surface& surface, const ContactLaw& law, System& syst
     start = rebound->start;
     system.filters.push_back(std::move(rebound));
   }
+  const bool rubs = law.friction > 0 || law.restitution;
+  std::shared_ptr<TouchedVertices> touched;
   if (law.response == Response::implicit_energy) {
     system.energies.push_back(std::make_unique<PenaltyEnergy<Surface>>(surface, law.stiffness, masses, start));
   } else {
-    system.forces.push_back(std::make_unique<PenaltyForce<Surface>>(surface, law.stiffness, masses, start));
+    auto push = std::make_unique<PenaltyForce<Surface>>(surface, law.stiffness, masses, start);
+    if (rubs) {
+      touched = std::make_shared<TouchedVertices>(masses.size());
+      push->touched = touched;
+    }
+    system.forces.push_back(std::move(push));
   }
-  if (law.friction > 0 || law.restitution) {
+  if (rubs) {
     system.filters.push_back(
-        std::make_unique<ContactFilter<Surface>>(surface, law, free_vertices(system.cloth), start));
+        std::make_unique<ContactFilter<Surface>>(surface, law, free_vertices(system.cloth), start, touched));
   }
 }
 
