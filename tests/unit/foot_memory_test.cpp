@@ -70,6 +70,31 @@ TEST(FootMemory, FindsTheVeryFootThatASearchFinds) {
   }
 }
 
+TEST(FootMemory, DoesNotForgetWhatItHasLeftOut) {
+  // Around the edges of a box, which are the nearest to one place and, two reaches further, not to the other.
+  const double reach = 0.02;
+  const Wobbling body(make_box({0.4, 0.4, 0.6}));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> shift(-1, 1);
+  int feet = 0;
+  for (int round = 0; round < 4000; ++round) {
+    Point p(0.2 + reach * shift(random), 0.2 + reach * shift(random), 0.3 * shift(random));
+    FootMemory memory(1, reach);
+    for (int look = 0; look < 4; ++look) {
+      const auto plain = body.now.find(p, reach);
+      Foot foot;
+      const bool found = memory.find(body.now, 0, p, foot);
+      ASSERT_EQ(found, plain && plain->distance < reach) << round;
+      p += 2 * reach * Point(shift(random), shift(random), shift(random));
+      if (!found) continue;
+      ++feet;
+      ASSERT_EQ(foot.triangle, plain->triangle) << round;
+      ASSERT_EQ(foot.distance, plain->distance) << round;
+    }
+  }
+  EXPECT_GT(feet, 1000);
+}
+
 TEST(FootMemory, KnowsACornerOfMoreTrianglesThanItKeeps) {
   // A cone of thirty triangles, and points above its tip.
   Mesh cone;
