@@ -50,7 +50,8 @@ Ink ink_of(SceneVerdict verdict) {
 /// A line for the terminal, in which the verdict has a colour.
 std::string shown(const SceneResult& result, const CommonOptions& common) {
   const Terminal where = terminal(stdout, common.color);
-  const std::string line = wrapped(describe(result), where.width, 2), verdict = verdict_name(result.verdict);
+  std::string line = wrapped(describe(result), where.width, 2);
+  const std::string verdict = verdict_name(result.verdict);
   const std::size_t at = line.find(": " + verdict + ":");
   if (at == std::string::npos) return line;
   return line.substr(0, at + 2) + inked(verdict, ink_of(result.verdict), where) + line.substr(at + 2 + verdict.size());

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <tuple>
 
 #include "cli/command_line.hpp"
 #include "cli/frame_list.hpp"
@@ -119,15 +120,17 @@ ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& com
   options.sheet = parse_sheet(arguments.sheet, options.outputs);
   options.largest_file = parse_file_limit(arguments.max_size, arguments.keep, options.outputs);
   options.command = command_line(arguments);
-  const auto [scenes, recorded] = load_variations(arguments);
-  options.recorded = recorded;
+  std::vector<Scene> scenes;
+  std::tie(scenes, options.recorded) = load_variations(arguments);
   std::vector<RunOptions> files(scenes.size());
   files.front().outputs = options.outputs;
   require_files_of_their_own(scenes, files);
   inspect_backend(options.backend);
   require_comparison(scenes, options);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    if (recorded[i]) warn_of_gaps(scenes[i].file.string(), *recorded[i], compared_extent(scenes, options, i));
+    if (const auto& motion = options.recorded[i]) {
+      warn_of_gaps(scenes[i].file.string(), *motion, compared_extent(scenes, options, i));
+    }
   }
 
   CompareResult result;

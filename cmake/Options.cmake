@@ -6,7 +6,7 @@ target_compile_options(drape_options INTERFACE -fno-math-errno -ffp-contract=off
   -fno-semantic-interposition  # a library's own functions are inlined as a program's are
   -Wall -Wextra -Wpedantic
   # Files that are compiled as one may have constants of the same name in their unnamed namespaces.
-  $<IF:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,-Wshadow=local,-Wshadow>)
+  $<$<CXX_COMPILER_ID:GNU>:$<IF:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,-Wshadow=local,-Wshadow>>)
 target_include_directories(drape_options INTERFACE ${PROJECT_SOURCE_DIR})
 
 if(DRAPE_SANITIZE)

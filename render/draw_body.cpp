@@ -41,8 +41,6 @@ std::vector<std::string> body_defines(const Look& look, std::size_t sphere_count
   return all;
 }
 
-const void* byte_offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
-
 }  // namespace
 
 CreasedMesh::CreasedMesh(const std::vector<Triangle>& mesh, const Vertices& positions) : triangles(mesh.size()) {
@@ -87,7 +85,7 @@ std::unique_ptr<DrawBody::Drawn> DrawBody::make(const MeshShape& body) const {
   for (const GLuint attribute : {0U, 1U}) {
     gl_.EnableVertexAttribArray(attribute);
     gl_.VertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, 6 * sizeof(float),
-                            byte_offset(3 * sizeof(float) * attribute));
+                            buffer_offset(3 * sizeof(float) * attribute));
   }
   return drawn;
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <map>
 #include <stdexcept>
 #include <tuple>
@@ -23,8 +22,6 @@ constexpr GLuint position_attribute = 0, normal_attribute = 1, uv_attribute = 2,
 
 /// Texels of the maps of ambient occlusion across what the picture shows.
 constexpr double occlusion_resolution = 100;
-
-const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
 Edge sorted(int p, int q) { return {std::min(p, q), std::max(p, q)}; }
 
@@ -132,7 +129,7 @@ void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
                  GL_STATIC_DRAW);
   const auto attribute = [this](GLuint index, GLint size, std::size_t stride, std::size_t start) {
     gl_.EnableVertexAttribArray(index);
-    gl_.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride), offset(start));
+    gl_.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride), buffer_offset(start));
   };
   attribute(uv_attribute, 2, sizeof(Corner), offsetof(Corner, uv));
   attribute(barycentric_attribute, 3, sizeof(Corner), offsetof(Corner, barycentric));
@@ -248,7 +245,7 @@ void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, const Occluder
     shot.set_uniforms(program);
     if (shadow != nullptr) shadow->set_uniforms(program);
     gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT,
-                     offset(3 * first * sizeof(unsigned)));
+                     buffer_offset(3 * first * sizeof(unsigned)));
   };
   draw_triangles(*lit_program_, 0, lit_count_);
   if (shadow != nullptr) draw_triangles(*shadowed_program_, lit_count_, triangles_.size() - lit_count_);

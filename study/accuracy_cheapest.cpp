@@ -122,9 +122,9 @@ ResultTable answer_table(const SceneAccuracy& scene) {
     table.rows.push_back({fmt::format("{} [{}]", kind.name, kind.unit)});
     for (const double limit : limits) {
       std::string cell = why_none(kind, limit);
-      if (cell.empty()) {
-        const Offer& offer = *find_cheapest(kind.offers, limit).first;
-        cell = fmt::format("{}, {}: {}", offer.method, offer.at, three_digits(offer.cost.median));
+      const Offer* offer = find_cheapest(kind.offers, limit).first;
+      if (cell.empty() && offer != nullptr) {
+        cell = fmt::format("{}, {}: {}", offer->method, offer->at, three_digits(offer->cost.median));
       }
       table.rows.back().push_back(std::move(cell));
     }

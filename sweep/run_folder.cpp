@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/atomic_file.hpp"
+#include "core/error.hpp"
 #include "core/read_file.hpp"
 
 namespace drape {

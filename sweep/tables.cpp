@@ -116,7 +116,7 @@ std::string latex_grid(const SweepGrid& grid) {
 }  // namespace
 
 std::string short_figure(const SweepRow& row, const std::string& name) {
-  const std::string text = row.record.figure(name);
+  std::string text = row.record.figure(name);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || error != std::errc() || end != text.data() + text.size()) return nothing;

@@ -20,7 +20,6 @@ constexpr int unseen_error = 9 * 4 * 4;
 
 Compactor::Compactor(const Palette& palette, int width, int height)
     : palette_(palette),
-      width_(width),
       height_(height),
       shown_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), Palette::transparent),
       touched_(static_cast<std::size_t>(height)),

@@ -63,7 +63,7 @@ class Compactor {
   void find_longest(std::span<const Pixel> pixels, const Match& match, Match& best) const;
 
   Palette palette_;
-  int width_, height_;
+  int height_;
   std::vector<std::uint8_t> shown_;  // indices of the frame before
   std::vector<Span> touched_;        // by row, in the frame before
   std::vector<std::uint8_t> late_;   // 1: farther off in the frame before than it may stay

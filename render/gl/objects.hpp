@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <utility>
 
 #include "render/gl/functions.hpp"
@@ -33,5 +34,10 @@ using VertexArray = GlObject<&GlFunctions::GenVertexArrays, &GlFunctions::Delete
 using Texture = GlObject<&GlFunctions::GenTextures, &GlFunctions::DeleteTextures>;
 using Framebuffer = GlObject<&GlFunctions::GenFramebuffers, &GlFunctions::DeleteFramebuffers>;
 using Renderbuffer = GlObject<&GlFunctions::GenRenderbuffers, &GlFunctions::DeleteRenderbuffers>;
+
+/// A place in the buffer that is bound [bytes], in the form in which OpenGL takes it: as a pointer.
+inline const void* buffer_offset(std::size_t bytes) {
+  return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr): so the interface is
+}
 
 }  // namespace drape

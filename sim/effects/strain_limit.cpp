@@ -58,7 +58,7 @@ class StrainFilter final : public MotionFilter {
   }
 
   void apply(const Vertices& x, double, double h, Vertices& v) override {
-    begin(x, h, v);
+    find_beyond(x, h, v);
     converged_ = active_.empty();
     int next_look = 0;
     for (int sweep = 0; sweep < limits_.iterations && !converged_; ++sweep) {
@@ -89,7 +89,7 @@ class StrainFilter final : public MotionFilter {
   };
 
   /// Finds the springs that would end beyond their limits.
-  void begin(const Vertices& x, double h, const Vertices& v) {
+  void find_beyond(const Vertices& x, double h, const Vertices& v) {
     for (const int i : moved_) {
       change_[Index(i)].setZero();
       is_moved_[Index(i)] = 0;

@@ -21,24 +21,24 @@ template <int at_once>
 inline void subtract_block(const StripProduct& p, const double* rows, const double* columns, double* target) {
   Vector sums[at_once][strip_columns][strip_vectors];
   for (int s = 0; s < at_once; ++s) {
-    for (int c = 0; c < strip_columns; ++c) {
-      for (int v = 0; v < strip_vectors; ++v) {
+    for (std::ptrdiff_t c = 0; c < strip_columns; ++c) {
+      for (std::ptrdiff_t v = 0; v < strip_vectors; ++v) {
         sums[s][c][v] =
             load<Vector>(target + static_cast<std::size_t>(s) * p.target_stride + c * strip_rows + v * lanes);
       }
     }
   }
-  for (int k = 0; k < p.depth; ++k) {
+  for (std::ptrdiff_t k = 0; k < p.depth; ++k) {
     for (int s = 0; s < at_once; ++s) {
-      for (int v = 0; v < strip_vectors; ++v) {
+      for (std::ptrdiff_t v = 0; v < strip_vectors; ++v) {
         const Vector row = load<Vector>(rows + static_cast<std::size_t>(s) * p.row_stride + k * strip_rows + v * lanes);
-        for (int c = 0; c < strip_columns; ++c) sums[s][c][v] -= row * columns[k * strip_rows + c];
+        for (std::ptrdiff_t c = 0; c < strip_columns; ++c) sums[s][c][v] -= row * columns[k * strip_rows + c];
       }
     }
   }
   for (int s = 0; s < at_once; ++s) {
-    for (int c = 0; c < strip_columns; ++c) {
-      for (int v = 0; v < strip_vectors; ++v) {
+    for (std::ptrdiff_t c = 0; c < strip_columns; ++c) {
+      for (std::ptrdiff_t v = 0; v < strip_vectors; ++v) {
         store(target + static_cast<std::size_t>(s) * p.target_stride + c * strip_rows + v * lanes, sums[s][c][v]);
       }
     }
@@ -50,13 +50,13 @@ void subtract_product(const StripProduct& p) {
   int strip = 0;
   const auto at = [&](int number, std::size_t stride) { return static_cast<std::size_t>(number) * stride; };
   for (; strip + at_once <= p.strips; strip += at_once) {
-    for (int c = 0; c < strip_rows; c += strip_columns) {
+    for (std::ptrdiff_t c = 0; c < strip_rows; c += strip_columns) {
       subtract_block<at_once>(p, p.rows + at(strip, p.row_stride), p.columns + c,
                               p.target + at(strip, p.target_stride) + c * strip_rows);
     }
   }
   for (; strip < p.strips; ++strip) {
-    for (int c = 0; c < strip_rows; c += strip_columns) {
+    for (std::ptrdiff_t c = 0; c < strip_rows; c += strip_columns) {
       subtract_block<1>(p, p.rows + at(strip, p.row_stride), p.columns + c,
                         p.target + at(strip, p.target_stride) + c * strip_rows);
     }
@@ -65,10 +65,11 @@ void subtract_product(const StripProduct& p) {
 
 void divide_strips(const double* triangle, int width, double* block, std::size_t stride, int strips) {
   for (int strip = 0; strip < strips; ++strip, block += stride) {
-    for (int v = 0; v < strip_rows; v += lanes) {
-      for (int c = 0; c < width; ++c) {
+    for (std::ptrdiff_t v = 0; v < strip_rows; v += lanes) {
+      for (std::ptrdiff_t c = 0; c < width; ++c) {
         Vector value = load<Vector>(block + c * strip_rows + v);
-        for (int d = 0; d < c; ++d) value -= load<Vector>(block + d * strip_rows + v) * triangle[c * strip_rows + d];
+        for (std::ptrdiff_t d = 0; d < c; ++d)
+          value -= load<Vector>(block + d * strip_rows + v) * triangle[c * strip_rows + d];
         store(block + c * strip_rows + v, value * triangle[c * strip_rows + c]);
       }
     }

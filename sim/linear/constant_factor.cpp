@@ -160,7 +160,7 @@ void ConstantFactor::copy(const SparseCholesky::Columns& columns) {
     for (int r = 0; r < panel.width; ++r) {
       for (int c = 0; c <= r; ++c) *values++ = inverse(r, c);
     }
-    values += panel.width * panel.row_count;
+    values += std::ptrdiff_t{panel.width} * panel.row_count;
     rows += panel.row_count;
   }
 }

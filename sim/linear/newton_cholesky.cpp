@@ -106,14 +106,15 @@ void NewtonCholesky::add(const Place& place, const Eigen::Matrix3d& block) {
 
 void NewtonCholesky::add_diagonal(int row, const Eigen::Matrix3d& block) {
   for (int axis = 0; axis < 3; ++axis) {
-    double* column = values_.data() + column_starts_[Index(3 * row + axis)];
+    double* column = values_.data() + column_starts_[3 * Index(row) + Index(axis)];
     for (int below = axis; below < 3; ++below) column[below - axis] += block(below, axis);
   }
 }
 
 void NewtonCholesky::add_below(int column_block, int rank, const Eigen::Matrix3d& block) {
   for (int axis = 0; axis < 3; ++axis) {
-    double* column = values_.data() + column_starts_[Index(3 * column_block + axis)] + (3 - axis) + 3 * rank;
+    double* column =
+        values_.data() + column_starts_[3 * Index(column_block) + Index(axis)] + (3 - axis) + 3 * Index(rank);
     for (int row = 0; row < 3; ++row) column[row] += block(row, axis);
   }
 }

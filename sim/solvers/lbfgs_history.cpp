@@ -58,12 +58,12 @@ void LbfgsHistory::measure(const Vertices& gradient) {
   std::array<const double*, 2 * capacity> vectors{};
   std::array<double, 2 * capacity> products{};
   for (int k = 0; k < count_; ++k) {
-    vectors[index(2 * k)] = pair(k).step.data();
-    vectors[index(2 * k + 1)] = pair(k).preconditioned.data();
+    vectors[2 * index(k)] = pair(k).step.data();
+    vectors[2 * index(k) + 1] = pair(k).preconditioned.data();
   }
   dots(threads_, std::span(vectors).first(index(2 * count_)), gradient, products.data());
   for (int k = 0; k < count_; ++k) {
-    const double step_gradient = products[index(2 * k)], preconditioned_gradient = products[index(2 * k + 1)];
+    const double step_gradient = products[2 * index(k)], preconditioned_gradient = products[2 * index(k) + 1];
     if (pending_) {
       // The newest q is the change of the gradient.
       const std::size_t last = slot(count_ - 1);
@@ -101,10 +101,10 @@ void LbfgsHistory::find_direction(const Vertices& preconditioned, Vertices& dire
   std::array<const double*, 2 * capacity> vectors{};
   std::array<double, 2 * capacity> factors{};
   for (int k = 0; k < count_; ++k) {
-    vectors[index(2 * k)] = pair(k).step.data();
-    factors[index(2 * k)] = (alpha[index(k)] - beta[index(k)]) / scale;
-    vectors[index(2 * k + 1)] = pair(k).preconditioned.data();
-    factors[index(2 * k + 1)] = -alpha[index(k)];
+    vectors[2 * index(k)] = pair(k).step.data();
+    factors[2 * index(k)] = (alpha[index(k)] - beta[index(k)]) / scale;
+    vectors[2 * index(k) + 1] = pair(k).preconditioned.data();
+    factors[2 * index(k) + 1] = -alpha[index(k)];
   }
   combine(threads_, scale, preconditioned, std::span(vectors).first(index(2 * count_)), factors.data(), direction);
 }

@@ -167,10 +167,10 @@ TEST_P(Animation, PrintsNothing) {
 }
 
 TEST_P(Animation, RefusesRatesThatBrowsersDoNotPlay) {
-  EXPECT_THROW(encoder(100), UsageError);
-  EXPECT_THROW(encoder(0), UsageError);
-  EXPECT_THROW(encoder(std::nan("")), UsageError);
-  EXPECT_NO_THROW(encoder(90));
+  EXPECT_THROW((void)encoder(100), UsageError);
+  EXPECT_THROW((void)encoder(0), UsageError);
+  EXPECT_THROW((void)encoder(std::nan("")), UsageError);
+  EXPECT_NO_THROW((void)encoder(90));
 }
 
 TEST_P(Animation, RefusesFramesOfDifferentSizes) {

@@ -106,7 +106,7 @@ Cloth two_sheets(double mass) {
   const Mesh lower = make_grid(6, 6);
   Mesh mesh = lower;
   const auto count = static_cast<int>(lower.positions.rows());
-  mesh.positions.resize(2 * count, 3);
+  mesh.positions.resize(2 * lower.positions.rows(), 3);
   mesh.positions.topRows(count) = lower.positions;
   mesh.positions.bottomRows(count) = (0.7 * lower.positions).rowwise() + Eigen::RowVector3d(0.03, 0.02, 0.3);
   for (const Triangle& t : lower.triangles) mesh.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});

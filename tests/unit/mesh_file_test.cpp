@@ -17,7 +17,7 @@ using test::usage_error;
 using ::testing::TempDir;
 
 std::string write(const std::string& name, const std::string& text) {
-  const std::string path = TempDir() + "drape_mesh_file_" + name;
+  std::string path = TempDir() + "drape_mesh_file_" + name;
   std::ofstream(path, std::ios::binary) << text;
   return path;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "tests/unit/kernels_version.hpp"
@@ -63,7 +64,9 @@ TEST_P(FactorKernels, PacksAndUnpacks) {
   for (const int count : counts) {
     const auto n = static_cast<std::size_t>(count);
     const std::vector<double> from = numbers(3 * n, 31), before = numbers(3 * n, 32);
-    const auto columns = [n](auto& v) { return Columns{v.data(), v.data() + n, v.data() + 2 * n}; };
+    const auto columns = [n](auto& v) {
+      return Columns<std::remove_pointer_t<decltype(v.data())>>{v.data(), v.data() + n, v.data() + 2 * n};
+    };
     std::vector<int> row(n);  // a permutation: 7 has no common divisor with a power of two
     for (std::size_t v = 0; v < n; ++v) row[v] = static_cast<int>(7 * v % 256);
     std::vector<double> doubles(4 * 256, -1), there = before, difference = before;

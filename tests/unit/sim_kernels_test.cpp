@@ -47,9 +47,9 @@ struct Springs {
 struct Bands {
   static constexpr std::size_t lead = 64, size = lead + kernel_size;
   Springs springs;
-  std::vector<double> stiffness = numbers(max_bands * kernel_size, 13),
-                      rest_length = numbers(max_bands * kernel_size, 14);
-  std::vector<double> forces = numbers(3 * max_bands * size, 15);
+  std::vector<double> stiffness = numbers(std::size_t{max_bands} * kernel_size, 13),
+                      rest_length = numbers(std::size_t{max_bands} * kernel_size, 14);
+  std::vector<double> forces = numbers(size * max_bands * 3, 15);
   std::vector<SpringBand> bands;
 
   explicit Bands(std::initializer_list<int> offsets) {
