@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <chrono>
+#include <utility>
 
 #include "python/values.hpp"
 #include "scene/method_names.hpp"
@@ -51,12 +52,18 @@ Simulation::Checkpoint make_state(const Numbers& positions, const Numbers& veloc
 }
 
 std::unique_ptr<SceneSimulation> make_simulation(const py::object& scene, const py::dict& set,
-                                                 const std::filesystem::path& folder) {
+                                                 const std::filesystem::path& folder, int threads) {
+  constexpr int most_threads = 256;  // as on the command line
+  if (threads < 1 || threads > most_threads) {
+    throw UsageError(fmt::format("threads: expected a whole number from 1 to {}, found {}", most_threads, threads));
+  }
   const std::vector<std::string> overrides = to_overrides(set);
   const auto make = [&](const auto& read) {
     try {
       const py::gil_scoped_release free;
-      return std::make_unique<SceneSimulation>(read());
+      Scene made = read();
+      made.simulation.threads = threads;
+      return std::make_unique<SceneSimulation>(std::move(made));
     } catch (const Interrupted&) {
       throw py::error_already_set();
     }
@@ -179,8 +186,10 @@ void add_simulation(py::module_& module) {
   const auto settings = [](const Self& self) -> const SimulationSettings& { return self.scene().simulation; };
   py::class_<Self>(module, "Simulation", "A scene in motion.")
       .def(py::init(&make_simulation), py::arg("scene"), py::arg("set") = py::dict(), py::arg("folder") = "",
+           py::arg("threads") = 1,
            "Reads a scene: a TOML file, or a dictionary of the same tables, whose files are looked for in `folder`.\n\n"
            "`set` replaces values, {\"cloth.stiffness\": 300}, as --set does on the command line.\n"
+           "`threads` share a step where the cloth has 8192 vertices or more, with the same bits for any number.\n"
            "Raises UsageError, whose message lists every problem.")
       .def("step", &Self::step, py::arg("count") = 1,
            "Takes steps and returns the last one's report. Other Python threads run meanwhile, and Ctrl-C ends it "

@@ -2,6 +2,7 @@ import gc
 import signal
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -69,6 +70,27 @@ def test_arrays_are_read_only(swinging):
             array[0, 0] = 1
     with pytest.raises(ValueError):
         simulation.positions.flags.writeable = True
+
+
+def test_several_threads_give_the_bits_of_one(swinging):
+    swinging["cloth"]["mesh"] = {"grid": [92, 92]}  # large enough to be divided
+
+    def after_two_steps(threads):
+        before = len(list(Path("/proc/self/task").iterdir()))
+        simulation = drape.Simulation(swinging, threads=threads)
+        simulation.step(2)
+        return simulation.hash, len(list(Path("/proc/self/task").iterdir())) - before
+
+    hash, started = after_two_steps(1)
+    assert started == 0
+    for threads in (2, 3, 8):
+        assert after_two_steps(threads) == (hash, threads - 1)
+
+
+@pytest.mark.parametrize("threads", [0, -1, 257])
+def test_a_number_of_threads_that_makes_no_sense_is_refused(swinging, threads):
+    with pytest.raises(drape.UsageError, match=f"threads: expected a whole number from 1 to 256, found {threads}"):
+        drape.Simulation(swinging, threads=threads)
 
 
 @pytest.mark.parametrize("method", METHODS)
