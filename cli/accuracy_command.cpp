@@ -28,7 +28,7 @@ struct AccuracyArguments {
   std::vector<std::string> parts;  ///< empty: all
   AccuracyOptions options;
   std::string folder = "out/accuracy";
-  bool report_only = false;
+  bool report_only = false, resume = false;
 };
 
 std::string joined(const std::vector<std::string>& names) {
@@ -71,12 +71,14 @@ AccuracyParts parse_parts(const std::vector<std::string>& names) {
   if (names.empty()) return {.films = true};
   std::vector<std::string> known;
   for (const auto& [name, part] : accuracy_parts) known.emplace_back(name);
-  AccuracyParts parts{false, false, false, false};
+  AccuracyParts parts{false, false, false, false, false};
   for (const std::string& name : names) {
     parts.*accuracy_parts.at(parse_name("--parts", name, known, "the parts are")).second = true;
   }
   if (parts.films && !parts.asked)
     throw UsageError("--parts: films are drawn of what 'asked' runs, so it needs that too");
+  if (parts.estimates && !parts.asked)
+    throw UsageError("--parts: the estimates are those of what 'asked' runs, so it needs that too");
   return parts;
 }
 
@@ -95,6 +97,8 @@ std::string command_line(const AccuracyArguments& arguments) {
   text += numbers("--tolerances", arguments.options.tolerances) + numbers("--steps", arguments.options.steps) +
           numbers("--times", arguments.options.times) + numbers("--accuracies", arguments.options.accuracies);
   if (!arguments.parts.empty()) text += " --parts " + joined(arguments.parts);
+  if (arguments.options.patience != AccuracyOptions{}.patience)
+    text += " --patience " + plain_number(arguments.options.patience);
   return text + runs_option(arguments.options.runs) + " --animate " + joined(arguments.animations);
 }
 
@@ -105,6 +109,25 @@ ExitCode report_again(const AccuracyArguments& arguments, const CommonOptions& c
   return run_study(arguments.folder, common, [&](const std::stop_token&, Progress&) {
     return std::optional(accuracy_report(read_runs(arguments.folder)));
   });
+}
+
+/// What an interrupted study has left in its folder, if there is anything.
+/// @throws UsageError if that is another study's
+AccuracyStudy begun_study(const std::string& folder, const std::string& command) {
+  if (!std::filesystem::exists(std::filesystem::path(folder) / runs_name)) return {};
+  AccuracyStudy begun = read_runs(folder);
+  if (begun.command == command) return begun;
+  throw UsageError(fmt::format("--resume: {} is of another command: {}",
+                               (std::filesystem::path(folder) / runs_name).string(), begun.command));
+}
+
+/// Takes a scene over from a study that has it. @returns whether it has
+bool take_over(AccuracyStudy& begun, const std::string& name, AccuracyStudy& study) {
+  const auto found = std::ranges::find(begun.scenes, name, &SceneAccuracy::name);
+  if (found == begun.scenes.end()) return false;
+  study.pictures.push_back(std::move(begun.pictures[static_cast<std::size_t>(found - begun.scenes.begin())]));
+  study.scenes.push_back(std::move(*found));
+  return true;
 }
 
 ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& common) {
@@ -128,9 +151,12 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
   study.command = command_line(arguments);
   study.provenance = study_provenance();
   const std::vector<std::string> names = unique_names(scenes);
+  AccuracyStudy begun = arguments.resume ? begun_study(arguments.folder, study.command) : AccuracyStudy{};
+  study.seconds = begun.seconds;
   return run_study(
       arguments.folder, common, [&](const std::stop_token& stop, Progress& progress) -> std::optional<StudyReport> {
         for (std::size_t i = 0; i < scenes.size(); ++i) {
+          if (take_over(begun, names[i], study)) continue;
           std::optional<SceneAccuracy> one;
           try {
             one = study_accuracy(names[i], arguments.scenes[i], options, stop, progress);
@@ -148,7 +174,8 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
           if (stop.stop_requested()) return std::nullopt;
           study.scenes.push_back(std::move(*one));
           // What was measured is not lost if it ends before the last scene.
-          study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+          study.seconds =
+              begun.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
           write_file_atomically(std::filesystem::path(arguments.folder) / runs_name, runs_csv(study));
         }
         return accuracy_report(study);
@@ -179,13 +206,19 @@ void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& c
       ->check(number_in(positive));
   list(sub->add_option("--parts", arguments->parts,
                        "What to measure: solve (errors by tolerance), order (by time step), asked ([time] accuracy and "
-                       "fixed steps), films (how different they look); default all"));
+                       "fixed steps), estimates (how true what these steps say of their errors is), films (how "
+                       "different they look); default all"));
   list(sub->add_option(
       "--animate", arguments->animations,
       "What varies between the panels of the animations: tolerances (default), methods, steps, or none"));
   add_backend_option(*sub, options.backend);
   sub->add_option("--runs", options.runs, runs_help)->check(whole_number_in({1, 1000}));
   sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/accuracy");
+  sub->add_option("--patience", options.patience,
+                  "Computing time in s after which a motion of 'asked' is given up; default 20")
+      ->check(number_in(positive));
+  sub->add_flag("--resume", arguments->resume,
+                "Keep the scenes that an interrupted run of the same command has finished in the folder");
   sub->add_flag("--report-only", arguments->report_only,
                 "Measure nothing: recreate the report from the folder's runs.csv");
   sub->callback(

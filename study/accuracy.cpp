@@ -12,7 +12,8 @@
 namespace drape {
 namespace {
 
-constexpr std::int64_t states = 12;  // along the reference, from which steps are solved
+constexpr std::int64_t states = 12;         // along the reference, from which steps are solved
+constexpr double error_of_reference = 0.1;  // of the smallest accuracy
 
 void sort_without_repetition(std::vector<std::int64_t>& numbers) {
   std::sort(numbers.begin(), numbers.end());
@@ -53,13 +54,22 @@ class SceneStudy {
     if (films) result_.film_unknown = films->unknown();
     motions_.emplace(scene_, result_.options.times, small_steps_ ? &*small_steps_ : nullptr, films ? &*films : nullptr);
     if (!measure_cases(stop, progress) || !find_solve_errors(stop, progress)) return std::nullopt;
-    if (!motions_->find_local_errors(result_.asked, result_.notes, stop, progress)) return std::nullopt;
+    if (result_.options.parts.estimates && !motions_->find_local_errors(result_.asked, result_.notes, stop, progress)) {
+      return std::nullopt;
+    }
     find_orders(result_.steps);
     return std::move(result_);
   }
 
  private:
   bool find_references(const std::stop_token& stop, Progress& progress) {
+    return find_same_steps(stop, progress) && find_small_steps(stop, progress);
+  }
+
+  /// The reference in the scene's own steps, and what it says about contact and buckling.
+  bool find_same_steps(const std::stop_token& stop, Progress& progress) {
+    const bool judged = result_.options.parts.estimates && !cases_.asked.empty();
+    if (!result_.options.parts.solve && !judged) return true;
     const std::vector<double>& times = result_.options.times;
     const std::int64_t last = steps_until(times.back(), result_.step);
     const std::int64_t whole = result_.options.parts.solve ? scene_.step_count() : last;
@@ -76,11 +86,11 @@ class SceneStudy {
     };
     result_.chaotic_from = seconds(reference_->first_beyond(smallest_error));
     result_.buckling_from = seconds(reference_->first_beyond(largest_rounding));
-    if (!cases_.asked.empty()) {
+    if (judged) {
       const std::int64_t first = steps_until(times.front(), result_.step);
       result_.contact_from = seconds(first_contact(scene_.simulation, first, largest_rounding, stop));
     }
-    return find_small_steps(stop, progress);
+    return true;
   }
 
   bool find_small_steps(const std::stop_token& stop, Progress& progress) {
@@ -95,8 +105,9 @@ class SceneStudy {
     }
     sort_without_repetition(moments);
     const auto parts = static_cast<std::int64_t>(std::ceil(result_.step / options.steps.back() - 1e-9));
+    const double wanted = options.parts.asked ? error_of_reference * options.accuracies.back() : HUGE_VAL;
     small_steps_ = extrapolate_steps(scene_.simulation, moments,
-                                     reference_refinement * std::max<std::int64_t>(1, parts), stop, progress);
+                                     reference_refinement * std::max<std::int64_t>(1, parts), wanted, stop, progress);
     if (!small_steps_) return false;
     result_.step_reference = small_steps_->step;
     for (const double time : options.times) {
@@ -206,6 +217,14 @@ CaseRuns::CaseRuns(const Measured& measured)
       microseconds(measured.microseconds),
       setup(measured.setup),
       failure(measured.failure) {}
+
+MedianInterval CaseRuns::cost() const {
+  std::vector<double> whole = microseconds;
+  for (std::size_t i = 0; i < std::min(whole.size(), setup.size()); ++i) {
+    whole[i] += setup[i] / static_cast<double>(what.steps);
+  }
+  return median_interval(std::move(whole)).times(1e-3 / step);
+}
 
 void find_orders(std::vector<StepPoint>& steps) {
   for (std::size_t i = 0; i < steps.size(); ++i) {

@@ -22,20 +22,22 @@ inline constexpr std::int64_t reference_refinement = 4;
 
 /// What of a scene is measured.
 struct AccuracyParts {
-  bool solve = true;   ///< errors of the solve and of the motion, by method and tolerance
-  bool order = true;   ///< of the methods in the time step, each step solved to the end
-  bool asked = true;   ///< what [time] accuracy gives, beside fixed steps with the default tolerance
-  bool films = false;  ///< how different the films of these look; needs `asked`
+  bool solve = true;      ///< errors of the solve and of the motion, by method and tolerance
+  bool order = true;      ///< of the methods in the time step, each step solved to the end
+  bool asked = true;      ///< what [time] accuracy gives, beside fixed steps with the default tolerance
+  bool estimates = true;  ///< how true what the steps of `asked` say of their errors is; only with that
+  bool films = false;     ///< how different the films of these look; needs `asked`
 
   bool operator==(const AccuracyParts&) const = default;
 };
-inline constexpr std::array<std::pair<const char*, bool AccuracyParts::*>, 4> accuracy_parts{
+inline constexpr std::array<std::pair<const char*, bool AccuracyParts::*>, 5> accuracy_parts{
     {{"solve", &AccuracyParts::solve},
      {"order", &AccuracyParts::order},
      {"asked", &AccuracyParts::asked},
+     {"estimates", &AccuracyParts::estimates},
      {"films", &AccuracyParts::films}}};
 
-/// The parts that are there: "solve,order,asked".
+/// The parts that are there: "solve,order,asked,estimates".
 std::string names_of(const AccuracyParts& parts);
 
 /// What is asked. What is left empty has the defaults that complete() fills in.
@@ -48,6 +50,7 @@ struct AccuracyOptions {
   std::vector<double> accuracies;  ///< asked for; empty: 1e-2, 1e-3, 1e-4 [m]
   std::vector<std::string> overrides;
   RunCount runs = {};
+  double patience = 20;  ///< after so much computing time a motion of `asked` is given up [s]
   AccuracyParts parts = {};
   GlBackend backend = GlBackend::automatic;  ///< of the films
   bool of_several_scenes = false;            ///< a method that cannot compute one of them is left out there
@@ -67,8 +70,9 @@ struct CaseRuns {
   CaseRuns() = default;
   explicit CaseRuns(const Measured& measured);
   [[nodiscard]] MedianInterval time() const { return median_interval(microseconds); }
-  /// Computing time for a second of motion [ms].
-  [[nodiscard]] MedianInterval cost() const { return time().times(1e-3 / step); }
+  /// Computing time for a second of motion, with its share of the set-up: who chooses steps has that work before the
+  /// first, and who asks for an accuracy in several of them [ms].
+  [[nodiscard]] MedianInterval cost() const;
 };
 
 /// A method with a tolerance.

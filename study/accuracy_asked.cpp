@@ -234,11 +234,13 @@ std::vector<NamedChart> asked_charts(const SceneAccuracy& scene) {
 
 std::vector<ResultTable> asked_tables(const SceneAccuracy& scene) {
   if (scene.asked.empty()) return {};
-  return {asked_table(scene), estimate_table(scene)};
+  std::vector<ResultTable> tables{asked_table(scene)};
+  if (scene.options.parts.estimates) tables.push_back(estimate_table(scene));
+  return tables;
 }
 
 void add_asked_findings(StudyReport& report, const SceneAccuracy& scene) {
-  if (scene.asked.empty()) return;
+  if (scene.asked.empty() || !scene.options.parts.estimates) return;
   EstimateCheck all;
   for (const MotionPoint& p : scene.asked) all += check_estimates(scene, p);
   const std::string before =

@@ -14,9 +14,6 @@ namespace {
 // Of the cases that differ in their step: so small that the error of the solve is not seen beside that of the step.
 constexpr double small_tolerance = 1e-9;
 
-// After which a motion is given up: it is a miss in the performance profile.
-constexpr double most_seconds = 20;
-
 /// A scene as it is asked about, with its own method.
 StudyCase bare_case(const std::string& file, const AccuracyOptions& options, std::string label) {
   StudyCase what;
@@ -53,7 +50,7 @@ StudyCase by_default(const std::string& file, const AccuracyOptions& options, St
   const std::string scheme =
       is_explicit(method.method) ? "" : fmt::format(",scheme=\"{}\"", scheme_name(method.scheme));
   what.overrides.push_back(fmt::format("integrator={{method=\"{}\"{}}}", method_name(method.method), scheme));
-  what.patience = most_seconds;
+  what.patience = options.patience;
   return what;
 }
 

@@ -148,7 +148,9 @@ std::string motion_commands(const SceneAccuracy& scene, const MotionPoint& point
   const bool asked = std::ranges::any_of(scene.asked, [&](const MotionPoint& p) { return &p == &point; });
   const std::vector<double> steps = asked ? scene.options.steps : std::vector{point.setting};
   const std::vector<double> accuracies = asked ? std::vector{point.setting} : scene.options.accuracies;
-  const char* const parts = scene.options.parts.films ? "asked,films" : "asked";
+  const AccuracyParts& all = scene.options.parts;
+  const std::string parts =
+      names_of({.solve = false, .order = false, .asked = true, .estimates = all.estimates, .films = all.films});
   return fmt::format(
       "{}\n{}", command_of(scene, {step_method_name(point.method), parts, {}, steps, accuracies}),
       point.measured.what.film_command(film(scene, point.method, asked ? "accuracy" : "h", point.setting)));

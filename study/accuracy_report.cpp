@@ -51,7 +51,7 @@ ResultTable step_table(const SceneAccuracy& scene) {
        "error: max [m]", "RMS [m]", "order"},
       {},
       {fmt::format("Order: relative to the preceding step length. The reference is extrapolated from h = {:g} s and "
-                   "twice that, which changes it by {:.2g} m; its two solvers differ by {:.2g} m.",
+                   "twice that, which changes it by {:.2g} m; from twice these it is {:.2g} m away.",
                    scene.step_reference, scene.step_gained.front(), scene.step_apart),
        interval_note}};
   for (const StepPoint& p : scene.steps) {
@@ -177,11 +177,15 @@ StudyReport accuracy_report(const AccuracyStudy& study) {
   }
   report.sections.push_back(
       {"How it was measured",
-       {describe_measuring(scenes.front().options.runs) + " Step times exclude the set-up before the first step.",
+       {describe_measuring(scenes.front().options.runs) +
+            " Times of a step exclude the set-up before the first step; those of a second of motion have their share "
+            "of it.",
         fmt::format(
-            "Tolerances decide when a step ends; the limit of {} iterations is only a safeguard. The reference is "
-            "Newton's method, iterated until only rounding changes. Quasi-Newton does the same independently, "
-            "and the distance between the two is the uncertainty of the reference.",
+            "Tolerances decide when a step ends; the limit of {} iterations is only a safeguard. The reference of "
+            "solves "
+            "is Newton's method, iterated until only rounding changes. Quasi-Newton does the same independently, "
+            "and the distance between the two is the uncertainty of the reference. That of motions and time steps is "
+            "Verlet's in very small steps, or SDIRK2's where something is solved for, extrapolated.",
             most_study_iterations),
         "Solve error: distance of one step's result from the exact result, starting from the same state. Motion error: "
         "what these errors have accumulated to since the start. Time-step error: distance from a motion with steps so "

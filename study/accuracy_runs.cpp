@@ -15,7 +15,7 @@
 namespace drape {
 namespace {
 
-constexpr int format = 1;
+constexpr int format = 2;
 constexpr std::size_t most_bytes = std::size_t{1} << 31, most_picture_bytes = std::size_t{1} << 28;
 
 // What is kept, described once for both ways: Fields is a RunsWriter, and the rest constant, or a RunsRecord.
@@ -100,7 +100,9 @@ void describe(Fields& f, Scene& s) {
   f("runs", s.options.runs);
   f("part_solve", s.options.parts.solve);
   f("part_order", s.options.parts.order);
+  f("patience", s.options.patience);
   f("part_asked", s.options.parts.asked);
+  f("part_estimates", s.options.parts.estimates);
   f("part_films", s.options.parts.films);
   f("apart", s.apart);
   f("apart_by_step", s.apart_by_step);

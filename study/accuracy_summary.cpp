@@ -97,6 +97,7 @@ ResultTable checks_table(const std::vector<SceneAccuracy>& scenes) {
                     {}};
   const auto ratio = [](double value) { return value > 0 ? fmt::format("{:.2f}", value) : "–"; };
   for (const SceneAccuracy& scene : scenes) {
+    if (!scene.options.parts.estimates) continue;
     EstimateCheck all;
     for (const MotionPoint& p : scene.asked) all += check_estimates(scene, p);
     table.rows.push_back({scene.name, fmt::format("{}", all.judged), fmt::format("{}", all.close),
@@ -165,9 +166,11 @@ std::optional<StudySection> asked_summary(const std::vector<SceneAccuracy>& scen
   std::vector<SceneAccuracy> asked;
   std::ranges::copy_if(scenes, std::back_inserter(asked), [](const SceneAccuracy& s) { return !s.asked.empty(); });
   if (asked.empty()) return std::nullopt;
+  std::vector<ResultTable> tables{take_table(asked), cost_table(asked)};
+  if (ResultTable checks = checks_table(asked); !checks.rows.empty()) tables.push_back(std::move(checks));
   return StudySection{"Accuracies that are asked for",
                       {fmt::format("Errors of motions are at {:g} s.", asked.front().options.times.front())},
-                      {take_table(asked), cost_table(asked), checks_table(asked)},
+                      std::move(tables),
                       {},
                       {}};
 }

@@ -29,6 +29,17 @@ double least_cost(const SceneAccuracy& scene, StepMethod method, double target) 
   return least;
 }
 
+/// Why the last of a method's runs that failed has not come to its end; empty if none has failed.
+std::string failure_of(const SceneAccuracy& scene, StepMethod method) {
+  std::string why;
+  for (const auto* points : {&scene.fixed, &scene.asked}) {
+    for (const MotionPoint& p : *points) {
+      if (p.method == method && !p.measured.failure.empty()) why = p.measured.failure;
+    }
+  }
+  return why;
+}
+
 NamedChart profile_chart(const std::vector<ProfileCurve>& curves) {
   html::Chart chart{
       "Performance profiles: the share of the problems (a scene with an error of 1 mm or 0.1 mm) that a method solves "
@@ -84,6 +95,7 @@ ResultTable times_table(const ProfileTimes& times) {
   table.notes.emplace_back(
       "The least median among a method's runs, with fixed steps (default tolerance) or with an accuracy, that end "
       "nearer to the reference than the problem asks. –: none does.");
+  table.notes.insert(table.notes.end(), times.misses.begin(), times.misses.end());
   for (std::size_t p = 0; p < times.problems.size(); ++p) {
     table.rows.push_back({times.problems[p]});
     for (const std::vector<double>& of_solver : times.times) table.rows.back().push_back(three_digits(of_solver[p]));
@@ -136,7 +148,12 @@ ProfileTimes profile_times(const std::vector<SceneAccuracy>& scenes, std::vector
         continue;
       }
       times.problems.push_back(problem);
-      for (std::size_t s = 0; s < methods.size(); ++s) times.times[s].push_back(least_cost(scene, methods[s], target));
+      for (std::size_t s = 0; s < methods.size(); ++s) {
+        times.times[s].push_back(least_cost(scene, methods[s], target));
+        const std::string why = failure_of(scene, methods[s]);
+        if (std::isfinite(times.times[s].back()) || why.empty()) continue;
+        times.misses.push_back(fmt::format("{} misses {}: {}", times.solvers[s], problem, why));
+      }
     }
   }
   return times;

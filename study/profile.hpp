@@ -13,6 +13,7 @@ namespace drape {
 struct ProfileTimes {
   std::vector<std::string> problems, solvers;
   std::vector<std::vector<double>> times;  ///< [solver][problem]; infinite: not solved
+  std::vector<std::string> misses = {};    ///< in words, those where a run did not come to its end
 };
 
 /// A solver's curve of a performance profile.

@@ -4,10 +4,81 @@
 #include <array>
 #include <utility>
 
+#include "core/error.hpp"
 #include "run/run_steps.hpp"
 #include "study/reference.hpp"
 
 namespace drape {
+namespace {
+
+constexpr std::int64_t refinement = 2, most_refinement = 16;  // of Verlet's steps, which are cheap; to be stable
+constexpr int most_halvings_of_verlet = 3;
+
+/// What two lengths of step, of which one is twice the other, say of none.
+Vertices extrapolated(const Vertices& fine, const Vertices& coarse) { return (4 * fine - coarse) / 3; }
+
+/// A motion of second order in small steps.
+class SmallSteps {
+ public:
+  SmallSteps(SimulationSettings settings, const std::vector<std::int64_t>& moments, std::int64_t parts)
+      : settings_(std::move(settings)), moments_(moments), whole_(settings_.step), parts_(parts) {
+    settings_.accuracy.reset();
+    settings_.integrator = {};
+    settings_.integrator.method = Method::verlet;
+    for (parts_ = refinement * parts; parts_ <= most_refinement * parts; parts_ *= 2) {
+      if (can_run(parts_ / 4)) return;
+    }
+    parts_ = parts;
+    settings_.integrator.method = Method::quasi_newton;
+    settings_.integrator.scheme = TimeScheme::sdirk2;
+  }
+
+  /// In one of the scene's steps.
+  [[nodiscard]] std::int64_t parts() const { return parts_; }
+  /// Of the steps with so many parts [s].
+  [[nodiscard]] double length(std::int64_t parts) const { return whole_ / static_cast<double>(parts); }
+  [[nodiscard]] int most_halvings() const { return solved() ? 0 : most_halvings_of_verlet; }
+
+  /// Where it is at the moments; nothing if it was stopped.
+  [[nodiscard]] std::optional<std::vector<Vertices>> run(std::int64_t parts, const std::stop_token& stop,
+                                                         Progress& progress) const {
+    progress.begin("computing the reference in small steps", "steps", parts * moments_.back());
+    Simulation simulation(with(parts));
+    std::vector<Vertices> places;
+    for (const std::int64_t moment : moments_) {
+      StepCounter counter(progress);
+      run_steps(simulation, parts * moment, std::array<StepObserver*, 1>{&counter}, stop);
+      if (stop.stop_requested()) return std::nullopt;
+      places.push_back(simulation.state().x);
+    }
+    return places;
+  }
+
+ private:
+  [[nodiscard]] bool solved() const { return settings_.integrator.method != Method::verlet; }
+
+  [[nodiscard]] SimulationSettings with(std::int64_t parts) const {
+    SimulationSettings settings = settings_;
+    settings.step = length(parts);
+    return solved() ? to_rounding(settings, settings.integrator.method) : settings;
+  }
+
+  [[nodiscard]] bool can_run(std::int64_t parts) const {
+    try {
+      const Simulation simulation(with(parts));
+      return true;
+    } catch (const UsageError&) {
+      return false;
+    }
+  }
+
+  SimulationSettings settings_;
+  const std::vector<std::int64_t> moments_;
+  double whole_;  // [s]
+  std::int64_t parts_;
+};
+
+}  // namespace
 
 std::optional<std::size_t> StepReference::place(std::int64_t moment) const {
   const auto found = std::ranges::lower_bound(moments, moment);
@@ -18,29 +89,28 @@ std::optional<std::size_t> StepReference::place(std::int64_t moment) const {
 double StepReference::gained(std::size_t place) const { return distance(plain[place], x[place]).max; }
 
 std::optional<StepReference> extrapolate_steps(SimulationSettings settings, std::vector<std::int64_t> moments,
-                                               std::int64_t parts, const std::stop_token& stop, Progress& progress) {
+                                               std::int64_t parts, double wanted, const std::stop_token& stop,
+                                               Progress& progress) {
+  const SmallSteps steps(std::move(settings), moments, parts);
   StepReference reference;
   reference.moments = std::move(moments);
-  const double whole = settings.step;
-  const std::int64_t half = parts / 2;
-  std::vector<std::int64_t> keep;
-  for (const std::int64_t moment : reference.moments) keep.push_back(moment * half);
-  settings.integrator.scheme = TimeScheme::sdirk2;
-  settings.accuracy.reset();
-  settings.step = whole / static_cast<double>(half);
-  const auto coarse = run_reference(settings, keep.back(), keep, stop, progress);
-  if (!coarse) return std::nullopt;
-  reference.step = settings.step = whole / static_cast<double>(parts);
-  Simulation fine(to_rounding(settings, Method::implicit));
-  progress.begin("computing the reference in small steps", "steps", parts * reference.moments.back());
-  for (std::size_t i = 0; i < keep.size(); ++i) {
-    StepCounter counter(progress);
-    run_steps(fine, 2 * keep[i], std::array<StepObserver*, 1>{&counter}, stop);
-    if (stop.stop_requested()) return std::nullopt;
-    reference.plain.push_back(fine.state().x);
-    reference.x.emplace_back((4 * fine.state().x - coarse->states[i].x) / 3);
+  parts = steps.parts();
+  auto coarser = steps.run(parts / 4, stop, progress), coarse = steps.run(parts / 2, stop, progress),
+       fine = steps.run(parts, stop, progress);
+  for (int halvings = 0;; ++halvings) {
+    if (!coarser || !coarse || !fine) return std::nullopt;
+    reference.x.clear();
+    for (std::size_t i = 0; i < fine->size(); ++i) reference.x.push_back(extrapolated((*fine)[i], (*coarse)[i]));
+    reference.apart = distance(extrapolated(coarse->front(), coarser->front()), reference.x.front()).max;
+    const double gained = distance(fine->front(), reference.x.front()).max,
+                 before = distance(coarse->front(), coarser->front()).max / 3;
+    if (gained <= wanted || gained > before / 2 || halvings == steps.most_halvings()) break;
+    coarser = std::move(coarse);
+    coarse = std::move(fine);
+    fine = steps.run(parts *= 2, stop, progress);
   }
-  reference.apart = coarse->apart_after(keep.front());
+  reference.plain = std::move(*fine);
+  reference.step = steps.length(parts);
   return reference;
 }
 

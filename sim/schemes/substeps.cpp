@@ -17,6 +17,7 @@ constexpr int halvings_to_look_with = 6;  // where a step takes about the same t
 constexpr std::size_t most_kept = 4;      // attempts
 
 constexpr double halfway = 0.5;            // to the motion of higher order
+constexpr double ahead_of_substep = 0.25;  // of a substep: how much earlier semi-implicit Euler drifts
 constexpr double apart_of_same_order = 9;  // times the error of the shorter substeps
 constexpr double most_default_errors = 10;
 
@@ -115,11 +116,16 @@ class SubstepScheme::Attempt {
         longer_(owner.make_system_, std::ldexp(owner.step_, gap_ - k), beside(owner.integrator_), start,
                 owner.acceleration_, looser(owner.order_)),
         taken_(owner.order_ == 1 && !is_explicit(owner.integrator_.method) && filters().empty() ? halfway : 0),
-        error_per_apart_(owner.order_ == 1 ? 1 - taken_ : 1 / apart_of_same_order) {}
+        error_per_apart_(owner.order_ == 1 ? 1 - taken_ : 1 / apart_of_same_order) {
+    if (owner.order_ != 1 || !is_explicit(owner.integrator_.method) || !filters().empty()) return;
+    ahead_.setConstant(start.x.rows(), ahead_of_substep * shorter_.system.step);
+    for (const int pin : shorter_.system.cloth.pins) ahead_[pin] = 0;
+  }
 
   void begin(const State& start) {
     shorter_.begin(start, halvings);
     longer_.begin(start, halvings - gap_);
+    if (ahead_.size() > 0) shorter_.state.x += ahead_.asDiagonal() * start.v;
     done_ = 0;
     apart_ = 0;
   }
@@ -132,7 +138,7 @@ class SubstepScheme::Attempt {
     }
     add(longer_.advance(&early_, shorter_.acceleration()), report);
     ++done_;
-    apart_ = largest_distance(shorter_.state.x, longer_.state.x);
+    apart_ = largest_distance(place(), longer_.state.x);
   }
 
   [[nodiscard]] bool over() const { return done_ == std::int64_t{1} << (halvings - gap_); }
@@ -143,8 +149,8 @@ class SubstepScheme::Attempt {
     return std::ldexp(estimate() / static_cast<double>(done_), halvings - gap_);
   }
   /// Where the step ends, see SubstepScheme: to the bit where the two motions are where they are the same.
-  void end(State& state) const {
-    state.x = shorter_.state.x;
+  void end(State& state) {
+    state.x = place();
     state.v = shorter_.state.v;
     if (taken_ == 0) return;
     state.x += taken_ * (longer_.state.x - shorter_.state.x);
@@ -161,10 +167,19 @@ class SubstepScheme::Attempt {
     report.rise = std::max(report.rise, substep.rise);
   }
 
+  /// Where the shorter substeps have come to.
+  const Vertices& place() {
+    if (ahead_.size() == 0) return shorter_.state.x;
+    place_ = shorter_.state.x - ahead_.asDiagonal() * shorter_.state.v;
+    return place_;
+  }
+
   int gap_;
   Motion shorter_, longer_;
-  Vertices early_;  // acceleration of the first of the shorter substeps beside one of the longer ones [m/s²]
-  double taken_;    // of the way from where the shorter substeps end to where the longer ones do
+  Eigen::VectorXd ahead_;  // by how much each vertex of the shorter substeps is; empty: by nothing [s]
+  Vertices place_;         // scratch
+  Vertices early_;         // acceleration of the first of the shorter substeps beside one of the longer ones [m/s²]
+  double taken_;           // of the way from where the shorter substeps end to where the longer ones do
   double error_per_apart_;
   std::int64_t done_ = 0;  // of the longer substeps
   double apart_ = 0;       // [m]

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <sstream>
 
 #include "tests/cli/run_drape.hpp"
 #include "tests/cli/without_opengl.hpp"
@@ -145,11 +148,46 @@ TEST(Study, OfAccuracySaysWhatItCannotMeasure) {
   expect_error("a.toml --accuracies 0", "--accuracies");
   expect_error("a.toml --parts askd", "did you mean 'asked'");
   expect_error("a.toml --parts films", "films are drawn of what 'asked' runs");
+  expect_error("a.toml --parts estimates", "those of what 'asked' runs");
+  expect_error("a.toml --patience 0", "--patience");
   // Of one method only, which is asked for: semi-implicit Euler has nothing to solve for. Its turn would come after the
   // reference motion.
   folder.write("a.toml", swing + "[effects.sphere]\ncenter = [0, 0, -1]\nradius = 0.1\nresponse = \"implicit\"\n");
   expect_error("a.toml --times 0.1 --methods liu13,semi-implicit --set time.duration=1e5", "semi-implicit Euler");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+// What is measured again takes other times, so what has the same was kept.
+TEST(Study, OfAccuracyGoesOnWhereItWasInterrupted) {
+  const SceneFolder folder;
+  folder.write("a.toml", swing);
+  folder.write("b.toml", swing);
+  const std::string command =
+      "study accuracy a.toml b.toml --parts asked --times 0.1 --steps 0.02 --accuracies 1e-3 --methods verlet "
+      "--runs 1 --animate none -o results --resume";
+  ASSERT_EQ(drape(folder, command).code, 0);
+  const std::string whole = test::content(folder.path() / "results/runs.csv");
+  const auto rows_of = [](const std::string& text, const std::string& scene) {
+    std::istringstream lines(text);
+    std::string rows;
+    for (std::string line; std::getline(lines, line);) rows += line.starts_with(scene + ",") ? line + "\n" : "";
+    return rows;
+  };
+  // As it is after the first scene.
+  const std::string second = rows_of(whole, "b");
+  std::string begun = whole;
+  begun.erase(begun.find(second), second.size());
+  const auto rows = std::ranges::count(begun, '\n') - 2;  // without the heading and the last
+  begun.replace(begun.rfind(",rows,") + 6, std::string::npos, fmt::format("{}\n", rows));
+  folder.write("results/runs.csv", begun);
+  const Finished again = drape(folder, command);
+  EXPECT_EQ(again.code, 0) << again.text;
+  const std::string resumed = test::content(folder.path() / "results/runs.csv");
+  EXPECT_EQ(rows_of(resumed, "a"), rows_of(whole, "a"));
+  EXPECT_NE(rows_of(resumed, "b"), "");
+  const Finished other = drape(folder, command + " --set cloth.stiffness=30");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.text.find("runs.csv is of another command: drape study accuracy"), std::string::npos) << other.text;
 }
 
 // A profile over many scenes counts it as a miss.

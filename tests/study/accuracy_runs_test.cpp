@@ -75,7 +75,7 @@ TEST_F(Runs, OfAnotherKindAreRefusedWithTheirLine) {
     text.replace(text.find(from), from.size(), to);
     return problem(text);
   };
-  EXPECT_NE(changed("study,,,,,format,1", "study,,,,,format,7").find("format 1, found 7"), std::string::npos);
+  EXPECT_NE(changed("study,,,,,format,2", "study,,,,,format,7").find("format 2, found 7"), std::string::npos);
   EXPECT_NE(changed("solve_apart", "solve_aparts").find("'solve_apart' is missing"), std::string::npos);
   EXPECT_NE(changed(",estimate,0.001", ",estimate,many").find("expected a number, found 'many'"), std::string::npos);
   EXPECT_NE(changed(",asked,", ",askd,").find("did you mean 'asked'"), std::string::npos);
