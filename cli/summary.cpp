@@ -124,7 +124,8 @@ std::string of_steps(const Statistics& s) {
   std::string text = fmt::format("{} steps", s.steps());
   const auto& asked = s.exactness().asked();
   if (asked) {
-    text += fmt::format(", {:.3g} substeps each (at most {})", s.mean_substeps(), s.max_substeps());
+    const double mean = s.mean_substeps();
+    text += fmt::format(", {:.{}g} substeps each (at most {})", mean, mean < 1000 ? 3 : 7, s.max_substeps());
     if (s.not_converged() > 0) {
       text += fmt::format(", {} steps missed {}", s.not_converged(), readable_length(*asked));
     }

@@ -61,6 +61,20 @@ TEST(CommandLine, SaysWhatErrorTheStepsLeftAndThatAStandingClothIsNoEquilibrium)
   EXPECT_EQ(finished.text.find("equilibrium"), std::string::npos) << finished.text;
 }
 
+// It is said in the summary and beside each step, with the number of substeps as it is.
+TEST(CommandLine, SaysOfAnAbsurdlySmallAccuracyThatStepsMissedIt) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", scene);
+  folder.write("input", "\n\n\n");
+  const Finished finished = drape(folder,
+                                  "simulate scene.toml --steps 2 --step-by-step --set time.accuracy=1e-30 --set "
+                                  "'integrator={method=\"verlet\"}' < input");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  EXPECT_NE(finished.text.find(", 4096 substeps each (at most 4096), 2 steps missed "), std::string::npos)
+      << finished.text;
+  EXPECT_NE(finished.text.find(", above the requested accuracy, "), std::string::npos) << finished.text;
+}
+
 TEST(CommandLine, ReportsTheProblemsOfAllScenesTogether) {
   const test::SceneFolder folder;
   folder.write("a.toml", "[cloth]\nstifness = 1\n");

@@ -178,7 +178,8 @@ TEST(Study, OfAccuracyGoesOnWhereItWasInterrupted) {
   std::string begun = whole;
   begun.erase(begun.find(second), second.size());
   const auto rows = std::ranges::count(begun, '\n') - 2;  // without the heading and the last
-  begun.replace(begun.rfind(",rows,") + 6, std::string::npos, fmt::format("{}\n", rows));
+  begun.resize(begun.rfind(",rows,") + 6);
+  begun += fmt::format("{}\n", rows);
   folder.write("results/runs.csv", begun);
   const Finished again = drape(folder, command);
   EXPECT_EQ(again.code, 0) << again.text;
