@@ -215,41 +215,6 @@ TEST(FirstContact, OfAFallingClothIsTheStepThatBeginsBelowTheGround) {
   EXPECT_FALSE(first_contact(scene.simulation, step - 1, 1e-8, {}));
 }
 
-// Verlet's small steps, and those of SDIRK2 where a push is solved for (here one that nothing comes near).
-TEST(StepReference, IsNearerToTheMotionTheSmallerItsStepsAre) {
-  const SceneFolder folder;
-  const std::string solved = "[effects.sphere]\ncenter = [0, 0, -9]\nradius = 0.1\nresponse = \"implicit\"\n";
-  const auto reference = [&folder](const std::string& text, std::int64_t parts, double wanted) {
-    Progress progress;
-    return *extrapolate_steps(folder.load(text).simulation, {5, 10}, parts, wanted, {}, progress);
-  };
-  const StepReference finest = reference(small_scene, 256, 1);
-  for (const std::string& text : {small_scene, small_scene + solved}) {
-    const StepReference coarse = reference(text, 8, 1), fine = reference(text, 16, 1);
-    EXPECT_LE(coarse.step, 0.02 / 8);
-    EXPECT_LT(fine.gained(1), coarse.gained(1) / 2);
-    for (const StepReference* one : {&coarse, &fine}) {
-      EXPECT_LT(distance(one->x[0], finest.x[0]).max, one->apart);
-      EXPECT_LT(distance(one->x[1], finest.x[1]).max, 0.5 * one->gained(1));
-    }
-  }
-  const StepReference plain = reference(small_scene, 8, 1);
-  const double wanted = plain.gained(0) / 10;
-  const StepReference refined = reference(small_scene, 8, wanted);
-  EXPECT_EQ(refined.step, plain.step / 4);  // of second order: four times nearer with each halving
-  EXPECT_LE(refined.gained(0), wanted);
-}
-
-TEST(CaseRuns, TheCostOfAMotionHasItsShareOfTheSetUp) {
-  CaseRuns runs;
-  runs.what.steps = 10;
-  runs.step = 0.02;
-  runs.microseconds = {5, 7, 6};
-  runs.setup = {10, 20, 40};
-  EXPECT_DOUBLE_EQ(runs.cost().median, 1e-3 * 9 / 0.02);
-  EXPECT_DOUBLE_EQ(runs.time().median, 6);
-}
-
 class JudgedFilm : public ::testing::Test {
  protected:
   JudgedFilm() {
