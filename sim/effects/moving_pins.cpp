@@ -65,6 +65,10 @@ void MovingPins::check(const SimulationSettings& settings, const ProblemSink& pr
   if (follow && !pins.empty()) {
     try {
       static_cast<void>(motion(cloth));
+      if (follow->samples.empty() && !release) {
+        problem("follow",
+                "the mesh does not move, so the pins would stay where they are, as they do without this table");
+      }
     } catch (const std::invalid_argument& error) {
       problem("follow", error.what());
     }

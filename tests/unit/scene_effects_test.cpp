@@ -40,7 +40,8 @@ TEST(SceneEffects, ASphereMovesStraightInCirclesOrThroughKeyframes) {
 
 TEST(SceneEffects, ASphereMovesInOneWayOnly) {
   const SceneFolder folder;
-  EXPECT_EQ(folder.problems(with("sphere", "radius = 1")), "scene.toml:6:1: missing key 'center' in [effects.sphere]");
+  EXPECT_EQ(folder.problems(with("sphere", "radius = 1")),
+            "scene.toml:6:1: missing key 'center', 'keyframes' or 'track' in [effects.sphere]");
   EXPECT_EQ(folder.problems(with("sphere", "center = [0, 0, 0]\nradius = 1\nvelocity = [1, 0, 0]\norbit_period = 2")),
             "scene.toml:6:1: [effects.sphere]: give only one of 'velocity', 'orbit_period', 'keyframes' and 'track': "
             "each defines the motion");

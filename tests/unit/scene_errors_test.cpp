@@ -31,7 +31,7 @@ TEST(SceneErrors, AClothNeedsAMeshAndAStiffness) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems("\n  [cloth]\n"),
             "scene.toml:2:3: missing key 'mesh' in [cloth]\n"
-            "scene.toml:2:3: missing key 'stiffness' in [cloth]");
+            "scene.toml:2:3: missing key 'stiffness', 'modulus' or 'material' in [cloth]");
 }
 
 TEST(SceneErrors, AnUnknownKeyNamesTheNearest) {
@@ -244,7 +244,7 @@ TEST(SceneErrors, OnlySomeTablesMayBeGivenSeveralTimes) {
   const std::string sphere = "[[effects.sphere]]\ncenter = [0, 0, 1]\nradius = 1\n";
   EXPECT_EQ(folder.load(least_scene + sphere + sphere).simulation.effects.size(), 2U);
   EXPECT_EQ(folder.problems(least_scene + sphere + "[[effects.sphere]]\nradius = 0\n"),
-            "scene.toml:9:1: missing key 'center' in [effects.sphere]\n"
+            "scene.toml:9:1: missing key 'center', 'keyframes' or 'track' in [effects.sphere]\n"
             "scene.toml:10:10: radius must be above 0, found 0");
   EXPECT_EQ(folder.problems(least_scene + "[[effects.damping]]\nfactor = 0.5\n"),
             "scene.toml:6:1: [effects.damping] can only be given once, found an array");

@@ -35,7 +35,7 @@ TEST(SceneMessages, AllOfThemAreReportedInTheOrderOfTheFile) {
             "scene.toml:2:8: size: expected an array of 2 whole numbers, found one of 1\n"
             "scene.toml:4:16: acceleration: expected an array of 3 numbers, found a number\n"
             "scene.toml:5:2: unknown table 'clot'; did you mean 'cloth'?\n"
-            "scene.toml:6:1: missing key 'stiffness' in [cloth]\n"
+            "scene.toml:6:1: missing key 'stiffness', 'modulus' or 'material' in [cloth]\n"
             "scene.toml:7:12: pins[1]: expected a corner like 'corner:x-y-' or 'corner:x+y+z-', found 'corner:w'\n"
             "scene.toml:8:18: mesh.grid[0] must be at least 1, found 0\n"
             "scene.toml:10:10: factor must be above 0 and at most 1, found 2\n"

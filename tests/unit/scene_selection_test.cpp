@@ -133,6 +133,10 @@ TEST(SceneFollow, ReadsTheMeshThatPinsHoldOnTo) {
       folder.problems(cloth("0") + "[effects.moving_pins]\npins = [0]\nfollow = \"lift.usda\"\nrotations = [{ time = "
                                    "1, rotate = [0, 0, 90] }]\n"),
       "scene.toml:7:10: follow: the mesh already says how they move: omit 'keyframes' and 'rotations'");
+  EXPECT_EQ(
+      folder.problems(cloth("0") + "[effects.moving_pins]\npins = [0]\nfollow = \"body/008.obj\"\n"),
+      "scene.toml:7:10: follow: the mesh does not move, so the pins would stay where they are, as they do without "
+      "this table");
 }
 
 // What one folder holds can be computed anywhere: a motion file has it all.
