@@ -191,15 +191,6 @@ std::vector<std::string> tables_within(const std::string& owner, const std::vect
   return names;
 }
 
-/// 'a', 'b' or 'c': one of which has to be given.
-std::string any_of(const Key& key) {
-  std::string all = fmt::format("'{}'", key.name);
-  for (const std::string& other : key.alternatives) {
-    all += fmt::format("{}'{}'", &other == &key.alternatives.back() ? " or " : ", ", other);
-  }
-  return all;
-}
-
 }  // namespace
 
 void TableReader::read_all(const TomlValue& document, const std::vector<TableType>& types) {
@@ -227,7 +218,8 @@ void TableReader::read(const TomlValue& value, const TableType& type, const std:
     for (const Key& key : type.keys.all()) {
       const auto given = [&](const std::string& name) { return table->find(name) != nullptr; };
       if (key.required && !given(key.name) && std::ranges::none_of(key.alternatives, given)) {
-        problems_.add(value.place, fmt::format("missing key {} in [{}]", any_of(key), type.name));
+        problems_.add(value.place,
+                      fmt::format("missing key {} in [{}]", quoted_or(key.name, key.alternatives), type.name));
       }
     }
   } else if (value.as<TomlArray>() != nullptr) {

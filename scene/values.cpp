@@ -250,4 +250,12 @@ std::optional<std::filesystem::path> read_file_name(const TomlValue& value, cons
   return std::nullopt;
 }
 
+std::string quoted_or(const std::string& first, const std::vector<std::string>& others) {
+  std::string all = fmt::format("'{}'", first);
+  for (const std::string& other : others) {
+    all += fmt::format("{}'{}'", &other == &others.back() ? " or " : ", ", other);
+  }
+  return all;
+}
+
 }  // namespace drape

@@ -64,4 +64,7 @@ void read_keyframes(const TomlValue& value, const std::string& name, const Keyfr
 std::optional<std::filesystem::path> read_file_name(const TomlValue& value, const std::string& name,
                                                     const std::filesystem::path& folder, Problems& problems);
 
+/// 'a', 'b' or 'c': which of several keys can be given.
+std::string quoted_or(const std::string& first, const std::vector<std::string>& others);
+
 }  // namespace drape
