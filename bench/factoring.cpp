@@ -46,7 +46,7 @@ Subject make_cholmod(int cells) {
   return {.restore = [] {},
           .run =
               [matrix] {
-                SparseCholesky factor(matrix->pattern, FactorKind::simplicial, false);
+                SparseCholesky factor(matrix->pattern);
                 return factor.factorize(matrix->values.data()) ? 1 : 0;
               }};
 }

@@ -77,12 +77,13 @@ Keys integrator_keys(IntegratorSettings& integrator) {
            "displacement due to external forces in a step if that is less.")
       .above(0);
   keys.add("max_iterations", &integrator.max_iterations, "",
-           "Limit on the iterations of a step. Default: 20 for implicit, 100 for liu13, 500 for quasi-newton, or 2000 "
-           "when it stops at an error.")
+           "Limit on the iterations of a step. Default: 20 for implicit, 100 for liu13, 500 for quasi-newton; 2000 for "
+           "implicit and quasi-newton when a step stops at an error.")
       .at_least(1);
   keys.choice("linear_solver", integrator.linear_solver, {"automatic", "cholesky", "conjugate-gradients"},
               "How the method implicit solves Newton's equations: by a sparse Cholesky factorisation, or by conjugate "
-              "gradients preconditioned with liu13's matrix.");
+              "gradients preconditioned with liu13's matrix. Automatic: by conjugate gradients until those have taken "
+              "as many operations as a factorisation would, and then by that for the rest of the step.");
   keys.add("allow_unstable", &integrator.allow_unstable, "",
            "Runs scenes that are otherwise rejected: an explicit method beyond its largest safe step, or an implicit "
            "one where double precision cannot represent the inertia beside the springs.");

@@ -74,7 +74,7 @@ enum class StoppingRule {
 
 /// How Newton's equations are solved.
 enum class LinearSolver {
-  automatic,           ///< conjugate gradients, the faster ones at every size and stiffness measured
+  automatic,           ///< conjugate gradients, or the factor where it takes fewer operations, see CheaperNewton
   cholesky,            ///< a sparse direct factor
   conjugate_gradients  ///< preconditioned with Liu13's matrix
 };
@@ -86,7 +86,7 @@ struct IntegratorSettings {
   std::optional<StoppingRule> stop = {};   ///< absent: see Accuracy
   std::optional<double> tolerance = {};    ///< [m] or [N], see `stop`; absent: see Accuracy
   std::optional<int> max_iterations = {};  ///< absent: the homework's 20 for implicit and 100 for liu13; 500 for
-                                           ///< quasi_newton, 2000 where it stops at an error
+                                           ///< quasi_newton; both but liu13 2000 where they stop at an error
   LinearSolver linear_solver = LinearSolver::automatic;  ///< of the implicit method
   bool allow_unstable = false;                           ///< run what stability_problem() refuses
 

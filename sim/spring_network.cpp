@@ -251,7 +251,7 @@ void SpringNetwork::kick_and_drift(const Eigen::VectorXd& factor, const Vertices
   });
 }
 
-void SpringNetwork::compute_blocks(const Vertices& x, Blocks& blocks) const {
+void SpringNetwork::compute_blocks(const Vertices& x, double concavity, Blocks& blocks) const {
   blocks.across.resize(static_cast<Eigen::Index>(stiffness_.size()));
   blocks.along.resize(blocks.across.size(), 3);
   const auto kept = [&](std::size_t begin) {
@@ -260,11 +260,11 @@ void SpringNetwork::compute_blocks(const Vertices& x, Blocks& blocks) const {
   };
   for (const Band& b : bands_) {
     for_ranges(threads_, std::max(0, vertex_count_ - b.offset), [&](Eigen::Index first, Eigen::Index count) {
-      kernels().band_blocks(band(b, static_cast<int>(first), nullptr), static_cast<int>(count), columns(x, first),
-                            kept(b.begin + static_cast<std::size_t>(first)));
+      kernels().band_blocks(band(b, static_cast<int>(first), nullptr), static_cast<int>(count), concavity,
+                            columns(x, first), kept(b.begin + static_cast<std::size_t>(first)));
     });
   }
-  for (const List& l : lists_) kernels().list_blocks(list(l), columns(x), kept(l.begin));
+  for (const List& l : lists_) kernels().list_blocks(list(l), concavity, columns(x), kept(l.begin));
 }
 
 void SpringNetwork::add_product(const Blocks& blocks, const Vertices& vector, Vertices& product) const {

@@ -36,18 +36,20 @@ class SpringNetwork {
   /// @param h      0 to change the velocities only [s]
   void kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, double h, Vertices& v, Vertices& x) const;
 
-  /// The springs' Hessian with its negative eigenvalues left out, one symmetric 3×3 block for each spring, d = xᵢ − xⱼ:
-  ///   K = k max(0, 1 − L/‖d‖) I + k min(1, L/‖d‖) x̂x̂ᵀ = across·I + along·alongᵀ,
-  /// which is the exact Hessian where the spring is stretched and k x̂x̂ᵀ where it is compressed.
+  /// The springs' Hessian, one symmetric 3×3 block for each spring, d = xᵢ − xⱼ:
+  ///   K = k (1 − s) I + k s x̂x̂ᵀ = across·I + along·alongᵀ,  s = share_across(L/‖d‖, concavity).
+  /// Without concavity that is exact where the spring is stretched and k x̂x̂ᵀ where it is compressed.
   struct Blocks {
     Eigen::VectorXd across;  ///< one for each spring as it is laid out here [N/m]
     Vertices along;          ///< likewise [√(N/m)]
   };
-  void compute_blocks(const Vertices& x, Blocks& blocks) const;
+  void compute_blocks(const Vertices& x, double concavity, Blocks& blocks) const;
 
   /// product += H·vector, H the Hessian of the blocks: K on (i,i) and (j,j), −K on (i,j) and (j,i).
   void add_product(const Blocks& blocks, const Vertices& vector, Vertices& product) const;
 
+  /// How many springs are in no band.
+  [[nodiscard]] std::size_t gathered() const { return i_.size(); }
   /// The springs as they were given, in the same order.
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
 

@@ -44,12 +44,13 @@ struct HessianBlocks {
   Eigen::Matrix<double, Eigen::Dynamic, 6> vertices;
 };
 
-/// The positive semi-definite Hessian of an energy at one place and time: the exact one, or what is left of it without
-/// its negative eigenvalues. An object of its own, as only some methods need what it keeps.
+/// The Hessian of an energy at one place and time, or a part of it. An object of its own, as only some methods need
+/// what it keeps.
 struct EnergyHessian {
   virtual ~EnergyHessian() = default;
   /// Takes the places x, n×3 [m], and the time [s].
-  virtual void linearise(const Vertices& x, double time) = 0;
+  /// @param concavity share of the negative eigenvalues that it has, from 0 to 1; an energy may leave out small ones
+  virtual void linearise(const Vertices& x, double time, double concavity) = 0;
   /// product += H·vector, both n×3.
   virtual void add_product(const Vertices& vector, Vertices& product) const = 0;
   /// Appends the blocks of its pairs, and adds those of vertices.

@@ -40,9 +40,9 @@ struct TimedForce final : Timed<Force> {
 
 struct TimedHessian final : Timed<EnergyHessian> {
   using Timed::Timed;
-  void linearise(const Vertices& x, double time) override {
+  void linearise(const Vertices& x, double time, double concavity) override {
     const Stopwatch watch(seconds);
-    inner->linearise(x, time);
+    inner->linearise(x, time, concavity);
   }
   void add_product(const Vertices& vector, Vertices& product) const override {
     const Stopwatch watch(seconds);

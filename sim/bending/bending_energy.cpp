@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "sim/concavity.hpp"
+
 namespace drape {
 namespace {
 
@@ -35,8 +37,8 @@ std::vector<Spring> couplings(std::span<const CurvatureElement> elements) {
 
 }  // namespace
 
-/// H of the quadratic part, which is constant, and −min(1, r/‖q‖)(I − q̂q̂ᵀ) wwᵀ of every curved component: the exact
-/// Hessian where ‖q‖ > r, else what is left of it without its negative eigenvalues, as with springs.
+/// H of the quadratic part, which is constant, and −s(I − q̂q̂ᵀ) wwᵀ of every curved component, s = share_across(r/‖q‖,
+/// concavity): the exact Hessian where ‖q‖ > r, else a part of it, as with springs.
 class BendingHessian final : public EnergyHessian {
  public:
   explicit BendingHessian(const BendingEnergy& energy) : energy_(energy), curved_(energy.curved_.size()) {
@@ -54,13 +56,13 @@ class BendingHessian final : public EnergyHessian {
     }
   }
 
-  void linearise(const Vertices& x, double) override {
+  void linearise(const Vertices& x, double, double concavity) override {
     for (std::size_t k = 0; k < curved_.size(); ++k) {
       const Eigen::Vector3d q = energy_.curved_[k].bent(x).transpose();
       const double length = q.norm();
       curved_[k].setZero();
       if (!(length > 0)) continue;
-      const double share = std::min(1.0, energy_.curved_[k].rest / length);
+      const double share = share_across(energy_.curved_[k].rest / length, concavity);
       curved_[k] = share * (q * q.transpose() / (length * length) - Eigen::Matrix3d::Identity());
     }
   }
@@ -92,7 +94,7 @@ class BendingHessian final : public EnergyHessian {
 
  private:
   const BendingEnergy& energy_;
-  std::vector<Eigen::Matrix3d> curved_;  // −min(1, r/‖q‖)(I − q̂q̂ᵀ) of each curved component
+  std::vector<Eigen::Matrix3d> curved_;  // −s(I − q̂q̂ᵀ) of each curved component
   std::vector<int> places_;              // among the pairs, of the 15 of each curved component; −1 for none
 };
 

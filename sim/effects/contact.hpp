@@ -130,7 +130,7 @@ class PenaltyHessian final : public EnergyHessian {
     contacts_.reserve(static_cast<std::size_t>(energy.masses.size()));
   }
 
-  void linearise(const Vertices& x, double time) override {
+  void linearise(const Vertices& x, double time, double /*concavity*/) override {
     contacts_.clear();
     const auto now = energy_.surface.at(time);
     SurfaceContact contact;

@@ -195,8 +195,9 @@ void add_band_product(const SpringStretch& stretch, const ConstSpringBlocks* blo
   sweep(stretch, vector, laws, finish);
 }
 
-void band_blocks(const SpringBand& band, int springs, Columns<const double> positions, SpringBlocks blocks) {
-  BlockLaw law{band.stiffness, band.rest_length, blocks};
+void band_blocks(const SpringBand& band, int springs, double concavity, Columns<const double> positions,
+                 SpringBlocks blocks) {
+  BlockLaw law{band.stiffness, band.rest_length, concavity, blocks};
   for_range(0, springs, [&]<class V>(int t, V) {
     Triple<V> d = load_triple<V>(positions, t) - load_triple<V>(positions, t + band.offset);
     law(t, d.x, d.y, d.z);

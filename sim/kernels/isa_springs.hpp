@@ -2,6 +2,7 @@
 
 // The laws of springs, and loops over springs in any order. Included by kernels_isa.cpp only, see there.
 
+#include "sim/concavity.hpp"
 #include "sim/kernels/isa_simd.hpp"
 #include "sim/kernels/kernels.hpp"
 
@@ -52,18 +53,20 @@ struct ValueGradientLaw {
   }
 };
 
-/// Keeps the Hessian block K = k·max(0, 1 − L/‖d‖)·I + k·min(1, L/‖d‖)·x̂x̂ᵀ.
+/// Keeps the Hessian block K = k(1 − s)·I + k·s·x̂x̂ᵀ, s as in share_across(L/‖d‖, concavity).
 struct BlockLaw {
   const double* stiffness;
   const double* rest_length;
+  double concavity;
   SpringBlocks blocks;
 
   template <class V>
   void operator()(int t, V& x, V& y, V& z) {
     const V distance = length(x, y, z);
     const V k = load<V>(stiffness + t);
-    const V along = smaller(load<V>(rest_length + t) / distance, V{} + 1.0);
-    const V share = k * along;
+    const V ratio = load<V>(rest_length + t) / distance;
+    const V positive = smaller(ratio, V{} + 1.0);
+    const V share = k * (positive + concavity * (smaller(ratio, V{} + most_compressed) - positive));
     const V scale = square_root(share) / distance;  // of √share·x̂
     store<V>(blocks.across + t, k - share);
     store<V>(blocks.along.x + t, scale * x);
@@ -150,8 +153,8 @@ void add_list_product(const SpringList& list, ConstSpringBlocks blocks, Columns<
   scatter(list, vector, product, law);
 }
 
-void list_blocks(const SpringList& list, Columns<const double> positions, SpringBlocks blocks) {
-  BlockLaw law{list.stiffness, list.rest_length, blocks};
+void list_blocks(const SpringList& list, double concavity, Columns<const double> positions, SpringBlocks blocks) {
+  BlockLaw law{list.stiffness, list.rest_length, concavity, blocks};
   [[maybe_unused]] const Gathered unused(list, positions, law);
 }
 

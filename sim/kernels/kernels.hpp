@@ -131,9 +131,9 @@ struct Kernels {
   /// Moves the vertices of a stretch by an explicit step. Stretches must be given in their order.
   void (*kick_bands)(const SpringStretch&, const SpringKick&);
 
-  /// The springs' positive semi-definite Hessian blocks at some positions, see SpringNetwork.
-  void (*band_blocks)(const SpringBand&, int springs, Columns<const double> positions, SpringBlocks);
-  void (*list_blocks)(const SpringList&, Columns<const double> positions, SpringBlocks);
+  /// The springs' Hessian blocks at some positions, see SpringNetwork and share_across().
+  void (*band_blocks)(const SpringBand&, int springs, double concavity, Columns<const double> positions, SpringBlocks);
+  void (*list_blocks)(const SpringList&, double concavity, Columns<const double> positions, SpringBlocks);
   /// product += the springs' Hessian times `vector`; `blocks` has one entry for each band.
   void (*add_band_product)(const SpringStretch&, const ConstSpringBlocks* blocks, Columns<const double> vector,
                            Columns<double> product);

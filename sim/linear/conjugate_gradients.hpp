@@ -11,18 +11,31 @@ namespace drape {
 /// extremely so. H is never assembled: its springs' blocks are kept as vectors, and a product is one pass over them.
 class ConjugateGradients final : public NewtonSolver {
  public:
+  /// Far beyond what the worst scenes need. What is reached by then is still a direction of descent.
+  static constexpr int most_iterations = 1000;
+
   /// @param preconditioner A of the same system, which must outlive this; without it one is made
   ConjugateGradients(const System& system, const StepObjective& objective, ConstantFactor* preconditioner = nullptr);
-  void solve(const Vertices& x, const Vertices& gradient, Vertices& direction) override;
+  void solve(const Vertices& x, const Vertices& gradient, double concavity, Vertices& direction) override {
+    static_cast<void>(solve_within(most_iterations, x, gradient, concavity, direction));
+  }
+  /// The same in so many iterations at most. Returns whether that was enough.
+  [[nodiscard]] bool solve_within(int iterations, const Vertices& x, const Vertices& gradient, double concavity,
+                                  Vertices& direction);
+
+  /// How many iterations take as long as to assemble H and to factor it. Counted, and so the same on every
+  /// machine.
+  [[nodiscard]] int worth_a_factor() const;
 
  private:
-  void linearise(const Vertices& x);
+  void linearise(const Vertices& x, double concavity);
   void apply(const Vertices& vector, Vertices& product) const;
 
   const System& system_;
   const StepObjective& objective_;
   std::unique_ptr<ConstantFactor> own_;  // unless it is given
   ConstantFactor& preconditioner_;
+  std::size_t pair_count_ = 0;  // coupled by springs and energies
   SpringNetwork::Blocks blocks_;
   std::vector<std::unique_ptr<EnergyHessian>> hessians_;  // of the system's energies
   Vertices residual_, preconditioned_, search_, product_;

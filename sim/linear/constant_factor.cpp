@@ -79,7 +79,7 @@ ConstantFactor::ConstantFactor(const System& system, double duration, Precision 
 
 bool ConstantFactor::factor_columns(const LowerPattern& pattern, const std::vector<double>& values, const Stop& stop,
                                     const FreeVertices& free) {
-  SparseCholesky factor(pattern, FactorKind::simplicial, false, tolerated_zeros * (sizeof(double) + sizeof(float)));
+  SparseCholesky factor(pattern, tolerated_zeros * (sizeof(double) + sizeof(float)));
   stop.look();
   if (!factor.factorize(values.data())) return false;
   stop.look();
@@ -92,11 +92,7 @@ bool ConstantFactor::factor_columns(const LowerPattern& pattern, const std::vect
 bool ConstantFactor::factor_fronts(const LowerPattern& pattern, const std::vector<double>& values, const System& system,
                                    const FreeVertices& free) {
   system.stop.look();
-  // What is made of springs alone may have no rest shape.
-  const Vertices& shape = system.cloth.rest.rows() == vertex_count_ ? system.cloth.rest : system.cloth.positions;
-  Vertices places(row_count_, 3);
-  for (int f = 0; f < row_count_; ++f) places.row(f) = shape.row(free.vertex(f));
-  MultifrontalCholesky factor(pattern, dissect(pattern, places), sizeof(float));
+  MultifrontalCholesky factor(pattern, dissect(pattern, free.rest_places(system.cloth)), sizeof(float));
   if (!factor.factorize(values.data(), [&] { system.stop.look(); })) return false;
   number_rows(factor.permutation().data(), free);
   entries_ = factor.entries();
@@ -105,6 +101,16 @@ bool ConstantFactor::factor_fronts(const LowerPattern& pattern, const std::vecto
   rows_ = std::move(parts.rows);
   double_.values = std::move(parts.values);
   return true;
+}
+
+double ConstantFactor::operations() const {
+  double sum = 0;
+  for (const Panel& panel : panels_) {
+    for (int below = panel.row_count + 1; below <= panel.row_count + panel.width; ++below) {
+      sum += static_cast<double>(below) * below;
+    }
+  }
+  return sum;
 }
 
 void ConstantFactor::number_rows(const int* permutation, const FreeVertices& free) {

@@ -36,6 +36,8 @@ class ConstantFactor {
   [[nodiscard]] bool single_precision() const { return !single_.values.empty(); }
   /// Numbers stored for L, the zeros within panels included.
   [[nodiscard]] std::size_t entries() const { return entries_; }
+  /// Multiplications and additions that computing L takes: Σ c² over columns of c entries.
+  [[nodiscard]] double operations() const;
   /// In how many parts it is solved, see SolveTree.
   [[nodiscard]] int parts() const { return tree_.size(); }
 

@@ -15,6 +15,13 @@ FreeVertices::FreeVertices(const Cloth& cloth) : numbers_(static_cast<std::size_
   }
 }
 
+Vertices FreeVertices::rest_places(const Cloth& cloth) const {
+  const Vertices& shape = cloth.rest.rows() == cloth.vertex_count() ? cloth.rest : cloth.positions;
+  Vertices places(count(), 3);
+  for (int f = 0; f < count(); ++f) places.row(f) = shape.row(vertex(f));
+  return places;
+}
+
 LowerPattern spring_pattern(const std::vector<Spring>& springs, const FreeVertices& free) {
   using Index = std::size_t;
   const auto n = static_cast<Index>(free.count());

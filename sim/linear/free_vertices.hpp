@@ -19,6 +19,9 @@ class FreeVertices {
   /// The free number of a vertex, −1 for a pin.
   [[nodiscard]] int number(int vertex) const { return numbers_[static_cast<std::size_t>(vertex)]; }
 
+  /// Where they are in the rest shape, or where the cloth starts if it has none, n×3 [m].
+  [[nodiscard]] Vertices rest_places(const Cloth& cloth) const;
+
  private:
   std::vector<int> vertices_, numbers_;
 };

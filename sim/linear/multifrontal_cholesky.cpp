@@ -119,7 +119,8 @@ void MultifrontalCholesky::add_panels(int s) {
 bool MultifrontalCholesky::factorize(const double* values, const Pause& pause) {
   Pacer pacer(pause);
   double *output = factor_.values.data(), *top = stack_.data();
-  std::vector<int> waiting;
+  std::vector<int>& waiting = waiting_;
+  waiting.clear();
   for (int s = 0; s < tree_.count(); ++s) {
     const int width = tree_.width(s), below = tree_.below(s);
     double* left = top;

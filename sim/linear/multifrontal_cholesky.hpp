@@ -82,6 +82,7 @@ class MultifrontalCholesky {
 
   std::optional<DenseFront> front_;
   std::vector<double> stack_;     // what is left for fronts to come
+  std::vector<int> waiting_;      // whose that is
   std::vector<int> place_;        // of a row of L in the front at work
   std::vector<int> child_rows_;   // those of a child
   std::vector<double> solution_;  // see Kernels::solve_double

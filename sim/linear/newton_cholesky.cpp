@@ -2,35 +2,18 @@
 
 #include <algorithm>
 
+#include "sim/concavity.hpp"
+#include "sim/linear/dissection.hpp"
+
 namespace drape {
 namespace {
 
-// Beyond this many free vertices a supernodal factor is faster, at the price of bits that depend on the machine's BLAS.
-constexpr int largest_simplicial = 2000;
-
 // Of the largest entry of the diagonal: what is added to it where the matrix is indefinite by rounding.
 constexpr double first_shift = 1e-14;
+// Shares of the negative eigenvalues below this are not tried.
+constexpr double least_concavity = 1.0 / 64;
 
 using Index = std::size_t;
-
-/// The same graph with its vertices renumbered by `rank`.
-LowerPattern permuted(const LowerPattern& pattern, const std::vector<int>& rank) {
-  std::vector<std::vector<int>> columns(rank.size());
-  for (int c = 0; c < pattern.size(); ++c) {
-    for (int p = pattern.starts[Index(c)]; p < pattern.starts[Index(c) + 1]; ++p) {
-      const auto [low, high] = std::minmax({rank[Index(c)], rank[Index(pattern.rows[Index(p)])]});
-      columns[Index(low)].push_back(high);
-    }
-  }
-  LowerPattern result;
-  result.starts.push_back(0);
-  for (auto& column : columns) {
-    std::sort(column.begin(), column.end());
-    result.rows.insert(result.rows.end(), column.begin(), column.end());
-    result.starts.push_back(static_cast<int>(result.rows.size()));
-  }
-  return result;
-}
 
 /// Every entry replaced by a 3×3 block, those of the diagonal by their lower triangle.
 LowerPattern expanded(const LowerPattern& blocks) {
@@ -48,13 +31,22 @@ LowerPattern expanded(const LowerPattern& blocks) {
   return result;
 }
 
-Eigen::Matrix3d spring_hessian(const Spring& spring, const Vertices& x) {
+/// An order of 3×3 blocks as one of their rows.
+std::vector<int> expanded(const std::vector<int>& order) {
+  std::vector<int> result;
+  for (const int block : order) {
+    for (int axis = 0; axis < 3; ++axis) result.push_back(3 * block + axis);
+  }
+  return result;
+}
+
+Eigen::Matrix3d spring_hessian(const Spring& spring, const Vertices& x, double concavity) {
   const Eigen::Vector3d d = (x.row(spring.i) - x.row(spring.j)).transpose();
   const double length = d.norm();
   if (!(length > 0)) return Eigen::Matrix3d::Zero();
   const Eigen::Vector3d u = d / length;
   const Eigen::Matrix3d along = u * u.transpose();
-  const double across = std::max(0.0, 1 - spring.rest_length / length);
+  const double across = 1 - share_across(spring.rest_length / length, concavity);
   return spring.stiffness * (along + across * (Eigen::Matrix3d::Identity() - along));
 }
 
@@ -66,22 +58,14 @@ NewtonCholesky::NewtonCholesky(const System& system, const StepObjective& object
   const int n = free.count();
   if (n == 0) return;
 
-  // A fill-reducing order of the vertices is one of their 3×3 blocks too, found nine times faster.
-  const std::vector<Spring> springs = system.stiffness_bound().pairs;
-  const LowerPattern graph = spring_pattern(springs, free);
-  const SparseCholesky analysis(graph, FactorKind::simplicial, false);
-  auto rank = std::vector<int>(static_cast<Index>(n));
   for (int row = 0; row < n; ++row) {
-    const int number = analysis.permutation()[row];
-    rank[Index(number)] = row;
-    vertices_.push_back(free.vertex(number));
+    vertices_.push_back(free.vertex(row));
     inertia_.push_back(objective.inertia()[vertices_.back()]);
   }
-
-  const LowerPattern blocks = permuted(graph, rank);
+  const std::vector<Spring> springs = system.stiffness_bound().pairs;
+  const LowerPattern blocks = spring_pattern(springs, free);
   for (const Spring& spring : springs) {
-    const int i = free.number(spring.i), j = free.number(spring.j);
-    const auto [low, high] = std::minmax({i < 0 ? -1 : rank[Index(i)], j < 0 ? -1 : rank[Index(j)]});
+    const auto [low, high] = std::minmax({free.number(spring.i), free.number(spring.j)});
     places_.push_back({low, high, 0});
     if (low < 0) continue;
     const auto begin = blocks.rows.begin() + blocks.starts[Index(low)];
@@ -94,7 +78,7 @@ NewtonCholesky::NewtonCholesky(const System& system, const StepObjective& object
   column_starts_.assign(pattern.starts.begin(), pattern.starts.end() - 1);
   values_.resize(Index(pattern.entries()));
   right_hand_side_.resize(3 * Index(n));
-  factor_.emplace_back(pattern, n <= largest_simplicial ? FactorKind::simplicial : FactorKind::supernodal, true);
+  factor_.emplace(pattern, expanded(dissect(blocks, free.rest_places(system.cloth))));
 }
 
 void NewtonCholesky::add(const Place& place, const Eigen::Matrix3d& block) {
@@ -119,34 +103,49 @@ void NewtonCholesky::add_below(int column_block, int rank, const Eigen::Matrix3d
   }
 }
 
-bool NewtonCholesky::factorize(const Vertices& x) {
+void NewtonCholesky::assemble(const Vertices& x, double concavity) {
   std::fill(values_.begin(), values_.end(), 0.0);
   for (Index row = 0; row < inertia_.size(); ++row) {
     add_diagonal(static_cast<int>(row), inertia_[row] * Eigen::Matrix3d::Identity());
   }
   for (Index s = 0; s < system_.springs.size(); ++s) {
-    if (places_[s].high >= 0) add(places_[s], spring_hessian(system_.springs[s], x));
+    if (places_[s].high >= 0) add(places_[s], spring_hessian(system_.springs[s], x, concavity));
   }
-  add_energies(x);
-  system_.stop.look();
+  add_energies(x, concavity);
+}
+
+bool NewtonCholesky::factorize(const Vertices& x, double most) {
+  for (double share = std::min(most, concavity_); share >= least_concavity; share /= 4) {
+    assemble(x, share);
+    if (factor_->factorize(values_.data(), [this] { system_.stop.look(); })) {
+      concavity_ = 4 * share;
+      return true;
+    }
+    concavity_ = share;
+  }
+  assemble(x, 0);
+  return factorize_positive();
+}
+
+bool NewtonCholesky::factorize_positive() {
   // Positive definite in exact arithmetic; what rounding has spoilt, a multiple of the identity mends (Nocedal and
   // Wright 2006, algorithm 3.3).
   double largest = 0;
   for (const int start : column_starts_) largest = std::max(largest, values_[Index(start)]);
-  for (double shift = first_shift * largest; !factor_.front().factorize(values_.data()); shift *= 10) {
-    system_.stop.look();
+  const auto look = [this] { system_.stop.look(); };
+  for (double shift = first_shift * largest; !factor_->factorize(values_.data(), look); shift *= 10) {
     if (!(shift <= largest)) return false;
     for (const int start : column_starts_) values_[Index(start)] += shift;
   }
   return true;
 }
 
-void NewtonCholesky::add_energies(const Vertices& x) {
+void NewtonCholesky::add_energies(const Vertices& x, double concavity) {
   if (hessians_.empty()) return;
   blocks_.pairs.clear();
   blocks_.vertices.setZero(x.rows(), 6);
   for (const auto& hessian : hessians_) {
-    hessian->linearise(x, objective_.time());
+    hessian->linearise(x, objective_.time(), concavity);
     hessian->add_blocks(blocks_);
   }
   const Place* place = places_.data() + system_.springs.size();
@@ -159,13 +158,13 @@ void NewtonCholesky::add_energies(const Vertices& x) {
   }
 }
 
-void NewtonCholesky::solve(const Vertices& x, const Vertices& gradient, Vertices& direction) {
+void NewtonCholesky::solve(const Vertices& x, const Vertices& gradient, double concavity, Vertices& direction) {
   direction.setZero();
-  if (factor_.empty() || !factorize(x)) return;
+  if (!factor_ || !factorize(x, concavity)) return;
   for (Index row = 0; row < vertices_.size(); ++row) {
     for (int axis = 0; axis < 3; ++axis) right_hand_side_[3 * row + Index(axis)] = gradient(vertices_[row], axis);
   }
-  factor_.front().solve(right_hand_side_.data(), right_hand_side_.data());
+  factor_->solve(right_hand_side_.data(), right_hand_side_.data());
   for (Index row = 0; row < vertices_.size(); ++row) {
     for (int axis = 0; axis < 3; ++axis) direction(vertices_[row], axis) = right_hand_side_[3 * row + Index(axis)];
   }

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim/linear/free_vertices.hpp"
+#include "sim/linear/multifrontal_cholesky.hpp"
 #include "sim/linear/newton_solver.hpp"
-#include "sim/linear/sparse_cholesky.hpp"
 #include "sim/step_objective.hpp"
 
 namespace drape {
@@ -15,12 +16,18 @@ namespace drape {
 class NewtonCholesky final : public NewtonSolver {
  public:
   NewtonCholesky(const System& system, const StepObjective& objective);
-  void solve(const Vertices& x, const Vertices& gradient, Vertices& direction) override;
+  void begin() override { concavity_ = 1; }
+  void solve(const Vertices& x, const Vertices& gradient, double concavity, Vertices& direction) override;
 
  private:
-  /// Returns false where the matrix is not finite.
-  [[nodiscard]] bool factorize(const Vertices& x);
-  void add_energies(const Vertices& x);
+  /// Writes H.
+  void assemble(const Vertices& x, double concavity);
+  void add_energies(const Vertices& x, double concavity);
+  /// Factors H with the largest share that leaves it positive definite, among a few. Returns false where it is not
+  /// finite.
+  [[nodiscard]] bool factorize(const Vertices& x, double most);
+  /// Factors what has been assembled without concavity.
+  [[nodiscard]] bool factorize_positive();
 
   /// Where the block of a spring or a pair goes: the rows of its ends in H/3 (−1 for a pin), and the place of the
   /// off-diagonal block among those of the smaller row's column.
@@ -35,6 +42,7 @@ class NewtonCholesky final : public NewtonSolver {
 
   const System& system_;
   const StepObjective& objective_;
+  double concavity_ = 1;            // that is tried next
   std::vector<int> vertices_;       // of each block row
   std::vector<Place> places_;       // of each spring, then of each pair of each energy
   std::vector<int> column_starts_;  // 3 per block row: where each scalar column begins in values_
@@ -43,7 +51,7 @@ class NewtonCholesky final : public NewtonSolver {
   std::vector<double> right_hand_side_;
   std::vector<std::unique_ptr<EnergyHessian>> hessians_;  // of the system's energies
   HessianBlocks blocks_;                                  // theirs
-  std::vector<SparseCholesky> factor_;                    // one, absent where everything is pinned
+  std::optional<MultifrontalCholesky> factor_;            // none where everything is pinned
 };
 
 }  // namespace drape

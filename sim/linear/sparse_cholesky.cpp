@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -21,8 +20,6 @@ struct SparseCholesky::Implementation {
   LowerPattern pattern;
   cholmod_sparse matrix{};
   cholmod_factor* factor = nullptr;
-  // Kept from one solve to the next, so that a solve allocates nothing.
-  cholmod_dense *solution = nullptr, *scratch_y = nullptr, *scratch_e = nullptr;
 
   explicit Implementation(const LowerPattern& p) : pattern(p) {
     cholmod_start(&common);
@@ -40,9 +37,6 @@ struct SparseCholesky::Implementation {
     matrix.packed = 1;
   }
   ~Implementation() {
-    cholmod_free_dense(&solution, &common);
-    cholmod_free_dense(&scratch_y, &common);
-    cholmod_free_dense(&scratch_e, &common);
     cholmod_free_factor(&factor, &common);
     cholmod_finish(&common);
   }
@@ -66,32 +60,24 @@ void require_surface(double rows, double operations, double always) {
                   rows, operations));
 }
 
-SparseCholesky::SparseCholesky(const LowerPattern& pattern, FactorKind kind, bool order_given, double caller_bytes)
+SparseCholesky::SparseCholesky(const LowerPattern& pattern, double caller_bytes)
     : implementation_(std::make_unique<Implementation>(pattern)) {
   auto& i = *implementation_;
-  i.common.supernodal = kind == FactorKind::simplicial ? CHOLMOD_SIMPLICIAL : CHOLMOD_SUPERNODAL;
+  i.common.supernodal = CHOLMOD_SIMPLICIAL;
   i.common.final_ll = 1;
-  if (order_given) {
-    i.common.nmethods = 1;
-    i.common.method[0].ordering = CHOLMOD_NATURAL;
-    i.common.postorder = 0;
-  }
   i.matrix.xtype = CHOLMOD_PATTERN;
   i.factor = cholmod_analyze(&i.matrix, &i.common);
   // CHOLMOD's int version numbers entries up to 2³¹; a factor beyond that would not fit anywhere near this limit.
   constexpr double largest = 2147483647.0;
-  const double entry = sizeof(double) + (kind == FactorKind::simplicial ? sizeof(int) : 0);
+  constexpr double entry = sizeof(double) + sizeof(int);
   const bool too_large = i.common.status == CHOLMOD_TOO_LARGE || i.common.lnz > largest;
-  // OpenBLAS, on which a supernodal factor runs, maps work space of its own, and waits for ever where it gets none.
-  constexpr double blas_work = 256e6;
   require_memory("a sparse factor of " + std::to_string(pattern.size()) + " rows",
-                 (too_large ? std::max(i.common.lnz, largest) * entry : i.common.lnz * (entry + caller_bytes)) +
-                     (kind == FactorKind::supernodal ? blas_work : 0),
+                 too_large ? std::max(i.common.lnz, largest) * entry : i.common.lnz * (entry + caller_bytes),
                  "use a coarser cloth or another method");
   if (too_large) throw UsageError("a sparse factor of this cloth has more than 2³¹ entries: use conjugate gradients");
   i.require(i.factor != nullptr);
   // A minute or two.
-  require_surface(pattern.size(), i.common.fl, kind == FactorKind::simplicial ? 5e10 : 2e12);
+  require_surface(pattern.size(), i.common.fl, 5e10);
   i.matrix.xtype = CHOLMOD_REAL;
 }
 
@@ -106,25 +92,10 @@ bool SparseCholesky::factorize(const double* values) {
   return i.common.status != CHOLMOD_NOT_POSDEF && i.factor->minor == i.factor->n;
 }
 
-void SparseCholesky::solve(const double* b, double* x) {
-  auto& i = *implementation_;
-  const std::size_t n = i.matrix.nrow;
-  cholmod_dense right{};
-  right.nrow = right.d = right.nzmax = n;
-  right.ncol = 1;
-  right.x = const_cast<double*>(b);  // CHOLMOD only reads it
-  right.xtype = CHOLMOD_REAL;
-  right.dtype = CHOLMOD_DOUBLE;
-  i.require(cholmod_solve2(CHOLMOD_A, i.factor, &right, nullptr, &i.solution, nullptr, &i.scratch_y, &i.scratch_e,
-                           &i.common) != 0);
-  std::memcpy(x, i.solution->x, n * sizeof(double));
-}
-
 const int* SparseCholesky::permutation() const { return static_cast<const int*>(implementation_->factor->Perm); }
 
 SparseCholesky::Columns SparseCholesky::columns() const {
   const cholmod_factor& f = *implementation_->factor;
-  if (f.is_super != 0 || f.is_ll == 0) throw std::logic_error("only a simplicial LLᵀ factor has columns");
   return {static_cast<const int*>(f.p), static_cast<const int*>(f.nz), static_cast<const int*>(f.i),
           static_cast<const double*>(f.x)};
 }

@@ -21,35 +21,26 @@ struct LowerPattern {
 /// @throws UsageError
 void require_surface(double rows, double operations, double always);
 
-/// How a factor is laid out: simplicial gives the same bits with every BLAS and is as fast on small matrices,
-/// supernodal uses the BLAS and is faster on large ones, with bits that depend on the machine.
-enum class FactorKind { simplicial, supernodal };
-
 /// The Cholesky factorisation A = Pᵀ L Lᵀ P of a sparse symmetric positive-definite matrix, by CHOLMOD (Chen et al.
-/// 2008). The sparsity is analysed once; the values may change.
+/// 2008), column by column, with the same bits on every machine. The sparsity is analysed once; the values may change.
 class SparseCholesky {
  public:
-  /// Analyses the pattern.
-  /// @param order_given  keep the order of the rows as it is (a caller that has a fill-reducing one already); else
-  ///                     CHOLMOD chooses a permutation
+  /// Analyses the pattern, and chooses a permutation.
   /// @param caller_bytes that the caller will keep for each entry of the factor
   /// @throws UsageError if the factor cannot fit into memory, or takes far longer than one of a surface
-  SparseCholesky(const LowerPattern& pattern, FactorKind kind, bool order_given, double caller_bytes = 0);
+  explicit SparseCholesky(const LowerPattern& pattern, double caller_bytes = 0);
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
   /// Computes the factor of the matrix whose lower triangle has these values, in the order of the pattern.
-  /// @return false if it is not positive definite to working precision; solve() is then not allowed
+  /// @return false if it is not positive definite to working precision
   [[nodiscard]] bool factorize(const double* values);
-
-  /// Solves A x = b for one right-hand side of n numbers; x and b may be the same.
-  void solve(const double* b, double* x);
 
   /// The order that the rows were brought into, n numbers: row r of L belongs to row permutation()[r] of A.
   [[nodiscard]] const int* permutation() const;
 
-  /// The factor itself: L by columns, the diagonal first in each. Simplicial factors only.
+  /// The factor itself: L by columns, the diagonal first in each.
   struct Columns {
     const int* starts;  ///< n
     const int* counts;  ///< n

@@ -13,6 +13,10 @@ constexpr double customary = 1e-3;   // for a rule that is given without a toler
 
 double longest(const Vertices& v) { return v.rowwise().stableNorm().maxCoeff(); }
 
+StoppingRule rule_of(const IntegratorSettings& settings) {
+  return settings.stop.value_or(settings.tolerance ? StoppingRule::change : StoppingRule::error);
+}
+
 /// The forces of the springs as the cloth starts, n×3 [N].
 Vertices spring_forces(const System& system) {
   const Vertices& x = system.cloth.positions;
@@ -55,9 +59,12 @@ double default_error(const System& system, const Eigen::VectorXd& inertia) {
 
 }  // namespace
 
+int default_iterations(const IntegratorSettings& settings, int otherwise) {
+  return rule_of(settings) == StoppingRule::error ? 2000 : otherwise;
+}
+
 Accuracy::Accuracy(const IntegratorSettings& settings, const System& system, const Eigen::VectorXd& inertia)
-    : rule(settings.stop.value_or(settings.tolerance ? StoppingRule::change : StoppingRule::error)),
-      tolerance(settings.tolerance.value_or(customary)) {
+    : rule(rule_of(settings)), tolerance(settings.tolerance.value_or(customary)) {
   if (!settings.tolerance && rule == StoppingRule::error) tolerance = default_error(system, inertia);
 }
 

@@ -21,4 +21,8 @@ struct Accuracy {
   Accuracy(const IntegratorSettings& settings, const System& system, const Eigen::VectorXd& inertia);
 };
 
+/// How many iterations end a step by default: 2000 where it stops at an error, which must be reached.
+/// @param otherwise a method's own number
+int default_iterations(const IntegratorSettings& settings, int otherwise);
+
 }  // namespace drape

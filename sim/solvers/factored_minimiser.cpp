@@ -10,7 +10,7 @@ FactoredMinimiser::FactoredMinimiser(const System& system, const StepObjective& 
 
 void FactoredMinimiser::find_newton_step(const Iterate& point, Vertices& direction) {
   if (!newton_) newton_ = std::make_unique<ConjugateGradients>(system_, objective(), &factor_);
-  newton_->solve(point.x, point.gradient, direction);
+  newton_->solve(point.x, point.gradient, 0, direction);
 }
 
 }  // namespace drape

@@ -6,17 +6,11 @@ namespace drape {
 namespace {
 
 constexpr int quasi_newton_iterations = 500;
-constexpr int iterations_to_an_error = 2000;  // the default must get there
-
-int most_iterations(const IntegratorSettings& settings) {
-  const bool by_default = !settings.stop && !settings.tolerance;
-  return by_default || settings.stop == StoppingRule::error ? iterations_to_an_error : quasi_newton_iterations;
-}
 
 }  // namespace
 
 QuasiNewton::QuasiNewton(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
-    : FactoredMinimiser(system, objective, settings, most_iterations(settings)),
+    : FactoredMinimiser(system, objective, settings, default_iterations(settings, quasi_newton_iterations)),
       history_(system.cloth.vertex_count(), system.threads),
       preconditioned_(Vertices::Zero(system.cloth.vertex_count(), 3)),
       direction_(preconditioned_) {}

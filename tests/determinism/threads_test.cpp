@@ -96,7 +96,7 @@ struct SpringPasses {
     product = random_vertices(n, 3);
     energy = springs.add_value_gradient(x, product);
     SpringNetwork::Blocks blocks;
-    springs.compute_blocks(x, blocks);
+    springs.compute_blocks(x, 0, blocks);
     springs.add_product(blocks, y, product);
     moved = x;
     velocities = random_vertices(n, 4);

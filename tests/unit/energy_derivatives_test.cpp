@@ -62,7 +62,7 @@ class Term {
   Vertices product(const Vertices& x, const Vertices& v) {
     Vertices result = Vertices::Zero(x.rows(), 3);
     for (const auto& hessian : hessians_) {
-      hessian->linearise(x, 0);
+      hessian->linearise(x, 0, 0);
       hessian->add_product(v, result);
     }
     return result;
@@ -71,7 +71,7 @@ class Term {
   Vertices product_of_blocks(const Vertices& x, const Vertices& v) {
     HessianBlocks blocks{.pairs = {}, .vertices = Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(x.rows(), 6)};
     for (const auto& hessian : hessians_) {
-      hessian->linearise(x, 0);
+      hessian->linearise(x, 0, 0);
       hessian->add_blocks(blocks);
     }
     Vertices result(x.rows(), 3);
@@ -195,16 +195,16 @@ TEST_P(EveryEnergy, EntersBothOfNewtonsLinearSolvers) {
   for (const int pin : term_.cloth().pins) b.row(pin).setZero();
   const auto residual = [&](const Vertices& p) {
     SpringNetwork::Blocks blocks;
-    objective.springs().compute_blocks(x, blocks);
+    objective.springs().compute_blocks(x, 0, blocks);
     Vertices left = objective.inertia().asDiagonal() * p + term_.product(x, p);
     objective.springs().add_product(blocks, p, left);
     for (const int pin : term_.cloth().pins) left.row(pin).setZero();
     return (left - b).norm() / b.norm();
   };
   Vertices p(x.rows(), 3);
-  NewtonCholesky(system, objective).solve(x, b, p);
+  NewtonCholesky(system, objective).solve(x, b, 0, p);
   EXPECT_LT(residual(p), 1e-10);
-  ConjugateGradients(system, objective).solve(x, b, p);
+  ConjugateGradients(system, objective).solve(x, b, 0, p);
   EXPECT_LT(residual(p), 1.01e-2);
 }
 

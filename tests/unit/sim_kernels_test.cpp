@@ -109,9 +109,11 @@ TEST_P(KernelsVersion, FindsTheSameBlocksAndProducts) {
   for (const int count : counts) {
     std::vector<double> a(4 * n, 0), b = a;
     std::vector<double> c = numbers(springs.positions.size(), 7), d = c;
-    reference.list_blocks(springs.list(count), springs.columns(), blocks_in(a));
-    tested.list_blocks(springs.list(count), springs.columns(), blocks_in(b));
-    ASSERT_TRUE(same(a, b)) << count << " springs in a list";
+    for (const double concavity : {1.0, 0.3, 0.0}) {
+      reference.list_blocks(springs.list(count), concavity, springs.columns(), blocks_in(a));
+      tested.list_blocks(springs.list(count), concavity, springs.columns(), blocks_in(b));
+      ASSERT_TRUE(same(a, b)) << count << " springs in a list";
+    }
     reference.add_list_product(springs.list(count), blocks_of(a), factors, Springs::columns(c));
     tested.add_list_product(springs.list(count), blocks_of(a), factors, Springs::columns(d));
     ASSERT_TRUE(same(c, d)) << count << " springs in a list";
@@ -160,9 +162,9 @@ TEST_P(KernelsVersion, MultipliesBandsAlike) {
     for (std::size_t band = 0; band < 2; ++band) {
       double* first = blocks_a.data() + 4 * n * band;
       double* second = blocks_b.data() + 4 * n * band;
-      reference.band_blocks(a.bands[band], count, a.springs.columns(),
+      reference.band_blocks(a.bands[band], count, 0.3, a.springs.columns(),
                             {first, {first + n, first + 2 * n, first + 3 * n}});
-      tested.band_blocks(b.bands[band], count, b.springs.columns(),
+      tested.band_blocks(b.bands[band], count, 0.3, b.springs.columns(),
                          {second, {second + n, second + 2 * n, second + 3 * n}});
       of_a.push_back({first, {first + n, first + 2 * n, first + 3 * n}});
       of_b.push_back({second, {second + n, second + 2 * n, second + 3 * n}});

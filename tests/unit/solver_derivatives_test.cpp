@@ -82,7 +82,7 @@ TEST_P(Derivatives, TheHessianOfStretchedClothIsTheSlopeOfTheGradient) {
   const SpringNetwork& springs = objective_->springs();
   for (const Spring& s : springs.springs()) ASSERT_GT((x.row(s.i) - x.row(s.j)).norm(), s.rest_length);
   SpringNetwork::Blocks blocks;
-  springs.compute_blocks(x, blocks);
+  springs.compute_blocks(x, 0, blocks);
   Vertices product = Vertices::Zero(x.rows(), 3), above = product, below = product;
   springs.add_product(blocks, direction_, product);
   const double e = 1e-6;
@@ -95,8 +95,8 @@ TEST_P(Derivatives, BothLinearSolversSolveTheSameEquations) {
   const Vertices& x = cloth_.positions;
   const Vertices g = gradient(x);
   Vertices exact(x.rows(), 3), iterated(x.rows(), 3);
-  NewtonCholesky(system_, *objective_).solve(x, g, exact);
-  ConjugateGradients(system_, *objective_).solve(x, g, iterated);
+  NewtonCholesky(system_, *objective_).solve(x, g, 0, exact);
+  ConjugateGradients(system_, *objective_).solve(x, g, 0, iterated);
   // To the tolerance of the inner iteration, in the norm of the forces, which the equations' smallest eigenvalue m/h²
   // turns into one of lengths.
   const double smallest = objective_->inertia().minCoeff();
