@@ -36,6 +36,9 @@ AccuracyStudy random_study() {
         for (double& one : costs) one = cost * between(0.8, 1.2);
         auto& points = setting == 0.1 ? scene.asked : scene.fixed;
         points.push_back(test::invented_motion(scene.scene, method, setting, between(1e-5, 1e-2), costs));
+        std::vector<double>& setup = points.back().measured.setup;
+        setup.resize(costs.size());
+        for (double& one : setup) one = between(0, 1e5);
       }
     }
     study.scenes.push_back(std::move(scene));
