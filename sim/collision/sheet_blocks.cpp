@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace drape {
 namespace {
@@ -27,6 +28,37 @@ Places places_along(const Eigen::Ref<const Eigen::VectorXd>& axis, double same) 
   places.erase(std::unique(places.begin(), places.end(), [&](double a, double b) { return b - a <= same; }),
                places.end());
   return places;
+}
+
+using Corner = Eigen::RowVector2d;
+
+double cross(const Corner& a, const Corner& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// The corners of the convex hull, counterclockwise (Andrew 1979).
+std::vector<Corner> convex_hull(std::vector<Corner> points) {
+  const auto before = [](const Corner& a, const Corner& b) { return std::pair(a[0], a[1]) < std::pair(b[0], b[1]); };
+  std::sort(points.begin(), points.end(), before);
+  std::vector<Corner> hull;
+  const auto add_side = [&] {
+    const Index first = hull.size();
+    for (const Corner& point : points) {
+      while (hull.size() >= first + 2 && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0) {
+        hull.pop_back();
+      }
+      hull.push_back(point);
+    }
+    hull.pop_back();  // where the other side begins
+  };
+  add_side();
+  std::reverse(points.begin(), points.end());
+  add_side();
+  return hull;
+}
+
+double area_of(const std::vector<Corner>& corners) {
+  double twice = 0;
+  for (Index k = 0; k < corners.size(); ++k) twice += cross(corners[k], corners[(k + 1) % corners.size()]);
+  return twice / 2;
 }
 
 /// Where so many blocks begin and end, with as many places in each: a power of two, or all places.
@@ -107,16 +139,19 @@ bool SheetBlocks::lay_flat(const Cloth& cloth) {
   axes.col(1) = normal.cross(axes.col(0));
   const Vertices from_origin = cloth.rest.rowwise() - origin.transpose();
   flat_ = from_origin * axes;
-  const Eigen::RowVector2d low = flat_.colwise().minCoeff(), high = flat_.colwise().maxCoeff();
-  same_ = flatness * (high - low).maxCoeff();
+  same_ = flatness * (flat_.colwise().maxCoeff() - flat_.colwise().minCoeff()).maxCoeff();
   if (!((from_origin * normal).cwiseAbs().maxCoeff() <= same_)) return false;
+  std::vector<Corner> ends;
+  for (const Edge& side : border) ends.emplace_back(flat_.row(side[0]));
+  const std::vector<Corner> hull = convex_hull(std::move(ends));
   for (const Edge& side : border) {
-    const auto both_at = [&](int axis, double place) {
-      return std::abs(flat_(side[0], axis) - place) <= same_ && std::abs(flat_(side[1], axis) - place) <= same_;
-    };
-    if (!both_at(0, low[0]) && !both_at(0, high[0]) && !both_at(1, low[1]) && !both_at(1, high[1])) return false;
+    const Corner start = flat_.row(side[0]), along = flat_.row(side[1]) - start;
+    const double outside = -same_ * along.norm();
+    const bool all_inside = std::all_of(hull.begin(), hull.end(),
+                                        [&](const Corner& corner) { return cross(along, corner - start) >= outside; });
+    if (!all_inside) return false;
   }
-  return add_pieces(cloth, same_, (high - low).prod());
+  return add_pieces(cloth, same_, area_of(hull));
 }
 
 bool SheetBlocks::add_pieces(const Cloth& cloth, double same, double whole) {
@@ -132,7 +167,7 @@ bool SheetBlocks::add_pieces(const Cloth& cloth, double same, double whole) {
     least_height_ = std::min(least_height_, twice / longest);
     pieces_.push_back({.vertices = t, .inverse = edges.inverse()});
   }
-  // Each point of the rectangle has as many triangles on it as any other, since the border is the rectangle's.
+  // Each point of the hull has as many triangles on it as any other, since the border is the hull's.
   return area < 1.5 * whole;
 }
 

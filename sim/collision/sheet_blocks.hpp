@@ -11,13 +11,14 @@
 
 namespace drape {
 
-/// A cloth that was cut as a rectangle, laid flat again and divided into blocks: into 2×2 of them, and each of these
-/// again and again, until there are about two triangles in a block.
+/// A cloth that was cut in a convex shape, laid flat again, and the rectangle around it divided into blocks: into 2×2
+/// of them, and each of these again and again, until there are about two triangles in a block. Blocks in which nothing
+/// lies are empty.
 class SheetBlocks {
  public:
   struct Piece {
     Triangle vertices;
-    Eigen::Matrix2d inverse;  ///< of its two edges from the first vertex, in the rectangle [1/m]
+    Eigen::Matrix2d inverse;  ///< of its two edges from the first vertex, where it lies flat [1/m]
   };
   /// An edge of triangles in which ‖∂u/∂p‖² ≤ weight·‖uᵢ − uⱼ‖², where of their edges it is this for which it is
   /// largest.
@@ -61,6 +62,9 @@ class SheetBlocks {
     [[nodiscard]] std::span<const int> vertices_of(std::size_t block) const {
       return {vertices.data() + first_vertex[block], first_vertex[block + 1] - first_vertex[block]};
     }
+    [[nodiscard]] bool is_empty(const Part& part) const {
+      return all_pieces(part, [](std::size_t) { return false; });
+    }
     /// Whether check(piece) is true of all pieces that reach into a part; some are looked at more than once.
     template <class Check>
     bool all_pieces(const Part& part, Check&& check) const {
@@ -81,7 +85,7 @@ class SheetBlocks {
   using Pairs = std::array<std::array<int, most_inside>, most_inside>;
   static const Pairs& pairs_apart(std::size_t columns);
 
-  /// Nothing where the triangles do not tile the rectangle around them: all have to lie the same way up, and what has
+  /// Nothing where the triangles do not tile their convex hull: all have to lie the same way up, and what has
   /// but one triangle has to be on the border.
   static std::optional<SheetBlocks> of(const Cloth& cloth);
 
@@ -104,7 +108,7 @@ class SheetBlocks {
   void fill(Level& level) const;
   void weigh_edges();
 
-  Flat flat_;        // where vertices are in the rectangle [m]
+  Flat flat_;        // where vertices are [m]
   double same_ = 0;  // what is no difference there [m]
   double least_height_ = 0;
   std::vector<Piece> pieces_;

@@ -100,6 +100,7 @@ bool SmoothSheet::window_is_apart(Index l, Index column, Index row) {
   window.seen = calls_;
   const SheetBlocks::Level& level = sheet_->levels()[l];
   const Part part = level.window(column, row);
+  if (level.is_empty(part)) return true;
   const Change change = change_in(l, part);
   window.used += change.since;
   const bool lasts = window.split ? window.used < least_used : window.room.lasts({window.used, change.next});
@@ -208,6 +209,7 @@ bool SmoothSheet::pair_is_apart(Index l, const Pair& pair) {
   const SheetBlocks::Level& level = sheet_->levels()[l];
   const auto& [first, second] = pair;
   const Part a = level.part_of(first), b = level.part_of(second);
+  if (level.is_empty(a) || level.is_empty(b)) return true;
   const Part between{.columns = around(a.columns, b.columns), .rows = around(a.rows, b.rows)};
   const Ball &at = ball(l, first), &other = ball(l, second);
   const double moved = (at.way - other.way).norm() + at.spread + other.spread;
@@ -253,6 +255,7 @@ const SmoothSheet::Ball& SmoothSheet::ball(Index l, Index block) {
   if (ball.seen == calls_) return ball;
   ball.seen = calls_;
   const auto vertices = sheet_->levels()[l].vertices_of(block);
+  if (vertices.empty()) return ball;
   Point low = Point::Constant(unlimited), high = -low, slow = low, fast = high;
   for (const int i : vertices) {
     low = low.cwiseMin(place(i));

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
+#include <utility>
 
 #include "tests/support/random.hpp"
 
@@ -82,10 +84,54 @@ TEST(SmoothSheet, IsNearerWhereItIsShearedOrShrinks) {
   EXPECT_FALSE(shrinking(0.7)) << "three tenths are left";
 }
 
-TEST(SmoothSheet, KnowsNothingOfWhatIsNoRectangle) {
+/// A hexagon of equilateral triangles, with so many of them along a side of 1 m.
+Cloth hexagon(int count) {
+  std::map<std::pair<int, int>, int> numbers;
+  Mesh mesh;
+  mesh.positions.resize(1 + 3 * count * (count + 1), 3);
+  for (int r = -count; r <= count; ++r) {
+    for (int q = std::max(-count, -r - count); q <= std::min(count, count - r); ++q) {
+      const int number = static_cast<int>(numbers.size());
+      mesh.positions.row(number) << (q + r / 2.0) / count, r * std::sqrt(0.75) / count, 0;
+      numbers[{q, r}] = number;
+    }
+  }
+  const auto add = [&](const std::array<std::pair<int, int>, 3>& corners) {
+    Triangle triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto found = numbers.find(corners[k]);
+      if (found == numbers.end()) return;
+      triangle[k] = found->second;
+    }
+    mesh.triangles.push_back(triangle);
+  };
+  for (const auto& [place, number] : numbers) {
+    const auto [q, r] = place;
+    add({{{q, r}, {q + 1, r}, {q, r + 1}}});
+    add({{{q, r}, {q + 1, r - 1}, {q + 1, r}}});
+  }
+  return make_cloth(mesh, mesh, 1, 10, {});
+}
+
+TEST(SmoothSheet, KnowsWhatIsConvex) {
+  for (const int count : {1, 4, 7}) {
+    const Cloth cloth = hexagon(count);
+    const double high = std::sqrt(0.75) / count;
+    EXPECT_TRUE(SmoothSheet(cloth).stays_apart(cloth.rest, 0.01, at_rest(cloth), 0.99 * high)) << count;
+    EXPECT_FALSE(SmoothSheet(cloth).stays_apart(cloth.rest, 0.01, at_rest(cloth), 1.01 * high)) << count;
+    Vertices folded = cloth.rest;
+    folded.col(0) = folded.col(0).cwiseAbs();
+    EXPECT_FALSE(SmoothSheet(cloth).stays_apart(folded, 0.01, at_rest(cloth), 0.01)) << count;
+  }
   Cloth cloth = square();
   cloth.triangles.pop_back();
-  EXPECT_FALSE(SmoothSheet(cloth).stays_apart(cloth.rest, 0.01, at_rest(cloth), 0.01)) << "a corner is cut off";
+  EXPECT_TRUE(SmoothSheet(cloth).stays_apart(cloth.rest, 0.01, at_rest(cloth), 0.01)) << "a corner is cut off";
+}
+
+TEST(SmoothSheet, KnowsNothingOfWhatIsNotConvex) {
+  Cloth cloth = square();
+  cloth.triangles.erase(cloth.triangles.begin() + cells / 2);
+  EXPECT_FALSE(SmoothSheet(cloth).stays_apart(cloth.rest, 0.01, at_rest(cloth), 0.01)) << "it has a notch";
   cloth = square();
   cloth.triangles.erase(cloth.triangles.begin() + std::ptrdiff_t{cells} * cells);
   EXPECT_FALSE(SmoothSheet(cloth).stays_apart(cloth.rest, 0.01, at_rest(cloth), 0.01)) << "it has a hole";
@@ -127,7 +173,7 @@ TEST(SmoothSheet, SeesLayersThatMeet) {
 /// Waves across a square and how they move, which other waves change.
 struct Waves {
   static constexpr double h = 0.01;
-  Cloth cloth = square();
+  Cloth cloth;
   Vertices from = cloth.rest, moves = at_rest(cloth);
 
   void add(double bent, double fast, std::mt19937& random) {
@@ -166,7 +212,7 @@ TEST(SmoothSheet, IsRightWheneverItSaysYes) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   Answers answers;
   for (int trial = 0; trial < test::tries(60); ++trial) {
-    Waves waves;
+    Waves waves{.cloth = trial % 2 == 0 ? square() : hexagon(5)};
     const double bent = 0.3 * std::abs(uniform(random)), fast = 0.1 * std::abs(uniform(random));
     const double distance = 0.06 * (1 + uniform(random)) + 1e-3;
     waves.add(bent, fast, random);
@@ -183,7 +229,7 @@ TEST(SmoothSheet, IsRightInEveryStepOfAMotion) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   Answers answers;
   for (int trial = 0; trial < test::tries(12); ++trial) {
-    Waves waves;
+    Waves waves{.cloth = trial % 2 == 0 ? square() : hexagon(5)};
     waves.add(0.2 * std::abs(uniform(random)), 0.02, random);
     SmoothSheet sheet(waves.cloth);
     for (int step = 0; step < 12; ++step) {
