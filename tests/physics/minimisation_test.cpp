@@ -149,9 +149,9 @@ TEST_P(Minimisation, ChangeRuleWaitsForTheSecondIteration) {
 TEST_P(Minimisation, ChangeRuleMeasuresAllUnknownsTogether) {
   const State start = after(30, 180);
   SimulationSettings settings = endless(GetParam(), 180);
+  settings.integrator.stop = StoppingRule::change;  // on which Newton's iterates depend
   std::vector<Vertices> iterates;
   for (int i = 1; i <= 8; ++i) iterates.push_back(iterate(settings, start, i).state.x);
-  settings.integrator.stop = StoppingRule::change;
   double smallest = (iterates[1] - iterates[0]).norm();
   for (std::size_t i = 2; i < iterates.size(); ++i) {
     const double change = (iterates[i] - iterates[i - 1]).norm();
