@@ -40,7 +40,7 @@ TEST(CommandLine, RefusesAFactorThatCannotFitBeforeItIsBegun) {
   const Finished finished = drape(folder,
                                   "simulate scene.toml --steps 1 --set 'cloth.mesh={ grid = [200, 200] }' --set "
                                   "'integrator.method=\"implicit\"' --set 'integrator.linear_solver=\"cholesky\"'",
-                                  "ulimit -v 420000;");
+                                  "ulimit -v 280000;");
   EXPECT_EQ(finished.code, 2) << finished.text;
   EXPECT_NE(finished.text.find("a sparse factor of 121197 rows would take"), std::string::npos) << finished.text;
 }
