@@ -48,6 +48,10 @@ class SpringNetwork {
   /// product += H·vector, H the Hessian of the blocks: K on (i,i) and (j,j), −K on (i,j) and (j,i).
   void add_product(const Blocks& blocks, const Vertices& vector, Vertices& product) const;
 
+  /// diagonal += the 3×3 blocks at the vertices of H without its springs' negative eigenvalues: xx, xy, xz, yy, yz, zz,
+  /// n×6 [N/m].
+  void add_diagonal(const Blocks& blocks, Eigen::Matrix<double, Eigen::Dynamic, 6>& diagonal) const;
+
   /// How many springs are in no band.
   [[nodiscard]] std::size_t gathered() const { return i_.size(); }
   /// The springs as they were given, in the same order.

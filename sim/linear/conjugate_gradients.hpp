@@ -1,6 +1,11 @@
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <vector>
+
 #include "sim/linear/constant_factor.hpp"
+#include "sim/linear/hessian_diagonal.hpp"
 #include "sim/linear/newton_solver.hpp"
 #include "sim/step_objective.hpp"
 
@@ -9,12 +14,17 @@ namespace drape {
 /// Newton's equations by conjugate gradients, preconditioned with Liu13's factored matrix A. H never exceeds A, and
 /// falls below it by at most 1 + h²λ_max(M⁻¹L), so the iterations are few where Newton's method is stiff but not
 /// extremely so. H is never assembled: its springs' blocks are kept as vectors, and a product is one pass over them.
+///
+/// Of a large cloth the preconditioner is A⁻¹ + D⁻¹, D the HessianDiagonal. What falls far below A are motions out of
+/// the cloth's plane, which nothing but inertia holds where it is not stretched; those that neighbours do not share
+/// fall less below D. As no Hessian exceeds A or D, the sum never exceeds 2 H⁻¹.
 class ConjugateGradients final : public NewtonSolver {
  public:
   /// Far beyond what the worst scenes need. What is reached by then is still a direction of descent.
   static constexpr int most_iterations = 1000;
 
-  /// @param preconditioner A of the same system, which must outlive this; without it one is made
+  /// @param preconditioner A of the same system, which must outlive this. Without it one is made, and the equations are
+  ///                       solved for Newton's method; with it for estimates, of a large cloth to a tenth
   ConjugateGradients(const System& system, const StepObjective& objective, ConstantFactor* preconditioner = nullptr);
   void solve(const Vertices& x, const Vertices& gradient, double concavity, Vertices& direction) override {
     static_cast<void>(solve_within(most_iterations, x, gradient, concavity, direction));
@@ -29,6 +39,8 @@ class ConjugateGradients final : public NewtonSolver {
 
  private:
   void linearise(const Vertices& x, double concavity);
+  /// preconditioned = that of the residual.
+  void precondition();
   void apply(const Vertices& vector, Vertices& product) const;
 
   const System& system_;
@@ -38,6 +50,8 @@ class ConjugateGradients final : public NewtonSolver {
   std::size_t pair_count_ = 0;  // coupled by springs and energies
   SpringNetwork::Blocks blocks_;
   std::vector<std::unique_ptr<EnergyHessian>> hessians_;  // of the system's energies
+  std::optional<HessianDiagonal> diagonal_;               // of a large cloth
+  double tolerance_;                                      // of the residual, of the gradient
   Vertices residual_, preconditioned_, search_, product_;
 };
 

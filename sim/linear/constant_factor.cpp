@@ -18,10 +18,6 @@ namespace {
 // A panel may store this many numbers for each entry of L in it: zeros cost less than leaving the panel.
 constexpr double tolerated_zeros = 1.6;
 
-// From so many rows on the factor is our own, by nested dissection and dense fronts: from there on faster than
-// CHOLMOD's (bench/README.md), in another order of the rows. Smaller cloth keeps the bits that it has always had.
-constexpr int fewest_rows_of_fronts = 20'000;
-
 /// The lower triangle of A over the free vertices.
 struct Matrix {
   LowerPattern pattern;
@@ -58,7 +54,7 @@ ConstantFactor::ConstantFactor(const System& system, double duration, Precision 
   row_.assign(static_cast<std::size_t>(vertex_count_), row_count_);
   if (row_count_ == 0) return;
   const Matrix matrix = assemble(system, duration, free);
-  const bool factored = row_count_ < fewest_rows_of_fronts
+  const bool factored = row_count_ < large_cloth  // from where on our own is faster (bench/README.md)
                             ? factor_columns(matrix.pattern, matrix.values, system.stop, free)
                             : factor_fronts(matrix.pattern, matrix.values, system, free);
   if (!factored) {

@@ -7,6 +7,11 @@
 
 namespace drape {
 
+/// From so many free vertices on a cloth is solved as pays for large ones: with a constant factor of our own
+/// (ConstantFactor), and conjugate gradients that know more of the Hessian (HessianDiagonal). Smaller cloth keeps the
+/// bits that it has always had.
+inline constexpr int large_cloth = 20'000;
+
 /// The unknowns of an implicit step: the vertices that are not pinned, numbered from 0 in the order of the cloth. This
 /// is the reduced system's selection matrix.
 class FreeVertices {
