@@ -172,7 +172,7 @@ TEST(Outputs, OfASceneThatFailsDoNotKeepTheNextFromItsOwn) {
       drape(folder,
             "simulate a.toml b.toml --stats {scene}.json --set 'cloth.mesh={ grid = [200, 200] }' "
             "--set integrator.method=implicit --set integrator.linear_solver=cholesky --steps 1",
-            "ulimit -v 700000;");
+            "ulimit -v 280000;");
   EXPECT_EQ(finished.code, 2) << finished.text;
   EXPECT_TRUE(contains(finished.text, "a.toml: implicit")) << finished.text;
   EXPECT_TRUE(contains(finished.text, "b.toml: implicit")) << finished.text;
