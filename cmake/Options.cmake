@@ -15,4 +15,5 @@ if(DRAPE_SANITIZE)
   target_compile_options(drape_options INTERFACE -fsanitize=${DRAPE_SANITIZE} -fno-sanitize=null -fno-omit-frame-pointer
                          $<$<BOOL:$<TARGET_PROPERTY:DRAPE_TEST>>:-fno-sanitize=undefined>)
   target_link_options(drape_options INTERFACE -fsanitize=${DRAPE_SANITIZE})
+  target_compile_definitions(drape_options INTERFACE DRAPE_SANITIZED)  # every compiler has another name for it
 endif()

@@ -55,8 +55,8 @@ void LbfgsHistory::observe(const Vertices& gradient, const Vertices& preconditio
 }
 
 void LbfgsHistory::measure(const Vertices& gradient) {
-  std::array<const double*, 2 * capacity> vectors{};
-  std::array<double, 2 * capacity> products{};
+  std::array<const double*, 2 * std::size_t{capacity}> vectors{};
+  std::array<double, 2 * std::size_t{capacity}> products{};
   for (int k = 0; k < count_; ++k) {
     vectors[2 * index(k)] = pair(k).step.data();
     vectors[2 * index(k) + 1] = pair(k).preconditioned.data();
@@ -98,8 +98,8 @@ void LbfgsHistory::find_direction(const Vertices& preconditioned, Vertices& dire
   }
 
   // H⁻¹∇g = γ(A⁻¹∇g − Σ α A⁻¹q) + Σ (α − β) s
-  std::array<const double*, 2 * capacity> vectors{};
-  std::array<double, 2 * capacity> factors{};
+  std::array<const double*, 2 * std::size_t{capacity}> vectors{};
+  std::array<double, 2 * std::size_t{capacity}> factors{};
   for (int k = 0; k < count_; ++k) {
     vectors[2 * index(k)] = pair(k).step.data();
     factors[2 * index(k)] = (alpha[index(k)] - beta[index(k)]) / scale;

@@ -21,17 +21,19 @@
 
 // The C library's own functions under the names that everybody calls, Eigen and CHOLMOD included. A sanitizer has its
 // own, so that there is nothing to count.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef DRAPE_SANITIZED
 constexpr bool counted = false;
 static std::atomic<long> allocations = 0;
 #else
 constexpr bool counted = true;
 static std::atomic<long> allocations = 0;
 extern "C" {
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 void* malloc(std::size_t size) noexcept { return ++allocations, __libc_malloc(size); }
 void* calloc(std::size_t count, std::size_t size) noexcept { return ++allocations, __libc_calloc(count, size); }
 void* realloc(void* old, std::size_t size) noexcept { return ++allocations, __libc_realloc(old, size); }

@@ -175,8 +175,8 @@ double most_memory() {
 }
 
 TEST(RecordedRun, KeepsItsMemoryWhateverItsLength) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "AddressSanitizer keeps what is freed";
+#ifdef DRAPE_SANITIZED
+  GTEST_SKIP() << "a sanitizer keeps what is freed";
 #endif
   const SceneFolder folder;
   folder.write("scene.toml",

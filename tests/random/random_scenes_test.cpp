@@ -25,7 +25,7 @@ namespace {
 constexpr int shards = 4;  // so that several processors share the work
 
 // For one scene [s]: self-collision of a cloth that blows up is the slowest, and much slower under a sanitizer.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef DRAPE_SANITIZED
 constexpr unsigned patience = 1800;
 #else
 constexpr unsigned patience = 120;

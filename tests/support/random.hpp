@@ -7,7 +7,7 @@ namespace drape::test {
 /// How many random cases to try where this is enough: a tenth under a sanitizer, which looks for something else and
 /// takes ten times as long.
 constexpr int tries(int enough) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef DRAPE_SANITIZED
   return enough / 10;
 #else
   return enough;
