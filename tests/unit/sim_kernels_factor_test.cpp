@@ -69,8 +69,8 @@ TEST_P(FactorKernels, PacksAndUnpacks) {
     };
     std::vector<int> row(n);  // a permutation: 7 has no common divisor with a power of two
     for (std::size_t v = 0; v < n; ++v) row[v] = static_cast<int>(7 * v % 256);
-    std::vector<double> doubles(4 * 256, -1), there = before, difference = before;
-    std::vector<float> singles(4 * 256, -1);
+    std::vector<double> doubles(std::size_t{4} * 256, -1), there = before, difference = before;
+    std::vector<float> singles(std::size_t{4} * 256, -1);
     tested.pack_double(count, columns(from), row.data(), doubles.data());
     tested.pack_single(count, columns(from), row.data(), singles.data());
     double squares = 0;
