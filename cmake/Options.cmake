@@ -12,7 +12,8 @@ target_include_directories(drape_options INTERFACE ${PROJECT_SOURCE_DIR})
 if(DRAPE_SANITIZE)
   # UBSan takes more time to compile than all else together. A null pointer ends the program without its check as well,
   # and the tests' own code (targets with DRAPE_TEST) does not need any.
-  target_compile_options(drape_options INTERFACE -fsanitize=${DRAPE_SANITIZE} -fno-sanitize=null -fno-omit-frame-pointer
+  target_compile_options(drape_options INTERFACE -fsanitize=${DRAPE_SANITIZE} -fno-sanitize=null -fno-sanitize-recover=undefined
+                         -fno-omit-frame-pointer
                          $<$<BOOL:$<TARGET_PROPERTY:DRAPE_TEST>>:-fno-sanitize=undefined>)
   target_link_options(drape_options INTERFACE -fsanitize=${DRAPE_SANITIZE})
   target_compile_definitions(drape_options INTERFACE DRAPE_SANITIZED)  # every compiler has another name for it

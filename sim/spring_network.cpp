@@ -127,7 +127,8 @@ SpringBand SpringNetwork::band(const Band& b, int first, double* force) const {
   return {.offset = b.offset,
           .stiffness = stiffness_.data() + entry,
           .rest_length = rest_length_.data() + entry,
-          .force = {force, force + b.capacity, force + 2 * b.capacity}};
+          .force = force == nullptr ? Columns<double>{}
+                                    : Columns<double>{force, force + b.capacity, force + 2 * b.capacity}};
 }
 
 template <class Use>

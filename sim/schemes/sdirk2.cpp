@@ -7,9 +7,9 @@ namespace drape {
 namespace {
 namespace tableau {
 
-const double gamma = Sdirk2::gamma;
-const double rest = (1 - gamma) / gamma;  // what is left of the step after stage 1, in stages
-const double delta = 1 - 1 / (2 * gamma);
+constexpr double gamma = Sdirk2::gamma;
+constexpr double rest = (1 - gamma) / gamma;  // what is left of the step after stage 1, in stages
+constexpr double delta = 1 - 1 / (2 * gamma);
 
 }  // namespace tableau
 }  // namespace

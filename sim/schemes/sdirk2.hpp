@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cmath>
+#include <numbers>
 
 #include "sim/schemes/minimising_scheme.hpp"
 #include "sim/schemes/push_limit.hpp"
@@ -27,7 +27,7 @@ namespace drape {
 class Sdirk2 final : public MinimisingScheme {
  public:
   /// The part of a step that each stage solves for.
-  inline static const double gamma = 1 - std::sqrt(0.5);
+  static constexpr double gamma = 1 - std::numbers::sqrt2 / 2;
 
   Sdirk2(const System& system, const MakeSolver& make_solver);
 

@@ -238,7 +238,7 @@ TEST(SmoothSheet, IsRightInEveryStepOfAMotion) {
       waves.add(0, 0.01, random);
     }
   }
-  EXPECT_GE(answers.yes, 12 * test::tries(12) / 4);
+  EXPECT_GE(answers.yes, 12 * test::tries(12) / 6);
   EXPECT_GE(answers.no, 12 * test::tries(12) / 12);
 }
 
