@@ -1,46 +1,50 @@
 // The part of SpringNetwork that sums its blocks up for each vertex.
 
 #include <algorithm>
+#include <array>
 
+#include "sim/parallel/loops.hpp"
 #include "sim/spring_network.hpp"
 
 namespace drape {
 
 void SpringNetwork::add_diagonal(const Blocks& blocks, Eigen::Matrix<double, Eigen::Dynamic, 6>& diagonal) const {
-  // K of the springs from `begin` on, as many as there are numbers in a column. What is negative across a spring is
-  // left out, and of what is along it as much.
-  const auto block = [&](std::size_t begin, Eigen::Index count, const auto& use) {
-    const auto at = static_cast<Eigen::Index>(begin);
-    const auto across = blocks.across.segment(at, count).array();
-    const auto along = blocks.along.middleRows(at, count).array();
-    const Eigen::ArrayXd share = (across < 0).select(1 + across / along.square().rowwise().sum(), 1.0);
-    for (int row = 0, entry = 0; row < 3; ++row) {
-      for (int column = row; column < 3; ++column, ++entry) {
-        const auto both = share * along.col(row) * along.col(column);
-        if (row == column) {
-          use(entry, both + across.max(0.0));
-        } else {
-          use(entry, both);
-        }
+  // What is negative across a spring is left out, and of what is along it as much.
+  const auto across = blocks.across.array();
+  const auto along = blocks.along.array();
+  Eigen::ArrayXd share(across.size());
+  for_ranges(threads_, across.size(), [&](Eigen::Index at, Eigen::Index count) {
+    share.segment(at, count) =
+        (across.segment(at, count) < 0)
+            .select(1 + across.segment(at, count) / along.middleRows(at, count).square().rowwise().sum(), 1.0);
+  });
+  threads_.for_each(6, [&](int entry) {
+    constexpr std::array<int, 6> rows{0, 0, 0, 1, 1, 2}, columns{0, 1, 2, 1, 2, 2};
+    const int row = rows[static_cast<std::size_t>(entry)], column = columns[static_cast<std::size_t>(entry)];
+    const auto values = [&](std::size_t begin, Eigen::Index count, const auto& use) {
+      const auto at = static_cast<Eigen::Index>(begin);
+      const auto both =
+          share.segment(at, count) * along.col(row).segment(at, count) * along.col(column).segment(at, count);
+      if (row == column) {
+        use(both + across.segment(at, count).max(0.0));
+      } else {
+        use(both);
       }
+    };
+    for (const Band& b : bands_) {
+      const Eigen::Index count = std::max(0, vertex_count_ - b.offset);
+      values(b.begin, count, [&](const auto& each) {
+        diagonal.col(entry).head(count).array() += each;
+        diagonal.col(entry).segment(b.offset, count).array() += each;
+      });
     }
-  };
-  for (const Band& b : bands_) {
-    const Eigen::Index count = std::max(0, vertex_count_ - b.offset);
-    block(b.begin, count, [&](int entry, const auto& values) {
-      diagonal.col(entry).head(count).array() += values;
-      diagonal.col(entry).segment(b.offset, count).array() += values;
+    values(stiffness_.size(), static_cast<Eigen::Index>(gathered_.size()), [&](const auto& each) {
+      gathered_.for_each([&](Eigen::Index spring, int i, int j) {
+        diagonal(i, entry) += each[spring];
+        diagonal(j, entry) += each[spring];
+      });
     });
-  }
-  for (const List& l : lists_) {
-    block(l.begin, l.count, [&](int entry, const auto& values) {
-      for (int spring = 0; spring < l.count; ++spring) {
-        const std::size_t at = l.index + static_cast<std::size_t>(spring);
-        diagonal(i_[at], entry) += values[spring];
-        diagonal(j_[at], entry) += values[spring];
-      }
-    });
-  }
+  });
 }
 
 }  // namespace drape

@@ -4,10 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <tuple>
 #include <utility>
 
-#include "sim/parallel/loops.hpp"
+#include "sim/parallel/vectors.hpp"
 
 namespace drape {
 namespace {
@@ -27,9 +26,11 @@ std::size_t padded(int count) {
 }  // namespace
 
 SpringNetwork::SpringNetwork(const std::vector<Spring>& springs, int vertex_count, const Threads& threads)
-    : springs_(springs), vertex_count_(vertex_count), threads_(threads) {
-  find_bands();
-  add_entries();
+    : springs_(springs),
+      vertex_count_(vertex_count),
+      threads_(threads),
+      gathered_(fill_bands(), vertex_count, threads) {
+  if (gathered_.size() > 0) other_force_.resize(vertex_count_, 3);
   cut_parts();
 }
 
@@ -58,7 +59,8 @@ void SpringNetwork::find_bands() {
   }
 }
 
-void SpringNetwork::add_entries() {
+std::vector<Spring> SpringNetwork::fill_bands() {
+  find_bands();
   stiffness_.assign(bands_.size() * padded(vertex_count_), 0.0);
   rest_length_ = stiffness_;
   std::vector<Spring> rest;
@@ -73,20 +75,7 @@ void SpringNetwork::add_entries() {
     stiffness_[entry] = spring.stiffness;
     rest_length_[entry] = spring.rest_length;
   }
-  std::stable_sort(rest.begin(), rest.end(),
-                   [](const Spring& a, const Spring& b) { return std::tuple(a.i, a.j) < std::tuple(b.i, b.j); });
-  for (std::size_t done = 0; done < rest.size(); done += kernel_size) {
-    lists_.push_back({.begin = stiffness_.size() + done,
-                      .index = done,
-                      .count = static_cast<int>(std::min<std::size_t>(kernel_size, rest.size() - done))});
-  }
-  for (const Spring& spring : rest) {
-    i_.push_back(spring.i);
-    j_.push_back(spring.j);
-    stiffness_.push_back(spring.stiffness);
-    rest_length_.push_back(spring.rest_length);
-  }
-  if (!rest.empty()) other_force_.resize(vertex_count_, 3);
+  return rest;
 }
 
 void SpringNetwork::cut_parts() {
@@ -115,11 +104,6 @@ void SpringNetwork::cut_parts() {
     parts_.push_back(std::move(part));
   }
   if (parts > 1) values_.resize(static_cast<std::size_t>(stretches));
-}
-
-SpringList SpringNetwork::list(const List& l) const {
-  return {i_.data() + l.index, j_.data() + l.index, l.count, stiffness_.data() + l.begin,
-          rest_length_.data() + l.begin};
 }
 
 SpringBand SpringNetwork::band(const Band& b, int first, double* force) const {
@@ -194,17 +178,11 @@ double SpringNetwork::sum_over_stretches(Vertices& to, Use&& use) const {
   return total;
 }
 
-double SpringNetwork::add_lists(const Vertices& x, Vertices& gradient) const {
-  double total = 0;
-  for (const List& l : lists_) total += kernels().add_list_value_gradient(list(l), columns(x), columns(gradient));
-  return total;
-}
-
 double SpringNetwork::add_value_gradient(const Vertices& x, Vertices& gradient) const {
   const double total = sum_over_stretches(gradient, [&](int first, const SpringStretch& stretch, Columns<double> to) {
     return kernels().add_band_value_gradient(stretch, columns(x, first), to);
   });
-  return total + add_lists(x, gradient);
+  return total + gathered_.add_value_gradient(x, gradient);
 }
 
 double SpringNetwork::evaluate(const Eigen::VectorXd& inertia, const Vertices& y, const Vertices& x,
@@ -213,7 +191,7 @@ double SpringNetwork::evaluate(const Eigen::VectorXd& inertia, const Vertices& y
     return kernels().evaluate_bands(stretch, columns(x, first),
                                     {.factor = inertia.data() + first, .y = columns(y, first), .gradient = to});
   });
-  return total + add_lists(x, gradient);
+  return total + gathered_.add_value_gradient(x, gradient);
 }
 
 void SpringNetwork::keep_surroundings(Part& part, const Vertices& x) const {
@@ -224,12 +202,10 @@ void SpringNetwork::keep_surroundings(Part& part, const Vertices& x) const {
 void SpringNetwork::kick_and_drift(const Eigen::VectorXd& factor, const Vertices& force, double h, Vertices& v,
                                    Vertices& x) const {
   const Vertices* other = &force;
-  if (!lists_.empty()) {
-    other_force_.setZero();
-    for (const List& l : lists_) {
-      kernels().add_list_gradient(list(l), columns(std::as_const(x)), columns(other_force_));
-    }
-    other_force_ = force - other_force_;
+  if (gathered_.size() > 0) {
+    set_zero(threads_, other_force_);
+    gathered_.add_gradient(x, other_force_);
+    subtract(threads_, force, other_force_, other_force_);
     other = &other_force_;
   }
   const int parts = static_cast<int>(parts_.size());
@@ -253,7 +229,7 @@ void SpringNetwork::kick_and_drift(const Eigen::VectorXd& factor, const Vertices
 }
 
 void SpringNetwork::compute_blocks(const Vertices& x, double concavity, Blocks& blocks) const {
-  blocks.across.resize(static_cast<Eigen::Index>(stiffness_.size()));
+  blocks.across.resize(static_cast<Eigen::Index>(stiffness_.size() + gathered_.size()));
   blocks.along.resize(blocks.across.size(), 3);
   const auto kept = [&](std::size_t begin) {
     const auto at = static_cast<Eigen::Index>(begin);
@@ -265,7 +241,7 @@ void SpringNetwork::compute_blocks(const Vertices& x, double concavity, Blocks& 
                             columns(x, first), kept(b.begin + static_cast<std::size_t>(first)));
     });
   }
-  for (const List& l : lists_) kernels().list_blocks(list(l), concavity, columns(x), kept(l.begin));
+  gathered_.compute_blocks(x, concavity, kept(stiffness_.size()));
 }
 
 void SpringNetwork::add_product(const Blocks& blocks, const Vertices& vector, Vertices& product) const {
@@ -280,9 +256,7 @@ void SpringNetwork::add_product(const Blocks& blocks, const Vertices& vector, Ve
     }
     kernels().add_band_product(stretch, of_bands.data(), columns(vector, place.first), to);
   });
-  for (const List& l : lists_) {
-    kernels().add_list_product(list(l), kept(l.begin), columns(vector), columns(product));
-  }
+  gathered_.add_product(kept(stiffness_.size()), vector, product);
 }
 
 }  // namespace drape

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sim/cloth.hpp"
+#include "sim/gathered_springs.hpp"
 #include "sim/kernels/vertices.hpp"
 #include "sim/parallel/threads.hpp"
 
@@ -12,7 +13,7 @@ namespace drape {
 /// fixed number apart (1, N and N+1 on an N×N grid). Each such offset is a band, with one entry for every vertex as in
 /// a matrix stored by diagonals, and all bands are computed in one pass over the vertices, in order and without
 /// indices. Where a band has no spring its entry has zero stiffness. Springs of rare offsets, and duplicates, are
-/// gathered by index.
+/// gathered by index (GatheredSprings).
 ///
 /// Several threads go over the bands in parts, one each, with the same bits as one: a part begins with the springs that
 /// reach into it, which the part before it computes, too.
@@ -53,7 +54,7 @@ class SpringNetwork {
   void add_diagonal(const Blocks& blocks, Eigen::Matrix<double, Eigen::Dynamic, 6>& diagonal) const;
 
   /// How many springs are in no band.
-  [[nodiscard]] std::size_t gathered() const { return i_.size(); }
+  [[nodiscard]] std::size_t gathered() const { return gathered_.size(); }
   /// The springs as they were given, in the same order.
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
 
@@ -66,11 +67,6 @@ class SpringNetwork {
     std::size_t begin;    // of its entries in stiffness_ and rest_length_, one for each vertex
     std::size_t scratch;  // of its forces in Part::force: three columns of `capacity`
     std::size_t lead, capacity;
-  };
-  struct List {
-    std::size_t begin;  // in stiffness_ and rest_length_
-    std::size_t index;  // in i_ and j_
-    int count;
   };
   /// The vertices from first to end, which one thread goes over, and its memory.
   struct Part {
@@ -88,9 +84,9 @@ class SpringNetwork {
   };
 
   void find_bands();
-  void add_entries();
+  /// Finds the bands and gives them their springs; returns the others.
+  std::vector<Spring> fill_bands();
   void cut_parts();
-  [[nodiscard]] SpringList list(const List& list) const;
   [[nodiscard]] SpringBand band(const Band& band, int first, double* force) const;
   /// Calls use(place, stretch) for all stretches of a part in order.
   template <class Use>
@@ -103,17 +99,14 @@ class SpringNetwork {
   double sum_over_stretches(Vertices& to, Use&& use) const;
   /// Keeps what other parts' threads are about to move, see Part.
   void keep_surroundings(Part& part, const Vertices& x) const;
-  /// Adds what is in no band; returns its energy [J].
-  double add_lists(const Vertices& x, Vertices& gradient) const;
 
   std::vector<Spring> springs_;
   int vertex_count_;
   std::vector<Band> bands_;  // by offset
-  std::vector<List> lists_;
   const Threads& threads_;
   mutable std::vector<Part> parts_;
-  std::vector<int> i_, j_;
-  AlignedVector stiffness_, rest_length_;
+  AlignedVector stiffness_, rest_length_;  // of the bands
+  GatheredSprings gathered_;
   mutable std::vector<double> values_;  // of every stretch, where there is more than one part
   mutable Vertices other_force_;        // of an explicit step, with that of springs in no band
 };

@@ -125,6 +125,13 @@ struct Gathered {
 template <class Law>
 inline void scatter(const SpringList& list, Columns<const double> from, Columns<double> to, Law& law) {
   const Gathered force(list, from, law);
+  if (list.force.x != nullptr) {
+    const auto bytes = sizeof(double) * static_cast<unsigned>(list.count);
+    __builtin_memcpy(list.force.x, force.x, bytes);
+    __builtin_memcpy(list.force.y, force.y, bytes);
+    __builtin_memcpy(list.force.z, force.z, bytes);
+    return;
+  }
   for (int t = 0; t < list.count; ++t) {
     const int i = list.i[t], j = list.j[t];
     to.x[i] += force.x[t];

@@ -61,8 +61,9 @@ struct SpringList {
   const int* i;
   const int* j;
   int count;
-  const double* stiffness;    ///< [N/m]
-  const double* rest_length;  ///< [m]
+  const double* stiffness;     ///< [N/m]
+  const double* rest_length;   ///< [m]
+  Columns<double> force = {};  ///< if not null, receives what would be added at each spring's i, and nothing is added
 };
 
 /// The springs' Hessian blocks, one entry per spring: K = across·I + along·alongᵀ.

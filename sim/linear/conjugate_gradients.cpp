@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/parallel/vectors.hpp"
+
 namespace drape {
 namespace {
 
@@ -43,26 +45,25 @@ ConjugateGradients::ConjugateGradients(const System& system, const StepObjective
 
 bool ConjugateGradients::solve_within(int iterations, const Vertices& x, const Vertices& gradient, double concavity,
                                       Vertices& direction) {
-  const Kernels& k = kernels();
-  const auto count = static_cast<std::size_t>(gradient.size());
+  const Threads& threads = objective_.threads();
   linearise(x, concavity);
-  direction.setZero();
-  residual_ = gradient;
-  const double enough = tolerance_ * norm(gradient);
+  set_zero(threads, direction);
+  copy(threads, gradient, residual_);
+  const double enough = tolerance_ * norm(threads, gradient);
   double energy = 0;  // residual · A⁻¹ residual
-  for (int iteration = 0; norm(residual_) > enough; ++iteration) {
+  for (int iteration = 0; norm(threads, residual_) > enough; ++iteration) {
     if (iteration == iterations) return false;
     system_.stop.look();
     precondition();
     const double before = energy;
-    energy = dot(residual_, preconditioned_);
+    energy = dot(threads, residual_, preconditioned_);
     if (iteration == 0) {
-      search_ = preconditioned_;
+      copy(threads, preconditioned_, search_);
     } else {
-      search_ = preconditioned_ + (energy / before) * search_;
+      multiply_and_add(threads, energy / before, preconditioned_, search_);
     }
     apply(search_, product_);
-    const double curvature = dot(search_, product_);
+    const double curvature = dot(threads, search_, product_);
     if (concavity > 0 && !(curvature > 0)) {
       // As far as H is positive definite it has been solved (Nocedal and Wright 2006, algorithm 7.1).
       if (iteration == 0) direction = preconditioned_;
@@ -70,8 +71,8 @@ bool ConjugateGradients::solve_within(int iterations, const Vertices& x, const V
     }
     const double length = energy / curvature;
     if (!std::isfinite(length)) return true;
-    k.add_multiple(count, length, search_.data(), direction.data());
-    k.add_multiple(count, -length, product_.data(), residual_.data());
+    add_multiple(threads, length, search_, direction);
+    add_multiple(threads, -length, product_, residual_);
   }
   return true;
 }
@@ -102,7 +103,7 @@ void ConjugateGradients::precondition() {
 }
 
 void ConjugateGradients::apply(const Vertices& vector, Vertices& product) const {
-  product = vector.array().colwise() * objective_.inertia().array();
+  weigh(objective_.threads(), objective_.inertia(), vector, product);
   objective_.springs().add_product(blocks_, vector, product);
   for (const auto& hessian : hessians_) hessian->add_product(vector, product);
   for (const int pin : system_.cloth.pins) product.row(pin).setZero();

@@ -77,11 +77,34 @@ void scale(const Threads& threads, double factor, const Vertices& from, Vertices
       numbers_worth_dividing);
 }
 
+void set_zero(const Threads& threads, Vertices& to) {
+  for_ranges(
+      threads, to.size(), [&](Eigen::Index first, Eigen::Index count) { std::fill_n(to.data() + first, count, 0.0); },
+      numbers_worth_dividing);
+}
+
+void weigh(const Threads& threads, const Eigen::VectorXd& weights, const Vertices& from, Vertices& to) {
+  for_ranges(threads, from.rows(), [&](Eigen::Index first, Eigen::Index count) {
+    to.middleRows(first, count) =
+        from.middleRows(first, count).array().colwise() * weights.segment(first, count).array();
+  });
+}
+
 void add_multiple(const Threads& threads, double factor, const Vertices& from, Vertices& to) {
   for_ranges(
       threads, from.size(),
       [&](Eigen::Index first, Eigen::Index count) {
         kernels().add_multiple(static_cast<std::size_t>(count), factor, from.data() + first, to.data() + first);
+      },
+      numbers_worth_dividing);
+}
+
+void multiply_and_add(const Threads& threads, double factor, const Vertices& from, Vertices& to) {
+  for_ranges(
+      threads, from.size(),
+      [&](Eigen::Index first, Eigen::Index count) {
+        Row numbers(to.data() + first, count);
+        numbers = ConstRow(from.data() + first, count) + factor * numbers;
       },
       numbers_worth_dividing);
 }

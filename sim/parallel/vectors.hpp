@@ -26,8 +26,17 @@ void subtract(const Threads& threads, const Vertices& a, const Vertices& b, Vert
 /// to = factor·from.
 void scale(const Threads& threads, double factor, const Vertices& from, Vertices& to);
 
+/// to = 0.
+void set_zero(const Threads& threads, Vertices& to);
+
+/// to = weights·from, one weight for each vertex.
+void weigh(const Threads& threads, const Eigen::VectorXd& weights, const Vertices& from, Vertices& to);
+
 /// to += factor·from.
 void add_multiple(const Threads& threads, double factor, const Vertices& from, Vertices& to);
+
+/// to = from + factor·to.
+void multiply_and_add(const Threads& threads, double factor, const Vertices& from, Vertices& to);
 
 /// to = from + factor·other.
 void sum(const Threads& threads, const Vertices& from, double factor, const Vertices& other, Vertices& to);
