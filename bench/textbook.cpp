@@ -124,7 +124,8 @@ class Newton final : public Stepper {
         }
       }
     }
-    SparseMatrix hessian(3 * cloth_.vertex_count(), 3 * cloth_.vertex_count());
+    const Index rows = Index{3} * cloth_.vertex_count();
+    SparseMatrix hessian(rows, rows);
     hessian.setFromTriplets(triplets.begin(), triplets.end());
     return hessian;
   }
@@ -187,7 +188,7 @@ class Liu13 final : public Stepper {
     VectorXd d(3 * static_cast<Index>(cloth_.springs.size()));
     Index row = 0;
     for (const Spring& spring : cloth_.springs) {
-      const Vector3d direction = (x.segment<3>(3 * spring.i) - x.segment<3>(3 * spring.j)).normalized();
+      const Vector3d direction = (x.segment<3>(Index{3} * spring.i) - x.segment<3>(Index{3} * spring.j)).normalized();
       d.segment<3>(row) = spring.rest_length * direction;
       row += 3;
     }

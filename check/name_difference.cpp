@@ -16,11 +16,11 @@ namespace {
 
 using Plane = Eigen::ArrayXXd;  // columns × rows of the picture
 
-constexpr double explained = 0.25;    // of the squared difference may be left for a name to hold
-constexpr int farthest_shift = 6;     // looked for [pixels]
-constexpr double steep = 24;          // between neighbours: an edge [of 255]
-constexpr double one_place = 0.1;     // of the picture's area, at most
-constexpr double least_share = 0.02;  // of the channels that another brightness changes
+constexpr double explained = 0.25;          // of the squared difference may be left for a name to hold
+constexpr Eigen::Index farthest_shift = 6;  // looked for [pixels]
+constexpr double steep = 24;                // between neighbours: an edge [of 255]
+constexpr double one_place = 0.1;           // of the picture's area, at most
+constexpr double least_share = 0.02;        // of the channels that another brightness changes
 
 Plane luminance(const Image& image) {
   Plane plane(image.width, image.height);
@@ -114,12 +114,12 @@ std::string name_colors(const Image& expected, const Image& actual) {
     Eigen::Array3d sum = Eigen::Array3d::Zero();
     double square = 0, count = 0;
   };
-  std::vector<Bin> bins(levels * levels * levels);
+  std::vector<Bin> bins(std::size_t{levels} * levels * levels);
   double all = 0;
   for (std::size_t i = 0; i < expected.pixels.size(); i += 3) {
     const std::uint8_t *p = &expected.pixels[i], *q = &actual.pixels[i];
     const Eigen::Array3d difference(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
-    Bin& bin = bins[static_cast<std::size_t>((p[0] / 8 * levels + p[1] / 8) * levels + p[2] / 8)];
+    Bin& bin = bins[(p[0] / 8 * std::size_t{levels} + p[1] / 8) * levels + p[2] / 8];
     bin.sum += difference;
     bin.square += difference.square().sum();
     bin.count += 1;

@@ -78,7 +78,9 @@ PictureComparison compare_pictures(const Image& expected, const Image& drawn, co
 
 double covered_part(const std::vector<PixelRectangle>& rectangles, const Eigen::Vector2i& size) {
   std::vector<bool> covered(static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()));
-  for_each_covered(rectangles, size, [&](int x, int y) { covered[static_cast<std::size_t>(y * size.x() + x)] = true; });
+  for_each_covered(rectangles, size, [&](int x, int y) {
+    covered[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x()) + static_cast<std::size_t>(x)] = true;
+  });
   return static_cast<double>(std::count(covered.begin(), covered.end(), true)) / static_cast<double>(covered.size());
 }
 

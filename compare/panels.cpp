@@ -120,7 +120,7 @@ Image PanelLayout::compose(Pen& pen, const std::vector<Image>& panels, const std
   }
   Image blank(panel_.x(), panel_.y() + head_height());
   std::fill(blank.pixels.begin(), blank.pixels.end(), paper);
-  pictures.resize(static_cast<std::size_t>(columns_ * rows_), blank);
+  pictures.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), blank);
   std::vector<const Image*> list;
   for (const Image& picture : pictures) list.push_back(&picture);
   Image whole = montage(list, columns_, gap, paper);

@@ -104,7 +104,7 @@ std::string StateCodec::encode(const State& state) {
   next_place() = state;
   return ByteWriter()
       .whole(static_cast<std::uint64_t>(state.step))
-      .whole(static_cast<std::uint64_t>(places + 256 * velocities))
+      .whole(static_cast<std::uint64_t>(places) + 256 * static_cast<std::uint64_t>(velocities))
       .bytes(pack_planes(words))
       .text();
 }

@@ -20,7 +20,8 @@ int append(Surface& surface, const Vertices& points) {
 
 void append(Surface& surface, const SphereShape& sphere) {
   constexpr int rings = from_pole_to_pole - 1;
-  Vertices points(rings * around + 2, 3);
+  constexpr Eigen::Index poles = rings * around;  // where they are
+  Vertices points(poles + 2, 3);
   for (int i = 0; i < rings; ++i) {
     const double polar = std::numbers::pi * (i + 1) / from_pole_to_pole;
     for (int j = 0; j < around; ++j) {
@@ -29,8 +30,8 @@ void append(Surface& surface, const SphereShape& sphere) {
           std::cos(polar);
     }
   }
-  points.row(rings * around) << 0, 0, 1;
-  points.row(rings * around + 1) << 0, 0, -1;
+  points.row(poles) << 0, 0, 1;
+  points.row(poles + 1) << 0, 0, -1;
   points = (sphere.radius * points).rowwise() + sphere.center.transpose();
 
   const int first = append(surface, points), north = first + rings * around, south = north + 1;

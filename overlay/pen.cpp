@@ -21,6 +21,11 @@ const std::array<float, 256>& light_of_bytes() {
   return table;
 }
 
+/// Where a pixel is in a row after row of such a width.
+std::size_t place(int x, int y, int width) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
+
 /// Lays a colour over a pixel.
 /// @param part of the pixel that it covers
 void blend(Image& image, int x, int y, const Eigen::Vector3f& light, float part) {
@@ -92,8 +97,8 @@ Pen::Mask Pen::mask(const std::string& line, int size, int rim) {
       for (int x = 0; x < glyph.width; ++x) {
         const int column = left + x, row = top + y;
         if (column < 0 || row < 0 || column >= mask.box.width || row >= mask.box.height) continue;
-        float& to = mask.coverage[static_cast<std::size_t>(row * mask.box.width + column)];
-        to = std::max(to, static_cast<float>(glyph.coverage[static_cast<std::size_t>(y * glyph.width + x)]) / 255);
+        float& to = mask.coverage[place(column, row, mask.box.width)];
+        to = std::max(to, static_cast<float>(glyph.coverage[place(x, y, glyph.width)]) / 255);
       }
     }
     at += glyph.advance;
@@ -108,14 +113,14 @@ Pen::Mask Pen::widened(const Mask& letters, int radius) {
   const auto reach = static_cast<double>(radius);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const float covered = letters.coverage[static_cast<std::size_t>(y * width + x)];
+      const float covered = letters.coverage[place(x, y, width)];
       if (covered == 0) continue;
       for (int dy = -radius; dy <= radius; ++dy) {
         for (int dx = -radius; dx <= radius; ++dx) {
           const int column = x + dx, row = y + dy;
           if (column < 0 || row < 0 || column >= width || row >= height) continue;
           const double fade = std::clamp(1.6 * (1 - std::hypot(dx, dy) / (reach + 1)), 0.0, 1.0);
-          float& to = wide.coverage[static_cast<std::size_t>(row * width + column)];
+          float& to = wide.coverage[place(column, row, width)];
           to = std::max(to, covered * static_cast<float>(fade));
         }
       }
@@ -128,7 +133,7 @@ void Pen::stamp(Image& image, const Mask& mask, int left, int base, const Rgb& c
   const Eigen::Vector3f light = linear_color(color);
   for (int y = 0; y < mask.box.height; ++y) {
     for (int x = 0; x < mask.box.width; ++x) {
-      const float part = mask.coverage[static_cast<std::size_t>(y * mask.box.width + x)];
+      const float part = mask.coverage[place(x, y, mask.box.width)];
       blend(image, left + mask.box.left + x, base + mask.box.top + y, light, strength * part);
     }
   }

@@ -25,7 +25,7 @@ void GroundShadow::cast(const DepthMap& map, const GroundShape& ground, const Ei
   blur(soft_, soft_radius);
   pixels_.resize(sharp_.size());
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    pixels_[i] = static_cast<std::uint16_t>(65535 * std::clamp(sharp_[i] + soft_[i], 0.0F, 1.0F) + 0.5F);
+    pixels_[i] = static_cast<std::uint16_t>(std::lround(65535 * std::clamp(sharp_[i] + soft_[i], 0.0F, 1.0F)));
   }
 }
 

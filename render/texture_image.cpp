@@ -105,7 +105,8 @@ cv::Mat to_linear(const cv::Mat& encoded) {
   for (int row = 0; row < encoded.rows; ++row) {
     const auto* from = encoded.ptr<std::uint8_t>(row);
     auto* to = linear.ptr<float>(row);
-    std::transform(from, from + 3 * encoded.cols, to, [&table](std::uint8_t value) { return table[value]; });
+    std::transform(from, from + std::ptrdiff_t{3} * encoded.cols, to,
+                   [&table](std::uint8_t value) { return table[value]; });
   }
   return linear;
 }

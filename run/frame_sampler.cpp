@@ -42,7 +42,8 @@ FilmExtent::FilmExtent(const Video& video, double h, std::int64_t step_count,
       step(h),
       every(every_steps),
       seconds_per_frame(every ? static_cast<double>(*every) * h : video.speed / video.fps) {
-  const double last = every ? static_cast<double>(steps / *every) : video.last_frame(static_cast<double>(steps) * h);
+  const std::int64_t whole = every ? steps / *every : 0;
+  const double last = every ? static_cast<double>(whole) : video.last_frame(static_cast<double>(steps) * h);
   if (last >= std::numeric_limits<int>::max()) throw UsageError("a film of more than two thousand million frames");
   frames = frame_range.value_or(FrameRange{0, static_cast<int>(last)});
   if (frames.last > last) {

@@ -15,7 +15,7 @@ struct Place {
   std::size_t override_number = 0;  ///< 0: in the file; n: in the n-th override, which has no line and column
   std::size_t line = 1;             ///< from 1; 0: it is nowhere in a text
   std::size_t column = 1;           ///< from 1, in characters
-  auto operator<=>(const Place&) const = default;
+  auto operator<=>(const Place&) const = default;  // NOLINT(modernize-use-nullptr): the 0 is the compiler's
 };
 
 struct TomlValue;

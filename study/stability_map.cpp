@@ -168,8 +168,9 @@ html::Diagram map_diagram(const StabilityMap& map) {
   diagram.width = left + cell_width(map) * static_cast<double>(columns) + 12;
   diagram.height = below + bottom;
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
-    diagram.drawing += draw_cell(map.cells[i], left + cell_width(map) * static_cast<double>(i % columns),
-                                 below - cell_height * static_cast<double>(i / columns + 1), cell_width(map));
+    const std::size_t column = i % columns, row = i / columns;
+    diagram.drawing += draw_cell(map.cells[i], left + cell_width(map) * static_cast<double>(column),
+                                 below - cell_height * static_cast<double>(row + 1), cell_width(map));
   }
   diagram.drawing += draw_axes(map, below) + draw_limit(map, below);
   return diagram;

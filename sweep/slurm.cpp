@@ -35,7 +35,7 @@ std::filesystem::path write_slurm_jobs(const SlurmJobs& jobs) {
                       jobs.tasks, program, jobs.sweep));
   write_file_atomically(jobs.folder / "merge.sbatch", head(jobs, "drape-merge", "slurm-merge.log") +
                                                           fmt::format("exec {} merge {}\n", program, folder));
-  const std::filesystem::path submit = jobs.folder / "submit.sh";
+  std::filesystem::path submit = jobs.folder / "submit.sh";
   write_file_atomically(submit,
                         fmt::format("#!/bin/sh\n"
                                     "# Submits the array, and what merges it when all its tasks have ended, however.\n"

@@ -106,11 +106,11 @@ void OrderedDither::take_source(const Image& image) {
     span = first_ ? Span{0, frame_.width} : difference({image.at(0, y), row_size}, {last_.at(0, y), row_size});
     if (span.empty()) continue;
     const std::uint8_t* now = image.at(0, y);
-    std::copy(now + 3 * span.begin, now + 3 * span.end, last_.at(span.begin, y));
+    std::copy(image.at(span.begin, y), now + std::ptrdiff_t{3} * span.end, last_.at(span.begin, y));
     std::uint32_t* source = &frame_.source[frame_.at(0, y)];
     std::uint8_t* bright = brightness(0, y);
     for (int x = span.begin; x < span.end; ++x) {
-      const std::uint32_t color = rgb_number(now + 3 * x);
+      const std::uint32_t color = rgb_number(now + std::ptrdiff_t{3} * x);
       moved[x] = first_ || color != source[x];
       source[x] = color;
       bright[x] = static_cast<std::uint8_t>((2 * red(color) + 5 * green(color) + blue(color)) / 8);

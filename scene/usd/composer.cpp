@@ -13,9 +13,10 @@
 namespace drape {
 namespace {
 
-constexpr int most_arcs = 64;                // one within the other
-constexpr std::size_t most_nested = 200;     // one within the other, as in one file
-constexpr std::size_t most_specs = 1 << 20;  // looked at, of all prims together
+constexpr int most_arcs = 64;                   // one within the other
+constexpr std::size_t most_nested = 200;        // one within the other, as in one file
+constexpr std::size_t most_specs = 1 << 20;     // looked at, of all prims together
+constexpr std::size_t most_opinions = 1 << 14;  // of one prim
 
 bool is_within(std::string_view path, std::string_view root) {
   return path.starts_with(root) && (path.size() == root.size() || path[root.size()] == '/');
@@ -169,6 +170,8 @@ class UsdComposer {
     const UsdSpec& spec = *opinion.spec;
     if (depth == most_arcs) spec.place.fail(fmt::format("references nested deeper than {}", most_arcs));
     if (++specs_ > most_specs) spec.place.fail(fmt::format("references lead to more than {} prims", most_specs));
+    if (all.size() == most_opinions)
+      spec.place.fail(fmt::format("references lead to more than {} specs of one prim", most_opinions));
     for (const auto& [set, variant] : spec.selections) selections.emplace(set, variant);
     all.push_back(opinion);
     const auto follow = [&](UsdArc::Kind kind) {

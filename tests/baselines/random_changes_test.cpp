@@ -197,14 +197,14 @@ class RandomChanges : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Of, RandomChanges, ::testing::Range(0, 4));
 
 TEST_P(RandomChanges, AreSeenIfTheyMoveAnything) {
-  expect_all_seen(quick, static_cast<std::uint64_t>(5 * GetParam()), 5);
+  expect_all_seen(quick, 5 * static_cast<std::uint64_t>(GetParam()), 5);
 }
 
 class ManyRandomChanges : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Nightly, ManyRandomChanges, ::testing::Range(0, 10));
 
 TEST_P(ManyRandomChanges, AreSeenIfTheyMoveAnything) {
-  expect_all_seen(all(), static_cast<std::uint64_t>(100 + 20 * GetParam()), 20);
+  expect_all_seen(all(), 100 + 20 * static_cast<std::uint64_t>(GetParam()), 20);
 }
 
 }  // namespace

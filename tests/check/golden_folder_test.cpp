@@ -30,7 +30,7 @@ class GoldenInItsPlace : public test::InScratchFolder {
   std::uintmax_t write() const { return write(golden()); }
 
   [[nodiscard]] std::string refusal() const {
-    const std::string message = test::usage_error([&] { has_golden(folder()); });
+    std::string message = test::usage_error([&] { has_golden(folder()); });
     EXPECT_EQ(test::usage_error([&] { write(); }), message);
     return message;
   }

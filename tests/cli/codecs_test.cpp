@@ -87,7 +87,7 @@ TEST(Codecs, ThatAreMissingAreMissedOnlyWhereTheyAreNeededAndAtOnce) {
 
 TEST(Codecs, ThatCannotBeLoadedSayWhatToInstall) {
   const MovedTree tree;
-  std::ofstream(tree.module, std::ios::trunc);
+  const std::ofstream emptied(tree.module, std::ios::trunc);
   const Finished finished = tree.drape("render scene.toml -o film.gif");
   EXPECT_EQ(finished.code, 4) << finished.text;
   EXPECT_NE(finished.text.find("apt-get install libopencv-dev"), std::string::npos) << finished.text;

@@ -10,8 +10,10 @@
 
 namespace fs = std::filesystem;
 
+// NOLINTNEXTLINE(readability-redundant-declaration): the target may be compiled as one with this file
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
+// NOLINTNEXTLINE(bugprone-exception-escape): what is thrown is what is looked for
 int main(int argc, char** argv) {
   std::vector<fs::path> files;
   for (int i = 1; i < argc; ++i) {

@@ -84,7 +84,7 @@ Image changed(Image image, int how) {
 /// @param growth of a deviation per step, from 1e-16 m; 0: the same bits
 WindowResult window(int index, double growth, double tolerance) {
   WindowResult w;
-  w.first_step = 20 * index;
+  w.first_step = std::int64_t{20} * index;
   w.last_step = w.first_step + 20;
   for (const int i : {10, 20}) {
     const Deviation here{w.first_step + i, 213, growth > 0 ? 1e-16 * std::pow(growth, i) : 0};

@@ -32,7 +32,7 @@ Mesh uneven_grid(int n) {
       for (int axis = 0; axis < 2; ++axis) mesh.positions(j * (n + 1) + i, axis) += random.between(-0.5, 0.5) / n;
     }
   }
-  const auto cells = static_cast<std::size_t>(n * n);
+  const auto cells = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
   for (std::size_t cell = 0; cell < cells; ++cell) {
     if (random.number() < 0.5) continue;
     const auto [b, d, a] = mesh.triangles[cell];

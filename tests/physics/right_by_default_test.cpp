@@ -181,7 +181,7 @@ Mesh disc(int rings) {
 
 /// Which part of the ring that hangs over has the plate's plane for its shadow.
 double drape_coefficient(const Vertices& x, int rings) {
-  const Eigen::Index first = x.rows() - 6 * rings;
+  const Eigen::Index first = x.rows() - Eigen::Index{6} * rings;
   double twice = 0;  // the outline's shadow, by the shoelace formula
   for (Eigen::Index v = first; v < x.rows(); ++v) {
     const Eigen::Index next = v + 1 < x.rows() ? v + 1 : first;

@@ -23,7 +23,7 @@ MeshShape plate(double half, double height) {
 /// A band of 2·segments triangles around the z axis.
 Mesh tube(int segments) {
   Mesh mesh;
-  mesh.positions.resize(2 * segments, 3);
+  mesh.positions.resize(Eigen::Index{2} * segments, 3);
   for (int k = 0; k < segments; ++k) {
     const double angle = 2 * 3.14159265358979323846 * k / segments;
     for (const int end : {0, 1}) mesh.positions.row(2 * k + end) << std::cos(angle), std::sin(angle), end;
@@ -73,7 +73,7 @@ TEST(BodyPicture, HidesTheClothBehindItAndIsHiddenByTheOneOnIt) {
     MeshShape body = plate(0.5, height);
     body.thickness = thickness;
     const Image image = draw(make_grid(4, 4), from_above(), look, {40, 40}, {body});
-    const std::size_t middle = 3 * (20 * 40 + 20);
+    const std::size_t middle = 3U * (20 * 40 + 20);
     return image.pixels[middle] > image.pixels[middle + 2];
   };
   EXPECT_TRUE(red_beats_blue(0.1, 0.02));

@@ -25,7 +25,9 @@ double taken(const GroundShadow& shadow, const Vector3d& point) {
   const int column = static_cast<int>(std::floor(shadow.u().dot(p) * shadow.columns()));
   const int row = static_cast<int>(std::floor(shadow.v().dot(p) * shadow.rows()));
   if (column < 0 || row < 0 || column >= shadow.columns() || row >= shadow.rows()) return 0;
-  return shadow.pixels()[static_cast<std::size_t>(row * shadow.columns() + column)] / 65535.0;
+  return shadow.pixels()[static_cast<std::size_t>(row) * static_cast<std::size_t>(shadow.columns()) +
+                         static_cast<std::size_t>(column)] /
+         65535.0;
 }
 
 /// The shadow of a mesh, by a map of texels of half a centimetre.

@@ -11,7 +11,7 @@ namespace {
 Vertices bent(double angle) {
   Vertices x(8, 3);
   for (int i = 0; i < 2; ++i) {
-    x.row(4 * i) << -std::cos(angle), i, std::sin(angle);
+    x.row(Eigen::Index{4} * i) << -std::cos(angle), i, std::sin(angle);
     x.row(4 * i + 1) << 0, i, 0;
     x.row(4 * i + 2) << 1, i, 0;
     x.row(4 * i + 3) << 1 + std::cos(angle), i, std::sin(angle);

@@ -144,7 +144,8 @@ TEST(Vtk, HasTheSurfacesOfColliders) {
     for (int t = 0; t < surface.count("NumberOfPolys") - 2; ++t) {
       Eigen::Matrix3d triangle;
       for (int i = 0; i < 3; ++i) {
-        triangle.col(i) = points.row(number_at<std::int32_t>(corners, static_cast<std::size_t>(4 * (3 * t + i))));
+        triangle.col(i) = points.row(
+            number_at<std::int32_t>(corners, 4 * (3 * static_cast<std::size_t>(t) + static_cast<std::size_t>(i))));
       }
       volume += triangle.determinant() / 6;
     }

@@ -225,7 +225,7 @@ TEST(BlowUp, IsFoundWhereACrumpledClothHeatsUpBelowTheSafeStep) {
     message = error.what();
   }
   EXPECT_GT(unexplained, 0);
-  EXPECT_LE(hot.state().step, unexplained + 2 * 256) << message;
+  EXPECT_LE(hot.state().step, unexplained + 512) << message;
   EXPECT_NE(message.find("though the step is below " + fmt::format("{:.4g} s", safe)), std::string::npos) << message;
   EXPECT_NE(message.find("zero length"), std::string::npos) << message;
   const Energies end = hot.energies();

@@ -53,9 +53,11 @@ TEST(StabilityBorder, IsBeyondThePredictionWhereSpringsAndPushDoNotAddUp) {
 
 // The cells on both sides of the line of a map, in as many steps as a map's.
 TEST_P(StabilityBorders, PartTheCellsOfAMap) {
-  const auto [method, axis, stiffness] = GetParam();
+  const auto& [method, axis, stiffness] = GetParam();
   const double limit = stability_limit(method, axis, stiffness);
-  const auto at = [&](double factor) { return stability_cell(method, axis, factor * limit, stiffness, 100).outcome; };
+  const auto at = [&, method = method, axis = axis, stiffness = stiffness](double factor) {
+    return stability_cell(method, axis, factor * limit, stiffness, 100).outcome;
+  };
   EXPECT_EQ(at(0.95), is_explicit(method.method) ? StabilityOutcome::stable : StabilityOutcome::converged);
   EXPECT_EQ(at(1.25), StabilityOutcome::blown_up);
 }

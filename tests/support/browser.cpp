@@ -20,7 +20,7 @@ std::string find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::string file = folder + "/" + name;
+    std::string file = folder + "/" + name;
     if (access(file.c_str(), X_OK) == 0) return file;
   }
   return {};
@@ -106,7 +106,7 @@ Browser::~Browser() {
 Json Browser::post(const std::string& path, const Json& body) {
   const auto response = client_->Post(session_ + path, body.dump(), "application/json");
   if (!response) throw std::runtime_error("chromedriver does not answer " + path);
-  const Json value = Json::parse(response->body).at("value");
+  Json value = Json::parse(response->body).at("value");
   if (response->status != 200) throw std::runtime_error(path + ": " + value.at("message").get<std::string>());
   return value;
 }

@@ -35,7 +35,8 @@ SparseMatrix assemble(const System& system, int size, const Block& block_of) {
       }
     }
   }
-  SparseMatrix matrix(size * cloth.vertex_count(), size * cloth.vertex_count());
+  const Eigen::Index rows = Eigen::Index{size} * cloth.vertex_count();
+  SparseMatrix matrix(rows, rows);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }

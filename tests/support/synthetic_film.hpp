@@ -22,7 +22,8 @@ inline Image synthetic_frame(int k, int width, int height, Color background = {2
   Image image = plain_image(width, height, background);
   const auto put = [&](int x, int y, double r, double g, double b) {
     const std::array<double, 3> rgb{r, g, b};
-    for (int c = 0; c < 3; ++c) image.at(x, y)[c] = static_cast<std::uint8_t>(std::clamp(rgb[c], 0.0, 255.0) + 0.5);
+    for (int c = 0; c < 3; ++c)
+      image.at(x, y)[c] = static_cast<std::uint8_t>(std::lround(std::clamp(rgb[c], 0.0, 255.0)));
   };
   for (int y = 1; y < height; ++y) {
     for (int x = 1; x < width; ++x) {

@@ -81,7 +81,7 @@ TEST_F(ReadFile, TakesTextWithAndWithoutAByteOrderMark) {
   EXPECT_EQ(read_text(put(path() / "plain", "größe"), 1000), "größe");
   EXPECT_EQ(read_text(put(path() / "marked", "\xEF\xBB\xBFgröße"), 1000), "größe");
   for (const std::string mark : {"\xFF\xFE", "\xFE\xFF"}) {
-    const std::filesystem::path file = put(path() / "wide", mark + std::string("v\0 ", 4));
+    const std::filesystem::path file = put(path() / "wide", mark + std::string("v\0 \0", 4));
     EXPECT_EQ(usage_error([&] { read_text(file, 1000); }),
               file.string() + ": the file is text in UTF-16: save it as UTF-8");
   }

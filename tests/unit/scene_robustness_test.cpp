@@ -65,7 +65,7 @@ TEST(SceneRobustness, AFileCutAnywhereLoadsOrIsRefused) {
 TEST(SceneRobustness, AFileWithAnyByteChangedLoadsOrIsRefused) {
   const SceneFolder folder;
   std::mt19937 random(1);
-  const std::string bytes = std::string("[]{}=,.\"'#\n -+e0x9_a\\\xff", 23) + '\0';
+  const std::string bytes = std::string("[]{}=,.\"'#\n -+e0x9_a\\\xff\0", 23);
   for (std::size_t i = 0; i < everything.size(); ++i) {
     std::string text = everything;
     text[i] = bytes[random() % bytes.size()];

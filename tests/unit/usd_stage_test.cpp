@@ -120,7 +120,16 @@ TEST(UsdStage, EndsWhereReferencesDoNot) {
     const std::string next = fmt::format("</p{}>", i + 1);
     doubling += prim(fmt::format("p{}", i), fmt::format("[{}, {}]", next, next));
   }
-  EXPECT_NE(usd_error(doubling + "def \"p40\" {}\n").find("references lead to more than"), std::string::npos);
+  EXPECT_NE(usd_error(doubling + "def \"p40\" {}\n").find("references lead to more than 16384 specs of one prim"),
+            std::string::npos);
+  std::string many = usd_header;  // 2000 prims, each of 2¹⁰ specs
+  for (int i = 0; i < 10; ++i) {
+    const std::string next = fmt::format("</p{}>", i + 1);
+    many += prim(fmt::format("p{}", i), fmt::format("[{}, {}]", next, next));
+  }
+  many += "def \"p10\" {}\n";
+  for (int i = 0; i < 2000; ++i) many += prim(fmt::format("q{}", i), "</p0>");
+  EXPECT_NE(usd_error(many).find("references lead to more than 1048576 prims"), std::string::npos);
 }
 
 /// Files that others made are not part of the project.
