@@ -9,6 +9,9 @@
 #include <numeric>
 #include <utility>
 
+#include "sim/collision/candidates.hpp"
+#include "sim/collision/flat_hull.hpp"
+
 namespace drape {
 namespace {
 
@@ -28,37 +31,6 @@ Places places_along(const Eigen::Ref<const Eigen::VectorXd>& axis, double same) 
   places.erase(std::unique(places.begin(), places.end(), [&](double a, double b) { return b - a <= same; }),
                places.end());
   return places;
-}
-
-using Corner = Eigen::RowVector2d;
-
-double cross(const Corner& a, const Corner& b) { return a[0] * b[1] - a[1] * b[0]; }
-
-/// The corners of the convex hull, counterclockwise (Andrew 1979).
-std::vector<Corner> convex_hull(std::vector<Corner> points) {
-  const auto before = [](const Corner& a, const Corner& b) { return std::pair(a[0], a[1]) < std::pair(b[0], b[1]); };
-  std::sort(points.begin(), points.end(), before);
-  std::vector<Corner> hull;
-  const auto add_side = [&] {
-    const Index first = hull.size();
-    for (const Corner& point : points) {
-      while (hull.size() >= first + 2 && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0) {
-        hull.pop_back();
-      }
-      hull.push_back(point);
-    }
-    hull.pop_back();  // where the other side begins
-  };
-  add_side();
-  std::reverse(points.begin(), points.end());
-  add_side();
-  return hull;
-}
-
-double area_of(const std::vector<Corner>& corners) {
-  double twice = 0;
-  for (Index k = 0; k < corners.size(); ++k) twice += cross(corners[k], corners[(k + 1) % corners.size()]);
-  return twice / 2;
 }
 
 /// Where so many blocks begin and end, with as many places in each: a power of two, or all places.
@@ -118,57 +90,56 @@ std::optional<SheetBlocks> SheetBlocks::of(const Cloth& cloth) {
 }
 
 bool SheetBlocks::lay_flat(const Cloth& cloth) {
-  // Edges with the triangle on their left, and how often they are there.
-  std::map<Edge, int> sides;
-  for (const auto& [a, b, c] : cloth.triangles) {
-    for (const Edge side : {Edge{a, b}, Edge{b, c}, Edge{c, a}}) {
-      if (++sides[side] > 1 || side[0] == side[1]) return false;
-    }
-  }
-  std::vector<Edge> border;
-  for (const auto& [side, count] : sides) {
-    if (!sides.contains(Edge{side[1], side[0]})) border.push_back(side);
-  }
-  if (border.empty()) return false;
-
+  auto border = border_of(cloth.triangles);
+  if (!border || border->empty()) return false;
   const auto& [a, b, c] = cloth.triangles.front();
   const Eigen::Vector3d origin = rest_of(cloth, a);
   const Eigen::Vector3d normal = (rest_of(cloth, b) - origin).cross(rest_of(cloth, c) - origin).normalized();
   Eigen::Matrix<double, 3, 2> axes;
-  axes.col(0) = (rest_of(cloth, border.front()[1]) - rest_of(cloth, border.front()[0])).normalized();
+  axes.col(0) = (rest_of(cloth, border->front()[1]) - rest_of(cloth, border->front()[0])).normalized();
   axes.col(1) = normal.cross(axes.col(0));
   const Vertices from_origin = cloth.rest.rowwise() - origin.transpose();
   flat_ = from_origin * axes;
   same_ = flatness * (flat_.colwise().maxCoeff() - flat_.colwise().minCoeff()).maxCoeff();
   if (!((from_origin * normal).cwiseAbs().maxCoeff() <= same_)) return false;
-  std::vector<Corner> ends;
-  for (const Edge& side : border) ends.emplace_back(flat_.row(side[0]));
-  const std::vector<Corner> hull = convex_hull(std::move(ends));
-  for (const Edge& side : border) {
-    const Corner start = flat_.row(side[0]), along = flat_.row(side[1]) - start;
-    const double outside = -same_ * along.norm();
-    const bool all_inside = std::all_of(hull.begin(), hull.end(),
-                                        [&](const Corner& corner) { return cross(along, corner - start) >= outside; });
-    if (!all_inside) return false;
-  }
-  return add_pieces(cloth, same_, area_of(hull));
+
+  const auto hull = hull_of(flat_, *border);
+  std::vector<Triangle> all = cloth.triangles;
+  const auto filling = filling_of(flat_, *border, hull, same_);
+  all.insert(all.end(), filling.begin(), filling.end());
+  border = border_of(all);
+  if (!border || !is_hull(flat_, *border, hull, same_)) return false;
+  cloth_pieces_ = cloth.triangles.size();
+  if (!add_pieces(all, area_of(hull))) return false;
+  return filling.empty() || keep_apart(cloth);
 }
 
-bool SheetBlocks::add_pieces(const Cloth& cloth, double same, double whole) {
+bool SheetBlocks::add_pieces(const std::vector<Triangle>& triangles, double whole) {
   double area = 0;
-  least_height_ = std::numeric_limits<double>::infinity();
-  for (const Triangle& t : cloth.triangles) {
+  least_distance_ = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : triangles) {
     Eigen::Matrix2d edges;
     edges << (flat_.row(t[1]) - flat_.row(t[0])).transpose(), (flat_.row(t[2]) - flat_.row(t[0])).transpose();
     const double twice = edges.determinant();
     const double longest = std::max({edges.col(0).norm(), edges.col(1).norm(), (edges.col(1) - edges.col(0)).norm()});
-    if (!(twice > same * longest)) return false;
+    if (!(twice > same_ * longest)) return false;
     area += twice / 2;
-    least_height_ = std::min(least_height_, twice / longest);
+    if (is_cloth(pieces_.size())) least_distance_ = std::min(least_distance_, twice / longest);
     pieces_.push_back({.vertices = t, .inverse = edges.inverse()});
   }
   // Each point of the hull has as many triangles on it as any other, since the border is the hull's.
   return area < 1.5 * whole;
+}
+
+bool SheetBlocks::keep_apart(const Cloth& cloth) {
+  std::vector<Point> places;
+  for (int i = 0; i < cloth.vertex_count(); ++i) places.push_back(rest_of(cloth, i));
+  CollisionCandidates near(cloth);
+  near.find(places, places, least_distance_);
+  for (const auto& [feature, vertices] : near.pairs()) {
+    least_distance_ = std::min(least_distance_, std::sqrt(nearest(feature, gather(places, vertices)).squared));
+  }
+  return least_distance_ > same_;
 }
 
 void SheetBlocks::divide() {
@@ -219,8 +190,9 @@ void SheetBlocks::fill(Level& level) const {
     level.first_vertex.push_back(level.vertices.size());
     level.pieces.insert(level.pieces.end(), pieces.begin(), pieces.end());
     std::vector<int> vertices;
-    for (const Index p : pieces)
-      vertices.insert(vertices.end(), pieces_[p].vertices.begin(), pieces_[p].vertices.end());
+    for (const Index p : pieces) {
+      if (is_cloth(p)) vertices.insert(vertices.end(), pieces_[p].vertices.begin(), pieces_[p].vertices.end());
+    }
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     level.vertices.insert(level.vertices.end(), vertices.begin(), vertices.end());

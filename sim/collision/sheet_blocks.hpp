@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "sim/cloth.hpp"
+#include "sim/collision/flat_hull.hpp"
 
 namespace drape {
 
-/// A cloth that was cut in a convex shape, laid flat again, and the rectangle around it divided into blocks: into 2×2
-/// of them, and each of these again and again, until there are about two triangles in a block. Blocks in which nothing
-/// lies are empty.
+/// A cloth that was cut out of one flat piece, laid flat again, its holes and notches filled with triangles up to its
+/// convex hull, and the rectangle around it divided into blocks: into 2×2 of them, and each of these again and again,
+/// until there are about two triangles in a block. Blocks in which nothing of the cloth lies are empty.
 class SheetBlocks {
  public:
   struct Piece {
@@ -46,7 +47,7 @@ class SheetBlocks {
   struct Level {
     std::array<Axis, 2> axes;                            // columns, rows
     std::vector<std::size_t> pieces;                     // of one block after another, those that reach into it
-    std::vector<int> vertices;                           // of these, each once in a block
+    std::vector<int> vertices;                           // of the cloth's of these, each once in a block
     std::vector<std::size_t> first_piece, first_vertex;  // of each block
 
     [[nodiscard]] std::size_t columns() const { return axes[0].blocks(); }
@@ -62,8 +63,13 @@ class SheetBlocks {
     [[nodiscard]] std::span<const int> vertices_of(std::size_t block) const {
       return {vertices.data() + first_vertex[block], first_vertex[block + 1] - first_vertex[block]};
     }
+    /// Whether it has nothing of the cloth.
     [[nodiscard]] bool is_empty(const Part& part) const {
-      return all_pieces(part, [](std::size_t) { return false; });
+      for (std::size_t row = part.rows.first; row < part.rows.last; ++row) {
+        const std::size_t first = row * columns();
+        if (first_vertex[first + part.columns.first] != first_vertex[first + part.columns.last]) return false;
+      }
+      return true;
     }
     /// Whether check(piece) is true of all pieces that reach into a part; some are looked at more than once.
     template <class Check>
@@ -85,12 +91,16 @@ class SheetBlocks {
   using Pairs = std::array<std::array<int, most_inside>, most_inside>;
   static const Pairs& pairs_apart(std::size_t columns);
 
-  /// Nothing where the triangles do not tile their convex hull: all have to lie the same way up, and what has
-  /// but one triangle has to be on the border.
+  /// Nothing where the triangles and what fills holes and notches do not tile the convex hull: all have to lie the same
+  /// way up, and no border may touch itself.
   static std::optional<SheetBlocks> of(const Cloth& cloth);
 
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
-  [[nodiscard]] double least_height() const { return least_height_; }  ///< of its triangles [m]
+  /// Whether a piece is one of the cloth's, or fills what it leaves out.
+  [[nodiscard]] bool is_cloth(std::size_t piece) const { return piece < cloth_pieces_; }
+  /// The smallest of two features of the cloth that share no vertex, where it lies flat; where nothing is left out, the
+  /// smallest height of its triangles [m].
+  [[nodiscard]] double least_distance() const { return least_distance_; }
   [[nodiscard]] const std::vector<Level>& levels() const { return levels_; }
   /// Of the level whose blocks are measured: their edges, block by block.
   [[nodiscard]] const Level& measured() const { return levels_[measured_]; }
@@ -99,19 +109,20 @@ class SheetBlocks {
   }
 
  private:
-  using Flat = Eigen::Matrix<double, Eigen::Dynamic, 2>;
-
   [[nodiscard]] bool lay_flat(const Cloth& cloth);
-  [[nodiscard]] bool add_pieces(const Cloth& cloth, double same, double whole);
+  [[nodiscard]] bool add_pieces(const std::vector<Triangle>& triangles, double whole);
+  /// Finds what is nearer to each other than triangles are high, across a notch; whether nothing touches.
+  [[nodiscard]] bool keep_apart(const Cloth& cloth);
   void divide();
   /// Fills the lists of a level whose borders are known.
   void fill(Level& level) const;
   void weigh_edges();
 
-  Flat flat_;        // where vertices are [m]
+  FlatPlaces flat_;
   double same_ = 0;  // what is no difference there [m]
-  double least_height_ = 0;
-  std::vector<Piece> pieces_;
+  double least_distance_ = 0;
+  std::vector<Piece> pieces_;  // the cloth's, then what fills the rest
+  std::size_t cloth_pieces_ = 0;
   std::vector<Level> levels_;  // from 2×2 to the finest
   std::size_t measured_ = 0;
   std::vector<WeightedEdge> edges_;

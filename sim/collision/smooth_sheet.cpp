@@ -130,7 +130,7 @@ std::optional<SmoothSheet::Room> SmoothSheet::smooth(Index l, const Part& part, 
                                                      std::optional<Index>& first) const {
   const auto axes = frame(l, part);
   if (!axes) return std::nullopt;
-  const double needed = distance_ / sheet_->least_height();
+  const double needed = distance_ / sheet_->least_distance();
   const double least = std::max(needed + change.next, change.next / most_moved);
   const auto least_in = [&](Index p) {
     const auto& [vertices, inverse] = sheet_->pieces()[p];
@@ -275,7 +275,7 @@ const SmoothSheet::Ball& SmoothSheet::ball(Index l, Index block) {
 void SmoothSheet::gather(Index l, const Part& part, FeatureSet& features) const {
   features.clear();
   sheet_->levels()[l].all_pieces(part, [&](Index p) {
-    features.triangles.push_back(sheet_->pieces()[p].vertices);
+    if (sheet_->is_cloth(p)) features.triangles.push_back(sheet_->pieces()[p].vertices);
     return true;
   });
   features.complete();

@@ -14,16 +14,19 @@
 
 namespace drape {
 
-/// Says of a cloth that was cut in a convex shape when nothing of it can touch in a step, for some operations for each
-/// vertex, where a search for what is near looks at dozens of pairs for each.
+/// Says of a cloth that was cut out of one flat piece when nothing of it can touch in a step, for some operations for
+/// each vertex, where a search for what is near looks at dozens of pairs for each.
 ///
 /// x(p) is where the point p of the flat cloth is, and F = ∂x/∂p (3×2), which is constant in a triangle. Let A be
 /// any 3×2 matrix with orthonormal columns, and p and q two points between which all triangles have a symmetric part of
 /// AᵀF of at least σ. Then ‖x(p) − x(q)‖ ≥ σ‖p − q‖, since (p − q)ᵀAᵀ(x(p) − x(q)) is the integral of (p − q)ᵀAᵀF(p −
 /// q) along the straight line between them. In a step the two move by at most D‖p − q‖ relative to each other, where D
-/// is the largest norm by which F changes. And features that share no vertex are at least the smallest height δ of a
-/// triangle apart in the flat cloth: whoever leaves the triangles around a vertex crosses one of them. So they stay at
-/// least (σ − D)δ apart, whatever the way they take.
+/// is the largest norm by which F changes. And features that share no vertex are at least some distance δ apart in the
+/// flat cloth: if it is convex, the smallest height of a triangle, as whoever leaves the triangles around a vertex
+/// crosses one of them. So they stay at least (σ − D)δ apart, whatever the way they take.
+///
+/// What is not convex is made so, for lines to be straight: holes and notches are filled with triangles between
+/// vertices of the cloth, whose F follows from how these move. No feature of theirs is ever compared with anything.
 ///
 /// One A for the whole cloth does while it is nearly flat. Where it is folded, it is divided: a window of 2×2 blocks
 /// into the smaller windows of 2×2 of the blocks' own blocks, each with an A of its own. Two points that are in one
@@ -38,7 +41,8 @@ class SmoothSheet {
 
   /// Whether it is certain that any two features that share no vertex stay `distance` apart, and never come nearer than
   /// a fifth of the distance that they begin with, while vertices go from x (n×3) on straight lines by h·v. Of a cloth
-  /// that is not convex and flat at rest it never is. Where it was not for a few times, it is not looked for each time.
+  /// that is not flat at rest, or of several pieces, it never is. Where it was not for a few times, it is not looked
+  /// for each time.
   [[nodiscard]] bool stays_apart(const Vertices& x, double h, const Vertices& v, double distance);
 
  private:
@@ -107,7 +111,7 @@ class SmoothSheet {
     return {x[1], y[1], z[1]};
   }
 
-  std::optional<SheetBlocks> sheet_;  // nothing: it is not convex
+  std::optional<SheetBlocks> sheet_;  // nothing: it is not one that is flat
   std::vector<LevelState> levels_;
   std::vector<Change> changes_;  // of the blocks that are measured
   std::vector<Vertex> vertices_;
