@@ -73,7 +73,7 @@ TEST(BodyPicture, HidesTheClothBehindItAndIsHiddenByTheOneOnIt) {
     MeshShape body = plate(0.5, height);
     body.thickness = thickness;
     const Image image = draw(make_grid(4, 4), from_above(), look, {40, 40}, {body});
-    const std::size_t middle = 3U * (20 * 40 + 20);
+    const std::size_t middle = std::size_t{3} * (20 * 40 + 20);
     return image.pixels[middle] > image.pixels[middle + 2];
   };
   EXPECT_TRUE(red_beats_blue(0.1, 0.02));

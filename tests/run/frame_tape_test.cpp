@@ -18,7 +18,7 @@ Frame frame_of(int index, bool moving) {
 // Whatever of it lies in memory and whatever on disk, a tape gives back what it was given, as often as it is asked.
 TEST(FrameTape, GivesBackTheFramesBitByBit) {
   for (const bool moving : {false, true}) {
-    const std::size_t bytes = (moving ? 2U : 1U) * 7 * 3 * sizeof(double);
+    const std::size_t bytes = std::size_t{moving ? 2U : 1U} * 7 * 3 * sizeof(double);
     for (const std::size_t memory : {std::size_t{0}, 3 * bytes, 3 * bytes + 1, 100 * bytes}) {
       FrameTape tape(memory);
       std::vector<Frame> written;

@@ -23,7 +23,7 @@ TEST(PointCache, HoldsTheMotionOfTheMeshBesideIt) {
   EXPECT_EQ(number_at<float>(cache, 20), 0);
   EXPECT_EQ(number_at<float>(cache, 24), 1);
   EXPECT_EQ(number_at<std::int32_t>(cache, 28), 9);
-  ASSERT_EQ(cache.size(), head + 9U * 20 * 12);
+  ASSERT_EQ(cache.size(), head + std::size_t{9} * 20 * 12);
   for (std::size_t k = 0; k < frames.size(); ++k) {
     EXPECT_EQ(vertices_at<float>(cache, head + k * 240, 20).cast<float>(), frames[k].positions.cast<float>()) << k;
   }
@@ -43,7 +43,7 @@ TEST(PointCache, SaysHowManySamplesThereAreWhereTheMotionEndsEarly) {
   std::get<std::unique_ptr<MotionWriter>>(any)->finish(Ending::early);
   const std::string cache = test::content(folder.path("x.partial.pc2"));
   EXPECT_EQ(number_at<std::int32_t>(cache, 28), 3);
-  EXPECT_EQ(cache.size(), head + 3U * 2 * 12);
+  EXPECT_EQ(cache.size(), head + std::size_t{3} * 2 * 12);
   EXPECT_TRUE(std::filesystem::exists(folder.path("x.partial.obj")));
   EXPECT_EQ(folder.file_count(), 2U);
 }
@@ -67,7 +67,7 @@ TEST(Ply, HoldsAFrameToTheBit) {
     const std::size_t data = ply.find("end_header\n") + 11;
     EXPECT_EQ(vertices_at<double>(ply, data, 20), frames[k].positions);
     const std::size_t faces = data + 480;
-    ASSERT_EQ(ply.size(), faces + 24U * 13);
+    ASSERT_EQ(ply.size(), faces + std::size_t{24} * 13);
     for (std::size_t i = 0; i < 72; ++i) {
       EXPECT_EQ(number_at<std::uint8_t>(ply, faces + i / 3 * 13), 3);
       EXPECT_EQ(number_at<std::int32_t>(ply, faces + i / 3 * 13 + 1 + i % 3 * 4), triangles[i / 3][i % 3]);
