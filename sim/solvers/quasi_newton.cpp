@@ -7,17 +7,43 @@ namespace {
 
 constexpr int quasi_newton_iterations = 500;
 
+// After so many iterations on the whole cloth there is one on patches, and while these are so small that it costs less
+// than those, some more. First there may be as many vertices in patches as there is memory for.
+constexpr int between_patches = 5;
+constexpr int most_rounds = 4;
+constexpr double first_share = 0.25, next_share = 0.03;
+
 }  // namespace
 
 QuasiNewton::QuasiNewton(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
     : FactoredMinimiser(system, objective, settings, default_iterations(settings, quasi_newton_iterations)),
       history_(system.cloth.vertex_count(), system.threads),
       preconditioned_(Vertices::Zero(system.cloth.vertex_count(), 3)),
-      direction_(preconditioned_) {}
+      direction_(preconditioned_) {
+  const bool large = FreeVertices(system.cloth).count() >= large_cloth;
+  if (large && system.energies.empty() && accuracy().rule == StoppingRule::error) {
+    patches_.emplace(system, objective, accuracy().tolerance);
+  }
+}
 
-void QuasiNewton::start() { history_.clear(); }
+void QuasiNewton::start() {
+  history_.clear();
+  wait_ = between_patches;
+  round_ = 0;
+}
+
+double QuasiNewton::settle_patches(Iterate& point) {
+  if (!patches_ || wait_-- > 0) return 0;
+  const double change = patches_->settle(point, round_ == 0 ? first_share : next_share);
+  if (change > 0) history_.clear();
+  const bool again = change > 0 && ++round_ < most_rounds;
+  wait_ = again ? 0 : between_patches;
+  if (!again) round_ = 0;
+  return change;
+}
 
 double QuasiNewton::iterate(Iterate& point) {
+  if (const double change = settle_patches(point); change > 0) return change;
   const Threads& threads = objective().threads();
   factor().solve(point.gradient, preconditioned_);
   history_.observe(point.gradient, preconditioned_);

@@ -1,0 +1,145 @@
+#include "sim/solvers/patch_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "sim/parallel/vectors.hpp"
+#include "sim/solvers/newton.hpp"
+
+namespace drape {
+namespace {
+
+// Around a vertex above the tolerance the patch has rings of neighbours, at least and at most, and as many as make it
+// worth the passes over the whole cloth that it takes: this share of all vertices. Wide ones move their rims less.
+constexpr int least_rings = 4, most_rings = 16;
+constexpr double worthwhile = 0.02;
+// What the first iterations leave is mostly at the rims, which more of them do not move.
+constexpr int patch_iterations = 6;
+constexpr double margin = 0.5;  // that the tolerance leaves for the rims
+
+std::size_t at(int number) { return static_cast<std::size_t>(number); }
+
+/// The rows of those vertices.
+Vertices rows_of(const Vertices& all, const std::vector<int>& vertices) {
+  Vertices some(static_cast<Eigen::Index>(vertices.size()), 3);
+  for (Eigen::Index row = 0; const int vertex : vertices) some.row(row++) = all.row(vertex);
+  return some;
+}
+
+}  // namespace
+
+PatchNewton::PatchNewton(const System& system, const StepObjective& objective, double tolerance)
+    : system_(system),
+      objective_(objective),
+      tolerance_(tolerance),
+      places_(at(system.cloth.vertex_count())),
+      numbers_(places_.size()) {
+  find_neighbours();
+}
+
+void PatchNewton::find_neighbours() {
+  starts_.assign(places_.size() + 1, 0);
+  for (const Spring& spring : system_.springs) {
+    ++starts_[at(spring.i) + 1];
+    ++starts_[at(spring.j) + 1];
+  }
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  neighbours_.resize(at(starts_.back()));
+  std::vector<int> next = starts_;
+  for (const Spring& spring : system_.springs) {
+    neighbours_[at(next[at(spring.i)]++)] = spring.j;
+    neighbours_[at(next[at(spring.j)]++)] = spring.i;
+  }
+}
+
+void PatchNewton::surround(std::size_t first, Place place) {
+  const std::size_t end = vertices_.size();
+  for (std::size_t v = first; v < end; ++v) {
+    const std::size_t vertex = at(vertices_[v]);
+    for (int n = starts_[vertex]; n < starts_[vertex + 1]; ++n) {
+      const int neighbour = neighbours_[at(n)];
+      if (places_[at(neighbour)] != Place::outside) continue;
+      places_[at(neighbour)] = place;
+      vertices_.push_back(neighbour);
+    }
+  }
+}
+
+void PatchNewton::find_patches(const Vertices& gradient) {
+  const Eigen::VectorXd& inertia = objective_.inertia();
+  std::fill(places_.begin(), places_.end(), Place::outside);
+  vertices_.clear();
+  for (int i = 0; i < static_cast<int>(gradient.rows()); ++i) {
+    if (!(gradient.row(i).norm() > tolerance_ * inertia[i])) continue;
+    places_[at(i)] = Place::inside;
+    vertices_.push_back(i);
+  }
+  const auto enough = static_cast<std::size_t>(worthwhile * static_cast<double>(places_.size()));
+  std::size_t last_ring = 0;
+  for (int ring = 0; ring < most_rings && (ring < least_rings || vertices_.size() < enough); ++ring) {
+    const std::size_t end = vertices_.size();
+    surround(last_ring, Place::inside);
+    last_ring = end;
+  }
+  inside_ = vertices_.size();
+  surround(last_ring, Place::rim);
+  for (const int pin : system_.cloth.pins) {
+    if (places_[at(pin)] == Place::inside) places_[at(pin)] = Place::rim;
+  }
+  std::sort(vertices_.begin(), vertices_.end());
+  for (int number = 0; const int vertex : vertices_) numbers_[at(vertex)] = number++;
+}
+
+Cloth PatchNewton::cut_out(const Vertices& x) {
+  const Cloth& whole = system_.cloth;
+  Cloth cloth;
+  cloth.positions = rows_of(x, vertices_);
+  cloth.velocities = Vertices::Zero(cloth.positions.rows(), 3);
+  if (whole.rest.rows() == x.rows()) cloth.rest = rows_of(whole.rest, vertices_);
+  cloth.masses.resize(cloth.positions.rows());
+  for (const int vertex : vertices_) {
+    const int number = numbers_[at(vertex)];
+    cloth.masses[number] = whole.masses[vertex];
+    if (places_[at(vertex)] == Place::rim) cloth.pins.push_back(number);
+  }
+  for (const Spring& spring : system_.springs) {
+    const Place one = places_[at(spring.i)], other = places_[at(spring.j)];
+    if (one == Place::outside || other == Place::outside || (one == Place::rim && other == Place::rim)) continue;
+    cloth.springs.push_back(spring);
+    cloth.springs.back().i = numbers_[at(spring.i)];
+    cloth.springs.back().j = numbers_[at(spring.j)];
+  }
+  return cloth;
+}
+
+double PatchNewton::settle(Iterate& point, double share) {
+  find_patches(point.gradient);
+  if (inside_ == 0 || static_cast<double>(inside_) > share * static_cast<double>(places_.size())) return 0;
+  const Cloth cloth = cut_out(point.x);
+  System system(cloth, system_.step, system_.threads);
+  system.stop = system_.stop;
+  StepObjective objective(system, objective_.duration());
+  // Without velocities and forces y is what is given as the start.
+  Vertices y = rows_of(objective_.y(), vertices_);
+  for (const int pin : cloth.pins) y.row(pin) = cloth.positions.row(pin);
+  objective.begin(y, cloth.velocities, Vertices::Zero(y.rows(), 3), objective_.time());
+  Iterate patch{.x = cloth.positions, .gradient = Vertices::Zero(y.rows(), 3)};
+  patch.value = objective.evaluate(patch.x, patch.gradient);
+  IntegratorSettings settings;
+  settings.stop = StoppingRule::error;
+  settings.tolerance = margin * tolerance_;
+  settings.max_iterations = patch_iterations;
+  settings.linear_solver = LinearSolver::cholesky;
+  try {
+    Newton(system, objective, settings).minimise(patch, [] { return true; });
+  } catch (const UsageError&) {
+    return 0;  // for want of memory
+  }
+  for (Eigen::Index row = 0; const int vertex : vertices_) point.x.row(vertex) = patch.x.row(row++);
+  point.value = objective_.evaluate(point.x, point.gradient);
+  return (patch.x - cloth.positions).norm();
+}
+
+}  // namespace drape

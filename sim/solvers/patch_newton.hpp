@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/solvers/minimiser.hpp"
+#include "sim/system.hpp"
+
+namespace drape {
+
+/// Newton's method on those patches of a cloth where the error is above a tolerance, while all around them stays where
+/// it is: a block of a nonlinear Gauss-Seidel iteration, chosen where it is needed. Far from a minimum few vertices in
+/// a hundred are strained so that the Hessian has little to do with A, and they keep methods for the whole cloth busy;
+/// the Hessian of these alone is small enough to be factored. What is left is an error at the rims of patches, which
+/// A⁻¹ spreads out.
+///
+/// For cloth that is held together by springs alone: no energy is asked for the part of it that a patch has.
+class PatchNewton {
+ public:
+  /// @param objective of every step, which must outlive this
+  /// @param tolerance of the error of a vertex [m]
+  PatchNewton(const System& system, const StepObjective& objective, double tolerance);
+
+  /// Lowers g by moving the vertices of the patches, which have vertices above the tolerance and those around them. A
+  /// function of the point and the objective alone.
+  /// @param share of all vertices that may be in patches; where there are more nothing is done
+  /// @return how far they were moved [m], the 2-norm over all unknowns
+  double settle(Iterate& point, double share);
+
+ private:
+  /// Of a vertex: outside of all patches, next to one, or in one.
+  enum class Place : char { outside, rim, inside };
+
+  void find_neighbours();
+  /// Finds the patches, and their vertices with those of their rims.
+  void find_patches(const Vertices& gradient);
+  /// Appends all neighbours outside of the vertices from `first` on, which are then in that place.
+  void surround(std::size_t first, Place place);
+  /// The patches as a cloth whose pins are their rims, at rest at x.
+  [[nodiscard]] Cloth cut_out(const Vertices& x);
+
+  const System& system_;
+  const StepObjective& objective_;
+  double tolerance_;
+  std::vector<int> starts_, neighbours_;  // those of vertex i are from starts_[i] to starts_[i + 1]
+  std::vector<Place> places_;             // of all vertices
+  std::vector<int> vertices_;             // inside and on rims, ascending
+  std::vector<int> numbers_;              // of those in vertices_
+  std::size_t inside_ = 0;                // how many
+};
+
+}  // namespace drape

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+
+#include "sim/linear/free_vertices.hpp"
+#include "sim/solvers/newton.hpp"
+#include "sim/solvers/patch_newton.hpp"
+#include "sim/solvers/quasi_newton.hpp"
+#include "tests/support/cloths.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+constexpr double tolerance = 1e-3;  // [m]
+
+/// The first step of a cloth that begins to hang from its corners.
+struct FirstStep {
+  Cloth cloth;
+  System system;
+  StepObjective objective;
+
+  explicit FirstStep(int cells, std::unique_ptr<Energy> energy = nullptr)
+      : cloth(grid_cloth(cells)), system(with(std::move(energy))), objective(system, system.step) {
+    Vertices weight = Vertices::Zero(cloth.vertex_count(), 3);
+    weight.col(2) = -9.8 * cloth.masses;
+    objective.begin(cloth.positions, cloth.velocities, weight, system.step);
+  }
+  System with(std::unique_ptr<Energy> energy) const {
+    System result(cloth, 0.02);
+    if (energy) result.energies.push_back(std::move(energy));
+    return result;
+  }
+  [[nodiscard]] Iterate at(const Vertices& x) const {
+    Iterate point{.x = x, .gradient = Vertices::Zero(x.rows(), 3)};
+    point.value = objective.evaluate(point.x, point.gradient);
+    return point;
+  }
+  /// Where a method stops at an error.
+  template <class Solver>
+  [[nodiscard]] Iterate solved(double error, StepReport* report = nullptr) const {
+    IntegratorSettings settings;
+    settings.stop = StoppingRule::error;
+    settings.tolerance = error;
+    settings.max_iterations = 1000;
+    Iterate point = at(objective.y());
+    const StepReport done = Solver(system, objective, settings).minimise(point, [] { return true; });
+    EXPECT_TRUE(done.converged);
+    if (report != nullptr) *report = done;
+    return point;
+  }
+};
+
+double largest_distance(const Vertices& a, const Vertices& b) { return (a - b).rowwise().norm().maxCoeff(); }
+
+/// An energy that is there and nothing else.
+struct Nothing final : Energy {
+  double add_gradient(const Vertices&, double, Vertices&) const override { return 0; }
+  void add_bound(StiffnessBound&) const override {}
+  [[nodiscard]] std::unique_ptr<EnergyHessian> make_hessian() const override { return nullptr; }
+  [[nodiscard]] bool internal() const override { return true; }
+};
+
+TEST(PatchNewton, BringsAStrayVertexBackAndLeavesTheRestAlone) {
+  constexpr int cells = 40, stray = 5 * (cells + 1) + 5;
+  const FirstStep step(cells);
+  const Vertices minimum = step.solved<Newton>(1e-7).x;
+  Iterate point = step.at(minimum);
+  point.x.row(stray) += Eigen::RowVector3d(0.005, -0.01, 0.02);
+  point = step.at(point.x);
+  const Vertices before = point.x;
+  const double height = point.value;
+  EXPECT_GT(PatchNewton(step.system, step.objective, tolerance).settle(point, 1), 0.02);
+  EXPECT_LT(point.value, height);
+  EXPECT_EQ(point.value, step.at(point.x).value);
+  EXPECT_TRUE(same_bits(point.gradient, step.at(point.x).gradient));
+  EXPECT_LT(largest_distance(point.x, minimum), tolerance);
+  for (int i = 0; i < step.cloth.vertex_count(); ++i) {
+    const int away = std::max(std::abs(i % (cells + 1) - 5), std::abs(i / (cells + 1) - 5));
+    if (away > 16) {
+      EXPECT_TRUE(point.x.row(i) == before.row(i)) << i;
+    }
+  }
+  for (const int pin : step.cloth.pins) EXPECT_TRUE(point.x.row(pin) == before.row(pin));
+}
+
+TEST(PatchNewton, MovesNothingWhereTooMuchOrNothingIsAboveTheTolerance) {
+  const FirstStep step(20);
+  PatchNewton patches(step.system, step.objective, tolerance);
+  Iterate far = step.at(step.cloth.positions + 0.1 * random_vertices(step.cloth.vertex_count(), 1));
+  const Vertices before = far.x;
+  EXPECT_EQ(patches.settle(far, 0.5), 0);
+  EXPECT_TRUE(same_bits(far.x, before));
+  Iterate there = step.solved<Newton>(1e-7);
+  const Vertices minimum = there.x;
+  EXPECT_EQ(patches.settle(there, 1), 0);
+  EXPECT_TRUE(same_bits(there.x, minimum));
+}
+
+// The first step of a large cloth is far from its minimum next to the pins and nowhere else.
+TEST(PatchNewton, SavesAQuasiNewtonStepOfALargeClothHalfOfItsIterations) {
+  constexpr int cells = 142;
+  const FirstStep step(cells), without(cells, std::make_unique<Nothing>());
+  ASSERT_GE(FreeVertices(step.cloth).count(), large_cloth);
+  StepReport in_patches, as_a_whole;
+  const Vertices minimum = step.solved<Newton>(1e-5).x;
+  EXPECT_LT(largest_distance(step.solved<QuasiNewton>(tolerance, &in_patches).x, minimum), tolerance);
+  EXPECT_LT(largest_distance(without.solved<QuasiNewton>(tolerance, &as_a_whole).x, minimum), tolerance);
+  EXPECT_LT(2 * in_patches.iterations, as_a_whole.iterations);
+}
+
+}  // namespace
+}  // namespace drape::test
