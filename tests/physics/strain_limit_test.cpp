@@ -153,6 +153,22 @@ TEST(StrainLimitAlone, FindsTheNearestPlaceWithinTheLimits) {
   }
 }
 
+// A sheet of 160×160 cells that hangs from two corners is pulled down and aside: the load of all of it has to travel to
+// the pins, over some 250 edges.
+TEST(StrainLimitAlone, SettlesAcrossAWideCloth) {
+  const Cloth cloth = cloth_of(make_grid(160, 160), 1, 180, {0, 160});
+  constexpr double limit = 1.01, h = 0.01, tolerance = 1e-3;
+  System system(cloth, h);
+  drape::StrainLimit{.max_stretch = limit, .iterations = 400, .tolerance = tolerance}.install(system);
+  Vertices v = Vertices::Zero(cloth.vertex_count(), 3);
+  v.col(1).setConstant(1);
+  v.col(2).setConstant(-0.1);
+  for (const int pin : cloth.pins) v.row(pin).setZero();
+  system.filters.front()->apply(cloth.positions, 0, h, v);
+  EXPECT_TRUE(system.filters.front()->converged());
+  EXPECT_LE(extremes(cloth, cloth.positions + h * v).most, limit * (1 + tolerance) + 1e-9);
+}
+
 // One spring that is squeezed and pushed aside at once: it is held by a push along where it was, which turns nothing;
 // and where it has turned far, along where it is.
 TEST(StrainLimitAlone, HoldsASpringThatIsPushedAcross) {
