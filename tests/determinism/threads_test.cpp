@@ -180,7 +180,6 @@ TEST(Threads, SolveToTheSameBits) {
   }
 }
 
-<<<<<<< HEAD
 // Cloth so large that a step is solved in patches, too.
 TEST(Threads, SettlePatchesToTheSameBits) {
   SimulationSettings settings = setup(cloth_of(make_grid(142, 142), 1, 180, {0, 142}), Method::quasi_newton, 0.02);
@@ -223,20 +222,6 @@ void expect_the_same_motion(const Cloth& cloth, const NamedMethod& method) {
     EXPECT_TRUE(same_bits(together.x, alone.x)) << count << " threads";
     EXPECT_TRUE(same_bits(together.v, alone.v)) << count << " threads";
   }
-=======
-// Cloth so large that a step is solved in patches, too.
-TEST(Threads, SettlePatchesToTheSameBits) {
-  SimulationSettings settings = setup(cloth_of(make_grid(142, 142), 1, 180, {0, 142}), Method::quasi_newton, 0.02);
-  settings.integrator.stop = StoppingRule::error;
-  settings.effects = {Gravity{}};
-  const auto run = [&](int count) {
-    settings.threads = count;
-    Simulation simulation(settings);
-    simulation.step();
-    return simulation.state();
-  };
-  EXPECT_TRUE(same_bits(run(3).x, run(1).x));
->>>>>>> 38f3cbe (Settle the patches of a large cloth by Newton's method between iterations of quasi-Newton)
 }
 
 class ThreadsOfASimulation : public testing::TestWithParam<NamedMethod> {};
