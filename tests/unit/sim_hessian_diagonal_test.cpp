@@ -48,6 +48,31 @@ TEST(HessianDiagonal, SolvesForTheBlocksOfTheHessian) {
   }
 }
 
+// What is negative across compressed springs is never in D, whatever share of it the Hessian has, and what is along
+// them is there as a whole.
+TEST(HessianDiagonal, IsTheSameWithAnyShareOfTheNegativeEigenvalues) {
+  for (const Mesh& mesh : {make_grid(9, 7), irregular_mesh(8), three_sheets(5)}) {
+    const Cloth cloth = cloth_of(mesh, 1, 180, {0, 7});
+    const System system(cloth, 0.02);
+    const StepObjective objective(system, system.step);
+    const Vertices x = 0.6 * cloth.positions + 0.05 * random_vertices(cloth.vertex_count(), 1);
+    const Vertices b = random_vertices(cloth.vertex_count(), 2);
+    HessianDiagonal diagonal(system, objective);
+    const auto solution = [&](double concavity) {
+      SpringNetwork::Blocks springs;
+      objective.springs().compute_blocks(x, concavity, springs);
+      diagonal.linearise(springs);
+      Vertices solved = Vertices::Zero(cloth.vertex_count(), 3);
+      diagonal.add_solution(b, solved);
+      return solved;
+    };
+    const Vertices without = solution(0);
+    for (const double concavity : {0.25, 1.0}) {
+      EXPECT_LT((solution(concavity) - without).norm(), 1e-9 * without.norm()) << concavity;
+    }
+  }
+}
+
 // What conjugate gradients with A⁻¹ + D⁻¹ rely on: D⁻¹ ⪯ H⁻¹, that is bᵀD⁻¹b ≤ bᵀp where H p = b.
 TEST(HessianDiagonal, IsNowhereBelowTheHessian) {
   const Cloth cloth = cloth_of(irregular_mesh(10), 1, 180, {0});
