@@ -7,6 +7,8 @@ namespace drape {
 namespace {
 
 constexpr double most_cells_per_box = 12;
+// Of the boxes' mean size. Comparing many boxes in a cell at once is cheaper than having each in many cells.
+constexpr double cell_size = 2;
 
 }  // namespace
 
@@ -42,6 +44,12 @@ void SpatialHash::build(std::span<const Box> boxes) {
   // Every start has moved to the next slot's.
   std::copy_backward(starts_.begin(), starts_.end() - 1, starts_.end());
   starts_.front() = 0;
+
+  for (auto& values : rounded_) values.resize(wanted + at_once);
+  for (std::size_t e = 0; e < wanted; ++e) {
+    const Rounded rounded = round(boxes[static_cast<std::size_t>(entries_[e].box)]);
+    for (std::size_t k = 0; k < rounded.size(); ++k) rounded_[k][e] = rounded[k];
+  }
 }
 
 std::size_t SpatialHash::choose_cells() {
@@ -57,7 +65,8 @@ std::size_t SpatialHash::choose_cells() {
   const auto count = static_cast<double>(boxes_.size());
   lows_.resize(boxes_.size());
   highs_.resize(boxes_.size());
-  for (double size = std::max({sum / count, 2 * extent_.maxCoeff() / cells_per_axis, 1e-300});; size *= 1.5) {
+  for (double size = std::max({cell_size * sum / count, 2 * extent_.maxCoeff() / cells_per_axis, 1e-300});;
+       size *= 1.5) {
     inverse_size_ = 1 / size;
     double entries = 0;
     for (std::size_t k = 0; k < boxes_.size(); ++k) {
@@ -68,33 +77,6 @@ std::size_t SpatialHash::choose_cells() {
     const Cell last = cell_of(all.high);
     count_ = {last.x + 1, last.y + 1, last.z + 1};
     return static_cast<std::size_t>(entries);
-  }
-}
-
-void SpatialHash::gather(std::size_t begin, std::size_t end) {
-  for (auto& values : gathered_) values.resize(std::max(values.size(), end - begin));
-  overlap_.resize(gathered_[0].size());
-  // Relative to the origin, so that rounding is a small part of the boxes' size.
-  const float margin = static_cast<float>(extent_.maxCoeff()) * 1e-6F;
-  for (std::size_t e = begin; e < end; ++e) {
-    const Box& box = boxes_[static_cast<std::size_t>(entries_[e].box)];
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      gathered_[a][e - begin] = static_cast<float>(box.low[axis] - origin_[axis]) - margin;
-      gathered_[a + 3][e - begin] = static_cast<float>(box.high[axis] - origin_[axis]) + margin;
-    }
-  }
-}
-
-void SpatialHash::compare(std::size_t first, std::size_t count) {
-  const float *lx = gathered_[0].data(), *ly = gathered_[1].data(), *lz = gathered_[2].data();
-  const float *hx = gathered_[3].data(), *hy = gathered_[4].data(), *hz = gathered_[5].data();
-  const float ax = lx[first], ay = ly[first], az = lz[first], bx = hx[first], by = hy[first], bz = hz[first];
-  unsigned char* overlap = overlap_.data();
-  for (std::size_t k = first + 1; k < count; ++k) {
-    const int apart = static_cast<int>(lx[k] > bx) | static_cast<int>(ly[k] > by) | static_cast<int>(lz[k] > bz) |
-                      static_cast<int>(hx[k] < ax) | static_cast<int>(hy[k] < ay) | static_cast<int>(hz[k] < az);
-    overlap[k] = static_cast<unsigned char>(apart == 0);
   }
 }
 

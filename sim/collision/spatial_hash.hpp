@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +23,7 @@ struct Box {
 
 /// Boxes sorted by the cells of a uniform grid that they reach into, for finding those that overlap in nearly linear
 /// time (Teschner et al. 2003, "Optimized spatial hashing for collision detection of deformable objects"). The cells
-/// are as large as the boxes on average, or larger where a few huge ones would fill too many.
+/// are twice as large as the boxes on average, or larger where a few huge ones would fill too many.
 /// Every overlapping pair is visited once: in the cell of the lowest corner of what the two have in common.
 class SpatialHash {
  public:
@@ -34,17 +35,17 @@ class SpatialHash {
   void for_overlapping(const Box& box, Visit&& visit) const {
     if (boxes_.empty()) return;
     const Cell low = cell_of(box.low), high = cell_of(box.high);
+    const Rounded rounded = round(box);
     Cell cell;
     for (cell.z = std::max(low.z, 0); cell.z <= std::min(high.z, count_.z - 1); ++cell.z) {
       for (cell.y = std::max(low.y, 0); cell.y <= std::min(high.y, count_.y - 1); ++cell.y) {
         for (cell.x = std::max(low.x, 0); cell.x <= std::min(high.x, count_.x - 1); ++cell.x) {
           const std::uint64_t key = key_of(cell);
           const std::size_t slot = slot_of(key);
-          for (int e = starts_[slot]; e < starts_[slot + 1]; ++e) {
-            const Entry& entry = entries_[static_cast<std::size_t>(e)];
-            if (entry.key != key || !is_first(cell, low, lows_[static_cast<std::size_t>(entry.box)])) continue;
+          for_near(rounded, start_of(slot), start_of(slot + 1), [&](const Entry& entry) {
+            if (entry.key != key || !is_first(cell, low, lows_[static_cast<std::size_t>(entry.box)])) return;
             if (box.overlaps(boxes_[static_cast<std::size_t>(entry.box)])) visit(entry.box);
-          }
+          });
         }
       }
     }
@@ -52,20 +53,17 @@ class SpatialHash {
 
   /// Calls visit(k, l), k < l, for every two boxes that overlap.
   template <class Visit>
-  void for_pairs(Visit&& visit) {
+  void for_pairs(Visit&& visit) const {
     for (std::size_t slot = 0; slot + 1 < starts_.size(); ++slot) {
-      const auto begin = static_cast<std::size_t>(starts_[slot]), end = static_cast<std::size_t>(starts_[slot + 1]);
-      if (end - begin < 2) continue;
-      gather(begin, end);
-      for (std::size_t e = begin; e + 1 < end; ++e) {
-        compare(e - begin, end - begin);
-        for (std::size_t f = e + 1; f < end; ++f) {
-          if (overlap_[f - begin] == 0) continue;
-          const Entry &first = entries_[e], &second = entries_[f];
-          const auto k = static_cast<std::size_t>(first.box), l = static_cast<std::size_t>(second.box);
-          if (first.key != second.key || k == l || !is_first(cell_at(first.key), lows_[k], lows_[l])) continue;
+      const std::size_t end = start_of(slot + 1);
+      for (std::size_t e = start_of(slot); e + 1 < end; ++e) {
+        const Entry& first = entries_[e];
+        const auto k = static_cast<std::size_t>(first.box);
+        for_near(round(boxes_[k]), e + 1, end, [&](const Entry& second) {
+          const auto l = static_cast<std::size_t>(second.box);
+          if (first.key != second.key || k == l || !is_first(cell_at(first.key), lows_[k], lows_[l])) return;
           if (boxes_[k].overlaps(boxes_[l])) visit(first.box, second.box);
-        }
+        });
       }
     }
   }
@@ -105,10 +103,48 @@ class SpatialHash {
   static bool is_first(const Cell& cell, const Cell& a, const Cell& b) {
     return std::max(a.x, b.x) == cell.x && std::max(a.y, b.y) == cell.y && std::max(a.z, b.z) == cell.z;
   }
-  /// Copies the boxes of some entries side by side, in single precision and a little larger.
-  void gather(std::size_t begin, std::size_t end);
-  /// Sets overlap_ of the gathered boxes behind the first.
-  void compare(std::size_t first, std::size_t count);
+  /// A box relative to the origin in single precision: lowest x, y, z, highest x, y, z. Rounding keeps the order, so
+  /// what overlaps does so still.
+  using Rounded = std::array<float, 6>;
+  [[nodiscard]] Rounded round(const Box& box) const {
+    Rounded rounded{};
+    for (int axis = 0; axis < 3; ++axis) {
+      rounded[static_cast<std::size_t>(axis)] = static_cast<float>(box.low[axis] - origin_[axis]);
+      rounded[static_cast<std::size_t>(axis) + 3] = static_cast<float>(box.high[axis] - origin_[axis]);
+    }
+    return rounded;
+  }
+  /// Calls visit(entry) for those of some entries whose rounded box overlaps this one.
+  template <class Visit>
+  void for_near(const Rounded& box, std::size_t begin, std::size_t end, Visit&& visit) const {
+    constexpr std::uint64_t ones = 0x0101010101010101U;
+    for (std::size_t first = begin; first < end; first += at_once) {
+      const Bytes apart = compare(box, first);
+      for (std::size_t w = 0; w < apart.size() && first + 8 * w < end; ++w) {
+        // Of bytes of 0 and 1, a bit for each 0.
+        std::uint64_t near = ~apart[w] & ones;
+        const std::size_t e = first + 8 * w;
+        if (end - e < 8) near &= (std::uint64_t{1} << (8 * (end - e))) - 1;
+        for (; near != 0; near &= near - 1) visit(entries_[e + static_cast<std::size_t>(std::countr_zero(near)) / 8]);
+      }
+    }
+  }
+  static constexpr std::size_t at_once = 16;  // of the entries, compared
+  using Bytes = std::array<std::uint64_t, at_once / 8>;
+  /// A byte for each of the entries from one on: whether their rounded boxes are apart from this one.
+  [[nodiscard]] Bytes compare(const Rounded& box, std::size_t first) const {
+    std::array<const float*, 6> r{};
+    for (std::size_t k = 0; k < r.size(); ++k) r[k] = rounded_[k].data() + first;
+    const auto& [lx, ly, lz, hx, hy, hz] = r;
+    std::array<unsigned char, at_once> apart{};
+    for (std::size_t k = 0; k < at_once; ++k) {
+      apart[k] = static_cast<unsigned char>(static_cast<int>(lx[k] > box[3]) | static_cast<int>(ly[k] > box[4]) |
+                                            static_cast<int>(lz[k] > box[5]) | static_cast<int>(hx[k] < box[0]) |
+                                            static_cast<int>(hy[k] < box[1]) | static_cast<int>(hz[k] < box[2]));
+    }
+    return std::bit_cast<Bytes>(apart);
+  }
+  [[nodiscard]] std::size_t start_of(std::size_t slot) const { return static_cast<std::size_t>(starts_[slot]); }
   /// Chooses their size; returns how many the boxes reach into in all.
   std::size_t choose_cells();
 
@@ -122,8 +158,7 @@ class SpatialHash {
   std::vector<Cell> lows_, highs_;  // of the lowest and highest corner of each box
   std::vector<int> starts_;         // of each slot's entries
   std::vector<Entry> entries_;
-  std::array<std::vector<float>, 6> gathered_;  // lowest x, y, z, highest x, y, z
-  std::vector<unsigned char> overlap_;
+  std::array<std::vector<float>, 6> rounded_;  // the boxes of the entries, and room behind for reading at once
 };
 
 }  // namespace drape
