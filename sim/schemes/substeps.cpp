@@ -115,11 +115,15 @@ class SubstepScheme::Attempt {
         shorter_(owner.make_system_, std::ldexp(owner.step_, -k), owner.integrator_, start, owner.acceleration_, 1),
         longer_(owner.make_system_, std::ldexp(owner.step_, gap_ - k), beside(owner.integrator_), start,
                 owner.acceleration_, looser(owner.order_)),
-        taken_(owner.order_ == 1 && !is_explicit(owner.integrator_.method) && filters().empty() ? halfway : 0),
-        error_per_apart_(owner.order_ == 1 ? 1 - taken_ : 1 / apart_of_same_order) {
-    if (owner.order_ != 1 || !is_explicit(owner.integrator_.method) || !filters().empty()) return;
-    ahead_.setConstant(start.x.rows(), ahead_of_substep * shorter_.system.step);
-    for (const int pin : shorter_.system.cloth.pins) ahead_[pin] = 0;
+        error_per_apart_(owner.order_ == 1 ? 1 : 1 / apart_of_same_order) {
+    if (owner.order_ != 1 || !filters().empty()) return;
+    if (is_explicit(owner.integrator_.method)) {
+      ahead_.setConstant(start.x.rows(), ahead_of_substep * shorter_.system.step);
+      for (const int pin : shorter_.system.cloth.pins) ahead_[pin] = 0;
+    } else {
+      taken_ = halfway;
+      error_per_apart_ -= taken_;
+    }
   }
 
   void begin(const State& start) {
@@ -179,7 +183,7 @@ class SubstepScheme::Attempt {
   Eigen::VectorXd ahead_;  // by how much each vertex of the shorter substeps is; empty: by nothing [s]
   Vertices place_;         // scratch
   Vertices early_;         // acceleration of the first of the shorter substeps beside one of the longer ones [m/s²]
-  double taken_;           // of the way from where the shorter substeps end to where the longer ones do
+  double taken_ = 0;       // of the way from where the shorter substeps end to where the longer ones do
   double error_per_apart_;
   std::int64_t done_ = 0;  // of the longer substeps
   double apart_ = 0;       // [m]
