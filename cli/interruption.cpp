@@ -21,12 +21,15 @@ void handle(int) {
   errno = before;
 }
 
-/// Waits for the first signal, and passes it on.
+/// Waits for the first signal, and passes it on. Where the pipe has come to an end nothing can be passed on any more:
+/// the first signal is lost then, and the second one ends the process as it always does.
 void listen(std::stop_source source) {
   char byte = 0;
-  while (read(signals[0], &byte, 1) != 1) {
-  }
-  source.request_stop();
+  ssize_t count = 0;
+  do {
+    count = read(signals[0], &byte, 1);
+  } while (count < 0 && errno == EINTR);
+  if (count == 1) source.request_stop();
 }
 
 std::stop_source install() {

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <string>
+#include <system_error>
 
 #include "core/console.hpp"
 #include "core/text.hpp"
@@ -12,7 +16,22 @@
 namespace drape {
 namespace {
 
-constexpr int poll_milliseconds = 100;  // how soon an interruption is noticed
+/// A descriptor that can be read from once it has been set.
+class Event {
+ public:
+  Event() : descriptor_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "cannot wait for input");
+  }
+  Event(const Event&) = delete;
+  Event& operator=(const Event&) = delete;
+  ~Event() { close(descriptor_); }
+
+  void set() const { eventfd_write(descriptor_, 1); }
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
 
 }  // namespace
 
@@ -34,9 +53,14 @@ void StepByStep::after_step(const Simulation& simulation, const StepReport& repo
 }
 
 void StepByStep::wait_for_line() {
+  if (input_ended_) return;
+  const Event stopped;
+  const std::stop_callback wake(stop_.get_token(), [&] { stopped.set(); });
   while (!input_ended_ && !stop_.stop_requested()) {
-    pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
-    if (poll(&input, 1, poll_milliseconds) <= 0) continue;
+    std::array<pollfd, 2> either{{{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0},
+                                  {.fd = stopped.descriptor(), .events = POLLIN, .revents = 0}}};
+    if (poll(either.data(), either.size(), -1) < 0 && errno == EINTR) continue;
+    if (either[1].revents != 0) return;
     char character = 0;
     if (read(STDIN_FILENO, &character, 1) != 1) {
       input_ended_ = true;  // input that is a file or closed does not hold the run up

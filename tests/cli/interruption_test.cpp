@@ -1,14 +1,23 @@
-// A signal is passed on as soon as it comes: nobody has to ask for it.
+// A signal is passed on as soon as it comes: nobody has to ask for it, and nobody does.
 
 #include "cli/interruption.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <condition_variable>
 #include <csignal>
+#include <filesystem>
+#include <iterator>
 #include <mutex>
+#include <thread>
+
+#include "cli/step_by_step.hpp"
+#include "sim/mesh.hpp"
+#include "sim/simulation.hpp"
 
 namespace drape {
 namespace {
@@ -56,6 +65,46 @@ TEST(Interruption, EndsTheProcessAtTheSecondSignal) {
               raise(SIGINT);
             }),
             128 + SIGINT);
+}
+
+int threads_of_this_process() {
+  const std::filesystem::directory_iterator threads("/proc/self/task");
+  return static_cast<int>(std::distance(begin(threads), end(threads)));
+}
+
+TEST(Interruption, NobodyListensAnyMoreWhereThePipeHasComeToAnEnd) {
+  EXPECT_EQ(end_of_process([] {
+              interruption();
+              close_range(3, ~0U, 0);
+              while (threads_of_this_process() > 1) std::this_thread::yield();
+            }),
+            0);
+}
+
+/// Switches of this thread from itself to others: how often it has had to wait.
+long waits() {
+  rusage usage{};
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_nvcsw;
+}
+
+TEST(Interruption, EndsTheWaitForTheNextStepWithoutBeingAskedFor) {
+  EXPECT_EQ(
+      end_of_process([] {
+        std::array<int, 2> typed{};
+        if (pipe(typed.data()) != 0 || dup2(typed[0], STDIN_FILENO) < 0) _exit(1);
+        std::stop_source stop;
+        StepByStep steps(stop);
+        const Simulation simulation({.cloth = make_cloth(make_grid(2, 2), make_grid(2, 2), 1, 1, {}), .step = 0.01});
+        const std::jthread person([&] {
+          sleep(1);
+          stop.request_stop();
+        });
+        const long before = waits();
+        steps.after_step(simulation, {}, 0);
+        if (waits() - before > 5) _exit(2);
+      }),
+      0);
 }
 
 }  // namespace
