@@ -95,7 +95,9 @@ struct UsdLayer {
 /// What to keep of a file, which may be hundreds of megabytes.
 struct UsdReading {
   bool moving_points = false;  ///< every sample of every attribute; otherwise only transforms have more than the first
-  std::string primvar = {};    ///< one to keep beside the texture coordinates and the skin, without "primvars:"
+  /// One to keep beside the texture coordinates and the skin, without "primvars:"; of others that have a number for
+  /// each element the names are kept.
+  std::string primvar = {};
 };
 
 /// Parses an ASCII USD file. The syntax of all of it is checked, but only what a mesh and its motion need is kept:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -71,6 +72,20 @@ std::vector<UsdPath> within(const std::vector<UsdPath>& meshes, const UsdPath& p
                   nearest.empty() ? "it has " + list_of(stage, meshes) : fmt::format("did you mean '{}'?", nearest)));
 }
 
+[[noreturn]] void fail_without_primvar(const UsdPrim& mesh, const std::string& primvar) {
+  constexpr std::string_view prefix = "primvars:";
+  std::vector<std::string> names;
+  for (const UsdAttribute* attribute : mesh.attributes) {
+    const std::string_view name = attribute->name;
+    if (!name.starts_with(prefix) || !attribute->is_array || attribute->components != 1) continue;
+    const std::string bare = escape_controls(name.substr(prefix.size()));
+    if (bare.starts_with("skel:") || bare.ends_with(":indices") || bare == primvar) continue;
+    if (std::ranges::find(names, bare) == names.end()) names.push_back(bare);
+  }
+  mesh.place.fail(fmt::format("the {} {} has no primvars:{}{}", mesh.type, in_quotes(mesh.name), primvar,
+                              did_you_mean(primvar, names, "its primvars of one number are")));
+}
+
 }  // namespace
 
 UsdPath choose_usd_mesh(const UsdStage& stage, const std::string& prim) {
@@ -106,7 +121,9 @@ Mesh read_usd_mesh(const UsdStage& stage, const std::string& prim) {
 std::vector<int> read_usd_primvar(const UsdStage& stage, const std::string& prim, const std::string& primvar) {
   const UsdPath path = choose_usd_mesh(stage, prim);
   const std::size_t points = usd_array(*path.back(), "points", 3).numbers.size() / 3;
-  const UsdValue& value = usd_array(*path.back(), "primvars:" + primvar, 1);
+  const UsdAttribute* attribute = path.back()->find("primvars:" + primvar);
+  if (attribute == nullptr || attribute->first() == nullptr) fail_without_primvar(*path.back(), primvar);
+  const UsdValue& value = usd_array(*path.back(), attribute->name, 1);
   if (value.numbers.size() != points) {
     value.place.fail(fmt::format("primvars:{}: expected a number for each of the {} points, found {}", primvar, points,
                                  value.numbers.size()));

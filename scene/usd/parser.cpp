@@ -40,6 +40,12 @@ bool is_kept(std::string_view name, std::string_view type, const UsdReading& rea
          primvar.starts_with("skel:") || primvar == reading.primvar;
 }
 
+/// Whether an attribute is one that may have been meant where a primvar is asked for.
+bool is_primvar_of_numbers(const UsdAttribute& attribute) {
+  return attribute.is_array && attribute.components == 1 && attribute.name.starts_with("primvars:") &&
+         !attribute.name.ends_with(":indices");
+}
+
 bool is_kept_relationship(std::string_view name) { return name == "skel:skeleton" || name == "skel:animationSource"; }
 
 class Parser {
@@ -163,6 +169,7 @@ class Parser {
         if (!relationship) lexer_.skip_value();
       }
       if (lexer_.accept('(')) usd_metadata(lexer_, declared.name);
+      if (!reading_.primvar.empty() && is_primvar_of_numbers(declared)) find_or_add(prim, std::move(declared));
       return;
     }
     UsdAttribute& attribute = find_or_add(prim, std::move(declared));
