@@ -17,7 +17,15 @@ namespace drape {
 namespace {
 
 constexpr const char* threads_help =
-    "Threads that share a step where the cloth has 8192 vertices or more, with the same bits for any number; default 1";
+    "Threads that share a step where the cloth has 8192 vertices or more, with the same bits for any number: 1 to 256, "
+    "or auto, one for each processor that drawing leaves, and fewer while other programs need them";
+
+/// @returns 0 for as many as gain something
+int parse_threads(const std::string& text) {
+  if (text.empty() || text == "auto") return 0;
+  if (whole_number_in({1, 256})(text).empty()) return std::stoi(text);
+  throw UsageError(fmt::format("--threads: expected auto or a whole number from 1 to 256, found '{}'", text));
+}
 
 /// Sets the outputs: films and frames, and the motion file apart from them.
 void set_outputs(const RunArguments& arguments, const auto& expanded, RunOptions& options) {
@@ -57,7 +65,7 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
   options.poster = arguments.poster;
   options.sheet = parse_sheet(arguments.sheet, options.outputs);
   options.backend = arguments.backend;
-  options.threads = arguments.threads;
+  options.threads = parse_threads(arguments.threads);
   options.time_effects = verbose || !arguments.records.stats.empty();
   return options;
 }
@@ -114,7 +122,7 @@ void add_shared_options(CLI::App& command, RunArguments& arguments, const char* 
   command.add_option("--positions", arguments.records.positions, "Write the final positions to a CSV file");
   command.add_option("--trace", arguments.records.trace,
                      "Write iterations, residual and time of every step to a CSV file");
-  command.add_option("--threads", arguments.threads, threads_help)->check(whole_number_in({1, 256}));
+  command.add_option("--threads", arguments.threads, threads_help)->default_str("auto");
   command.add_flag("--step-by-step", arguments.step_by_step, "Pause after each step and print its energies");
 }
 

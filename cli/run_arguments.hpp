@@ -21,7 +21,7 @@ struct RunArguments {
   double checkpoint_seconds = MotionOptions{}.checkpoint_seconds;
   RecordPaths records;
   GlBackend backend = GlBackend::automatic;
-  int threads = 1;  ///< that share a step
+  std::string threads;  ///< that share a step: a number, or auto, as if nothing is said
   bool step_by_step = false;
   bool drawing = true;  ///< render; simulate draws nothing
 };

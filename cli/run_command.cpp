@@ -115,6 +115,7 @@ ExitCode go_on(const RunArguments& arguments, const CommonOptions& common) {
   RunOptions options = found->options;
   const RunOptions own = run_options(rest, *found->scene, common.verbose);
   options.records = own.records;
+  options.threads = own.threads;
   options.time_effects = own.time_effects;
   options.motion->checkpoint_seconds = arguments.checkpoint_seconds;
   require_outputs(*found->scene, options);

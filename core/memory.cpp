@@ -7,10 +7,10 @@
 #include <fstream>
 #include <limits>
 #include <optional>
-#include <sstream>
 
 #include <fmt/format.h>
 
+#include "core/control_groups.hpp"
 #include "core/error.hpp"
 
 namespace drape {
@@ -53,38 +53,14 @@ double reclaimable(const fs::path& group, const GroupFiles& files) {
   return sum;
 }
 
-/// The least that a group and those around it leave [bytes]. In a container the process may be in a group whose path
-/// means nothing there; what is mounted is then the container's own.
-double left_in_group(const fs::path& mount, fs::path group, const GroupFiles& files) {
-  double least = std::numeric_limits<double>::infinity();
-  for (group = group.relative_path();; group = group.parent_path()) {
-    const fs::path folder = mount / group;
-    const std::optional<double> limit = number_in(folder / files.limit), usage = number_in(folder / files.usage);
-    if (limit && usage) least = std::min(least, *limit - std::max(0.0, *usage - reclaimable(folder, files)));
-    if (group.empty()) return least;
-  }
-}
-
-/// What the control groups of this process leave it [bytes]: /proc/self/cgroup has lines "number:controllers:path",
-/// of which version 2's has no controllers.
+/// What the control groups of this process leave it [bytes].
 double left_in_groups(const fs::path& root) {
   double least = std::numeric_limits<double>::infinity();
-  std::ifstream stream(root / "proc/self/cgroup");
-  for (std::string line; std::getline(stream, line);) {
-    std::istringstream fields(line);
-    std::string number, controllers, path;
-    std::getline(fields, number, ':');
-    std::getline(fields, controllers, ':');
-    std::getline(fields, path);
-    const fs::path mounts = root / "sys/fs/cgroup";
-    if (controllers.empty()) {
-      // Beside version 1's it may be mounted in a folder of its own.
-      for (const fs::path& mount : {mounts, mounts / "unified"}) {
-        least = std::min(least, left_in_group(mount, path, version_2));
-      }
-    } else if (("," + controllers + ",").find(",memory,") != std::string::npos) {
-      least = std::min(least, left_in_group(mounts / "memory", path, version_1));
-    }
+  for (const ControlGroup& group : control_groups("memory", root)) {
+    const GroupFiles& files = group.version == 1 ? version_1 : version_2;
+    const std::optional<double> limit = number_in(group.folder / files.limit),
+                                usage = number_in(group.folder / files.usage);
+    if (limit && usage) least = std::min(least, *limit - std::max(0.0, *usage - reclaimable(group.folder, files)));
   }
   return least;
 }

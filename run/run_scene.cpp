@@ -20,6 +20,7 @@
 #include "run/outputs.hpp"
 #include "run/reasons_to_run.hpp"
 #include "run/run_steps.hpp"
+#include "run/thread_count.hpp"
 
 namespace drape {
 namespace {
@@ -49,7 +50,9 @@ class Pipeline {
     result_.recorded = options.recorded != nullptr;
     if (!outputs_.none()) result_.frames_wanted = extent_.frames.count();
     const Timing timing = options.time_effects ? Timing::effects : Timing::none;
-    if (!options.recorded) simulation_.emplace(settings_of(scene, options), timing, heeding(stop_.get_token()));
+    if (!options.recorded) {
+      simulation_.emplace(with_threads(scene.simulation, options.threads, drawn_), timing, heeding(stop_.get_token()));
+    }
     if (!options.motion) return;
     recorder_.emplace(*options.motion, options.from.get(), scene, extent_, result_.statistics, [this] {
       if (reasons_.lose_motion()) stop_.request_stop();
@@ -69,7 +72,6 @@ class Pipeline {
     }
     threads.clear();  // waits for them
     if (error_) std::rethrow_exception(error_);
-
     finish_motion();
     if (reasons_.none()) throw OutputError(fmt::format("{}", fmt::join(result_.problems, "\n")));
     if (simulation_) finish_records();
@@ -116,13 +118,9 @@ class Pipeline {
     if (recorder_) observers.push_back(&*recorder_);
     for (StepObserver* record : records_.observers()) observers.push_back(record);
     if (options_.observer != nullptr) observers.push_back(options_.observer);
-
     const bool annotated = annotations_ && annotations_->needs_motion();
-    if (drawn_ && (annotated || needs_motion(scene_.camera))) {
-      simulate_then_draw(std::move(observers));
-    } else {
-      simulate_and_draw(std::move(observers));
-    }
+    const bool drawn_later = drawn_ && (annotated || needs_motion(scene_.camera));
+    drawn_later ? simulate_then_draw(std::move(observers)) : simulate_and_draw(std::move(observers));
     close_queues();
   }
 

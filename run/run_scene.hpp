@@ -33,18 +33,11 @@ struct RunOptions {
   bool poster = false;                    ///< put a picture beside each film, see Poster
   std::optional<SheetGrid> sheet;         ///< what a picture without {frame} in its path shows instead of the last
   GlBackend backend = GlBackend::automatic;
-  int threads = 1;                   ///< that share a step of a large cloth, see SimulationSettings::threads
+  int threads = 1;                   ///< that share a step of a large cloth; 0: see with_threads()
   std::function<void()> drawn = {};  ///< called when every frame is with its outputs, which are only completed then
   bool time_effects = false;         ///< measure which part of the steps' time each effect takes
   StepObserver* observer = nullptr;  ///< told of every step too, on the thread that simulates, after it is recorded
 };
-
-/// What is simulated: what the scene says, by as many threads as the run has for it.
-inline SimulationSettings settings_of(const Scene& scene, const RunOptions& options) {
-  SimulationSettings settings = scene.simulation;
-  settings.threads = options.threads;
-  return settings;
-}
 
 enum class Outcome { completed, interrupted, diverged };
 

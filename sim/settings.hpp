@@ -104,6 +104,7 @@ struct SimulationSettings {
   IntegratorSettings integrator = {};
   Effects effects = {};
   int threads = 1;  ///< that share a step where the cloth is large; the motion has the same bits with any number
+  bool spare_threads = false;  ///< do without all but one for a while where the machine is busy; the bits stay
 };
 
 }  // namespace drape

@@ -50,7 +50,7 @@ class Simulation::Motion {
   Motion(SimulationSettings given, Timing timing, const Stop& asked)
       : settings(std::move(given)),
         stop(asked),
-        threads(settings.threads),
+        threads(settings.threads, settings.spare_threads),
         effect_seconds(timing == Timing::effects ? settings.effects.size() : 0, 0.0),
         system(make_system(settings, measured(), stop, threads)),
         phases(pin_phases(settings.cloth.pins, system->pin_releases)),

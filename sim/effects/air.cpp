@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/keys.hpp"
+#include "sim/parallel/incidence.hpp"
+#include "sim/parallel/loops.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
@@ -21,8 +23,12 @@ namespace {
 /// impulses at a vertex, the kinetic energy relative to a steady wind then changes by at most −Σ J·u/2 ≤ 0.
 class AirForce final : public Force {
  public:
-  AirForce(const Air& values, const Cloth& cloth, double h)
-      : values_(values), gusts_(values.gusts, values.velocity), triangles_(cloth.triangles), step_(h) {
+  AirForce(const Air& values, const Cloth& cloth, double h, const Threads& threads)
+      : values_(values),
+        gusts_(values.gusts, values.velocity),
+        triangles_(cloth.triangles),
+        step_(h),
+        threads_(cloth.vertex_count() < worth_dividing ? one_thread() : threads) {
     Eigen::VectorXd share = cloth.masses.cwiseInverse() / 9;
     for (const int pin : cloth.pins) share[pin] = 0;
     Eigen::VectorXd valence = Eigen::VectorXd::Zero(share.size());
@@ -35,28 +41,53 @@ class AirForce final : public Force {
       inverse_masses_.push_back(inverse);
     }
     slip_.resize(cloth.vertex_count(), 3);
+    if (threads_.count() == 1) return;
+    std::vector<int> corners;
+    for (const Triangle& t : triangles_) corners.insert(corners.end(), t.begin(), t.end());
+    around_ = Incidence(corners, 3, cloth.vertex_count());
+    thirds_.resize(triangle_count(), 3);
   }
 
   [[nodiscard]] bool of_velocity() const override { return true; }
 
   void add(const State& state, double time, Vertices& force) const override {
-    for (Eigen::Index i = 0; i < slip_.rows(); ++i) {
-      Eigen::Vector3d wind = values_.velocity;
-      if (values_.gusts.speed > 0) wind += gusts_.at(state.x.row(i).transpose(), time);
-      slip_.row(i) = wind.transpose() - state.v.row(i);
+    for_ranges(threads_, slip_.rows(), [&](Eigen::Index first, Eigen::Index count) {
+      for (Eigen::Index i = first; i < first + count; ++i) {
+        Eigen::Vector3d wind = values_.velocity;
+        if (values_.gusts.speed > 0) wind += gusts_.at(state.x.row(i).transpose(), time);
+        slip_.row(i) = wind.transpose() - state.v.row(i);
+      }
+    });
+    if (threads_.count() == 1) {
+      for (Eigen::Index t = 0; t < triangle_count(); ++t) {
+        const Eigen::RowVector3d third = third_on(t, state.x);
+        for (const int vertex : triangles_[static_cast<std::size_t>(t)]) force.row(vertex) += third;
+      }
+      return;
     }
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      const auto [a, b, c] = triangles_[t];
-      const Eigen::RowVector3d u = (slip_.row(a) + slip_.row(b) + slip_.row(c)) / 3;
-      const Eigen::RowVector3d p = state.x.row(b) - state.x.row(a), q = state.x.row(c) - state.x.row(a);
-      const Eigen::RowVector3d third = force_on(u, p.cross(q), inverse_masses_[t]) / 3;
-      force.row(a) += third;
-      force.row(b) += third;
-      force.row(c) += third;
-    }
+    for_ranges(threads_, triangle_count(), [&](Eigen::Index first, Eigen::Index count) {
+      for (Eigen::Index t = first; t < first + count; ++t) thirds_.row(t) = third_on(t, state.x);
+    });
+    // Each vertex adds up its triangles' forces in the order in which one thread comes by them.
+    for_ranges(threads_, force.rows(), [&](Eigen::Index first, Eigen::Index count) {
+      for (Eigen::Index i = first; i < first + count; ++i) {
+        for (const int t : around_.of(i)) force.row(i) += thirds_.row(t);
+      }
+    });
   }
 
  private:
+  [[nodiscard]] Eigen::Index triangle_count() const { return static_cast<Eigen::Index>(triangles_.size()); }
+
+  /// A third of the force on a triangle [N].
+  [[nodiscard]] Eigen::RowVector3d third_on(Eigen::Index triangle, const Vertices& x) const {
+    const auto t = static_cast<std::size_t>(triangle);
+    const auto [a, b, c] = triangles_[t];
+    const Eigen::RowVector3d u = (slip_.row(a) + slip_.row(b) + slip_.row(c)) / 3;
+    const Eigen::RowVector3d p = x.row(b) - x.row(a), q = x.row(c) - x.row(a);
+    return force_on(u, p.cross(q), inverse_masses_[t]) / 3;
+  }
+
   /// @param u            how fast the air passes the triangle [m/s]
   /// @param cross        its normal, as long as twice its area [m²]
   /// @param inverse_mass 1/µ [1/kg]
@@ -78,7 +109,11 @@ class AirForce final : public Force {
   std::vector<Triangle> triangles_;
   std::vector<double> inverse_masses_;  // 1/µ of each triangle
   double step_;
-  mutable Vertices slip_;  // how fast the air passes each vertex; memory only
+  const Threads& threads_;  // one where there is too little to divide
+  Incidence around_;        // of each vertex, its triangles, where several threads compute them
+  // Memory only:
+  mutable Vertices slip_;    // how fast the air passes each vertex
+  mutable Vertices thirds_;  // of the force on each triangle, where several threads compute them
 };
 
 }  // namespace
@@ -96,7 +131,7 @@ void Air::check(const SimulationSettings&, const ProblemSink& problem) const {
 }
 
 void Air::install(System& system) const {
-  system.forces.push_back(std::make_unique<AirForce>(*this, system.cloth, system.step));
+  system.forces.push_back(std::make_unique<AirForce>(*this, system.cloth, system.step, system.threads));
 }
 
 }  // namespace drape

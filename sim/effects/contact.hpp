@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +13,8 @@
 #include "sim/effects/rebound.hpp"
 #include "sim/effects/response.hpp"
 #include "sim/effects/surface_contact.hpp"
+#include "sim/effects/touched_vertices.hpp"
+#include "sim/parallel/loops.hpp"
 
 namespace drape {
 
@@ -39,23 +40,6 @@ inline bool arrives(const std::shared_ptr<const StepStart>& start, Eigen::Index 
   return start && start->was_outside(static_cast<int>(i));
 }
 
-/// What a surface touches when a step begins, as the push finds it, for the friction in the same place at the same
-/// time.
-struct TouchedVertices {
-  struct Touched {
-    Eigen::Index vertex;
-    SurfaceContact contact;
-  };
-
-  double time = std::numeric_limits<double>::quiet_NaN();  // of nothing yet [s]
-  Vertices x;
-  std::vector<Touched> all;
-
-  /// Takes memory for as many, so that no step has to.
-  explicit TouchedVertices(Eigen::Index most) : x(most, 3) { all.reserve(static_cast<std::size_t>(most)); }
-  [[nodiscard]] bool are_those_of(const Vertices& places, double at) const { return time == at && x == places; }
-};
-
 /// The push as a force, a = stiffness·(−gap) outwards; where no direction leads outwards there is none.
 template <class Surface>
 struct PenaltyForce final : Force {
@@ -64,9 +48,10 @@ struct PenaltyForce final : Force {
   const Eigen::VectorXd& masses;
   std::shared_ptr<const StepStart> start;    // null without restitution
   std::shared_ptr<TouchedVertices> touched;  // null where nobody asks
+  const Threads& threads;
 
-  PenaltyForce(Surface s, double k, const Eigen::VectorXd& m, std::shared_ptr<const StepStart> begin)
-      : surface(std::move(s)), stiffness(k), masses(m), start(std::move(begin)) {}
+  PenaltyForce(Surface s, double k, const Eigen::VectorXd& m, std::shared_ptr<const StepStart> begin, const Threads& by)
+      : surface(std::move(s)), stiffness(k), masses(m), start(std::move(begin)), threads(by) {}
 
   [[nodiscard]] double stiffness_bound() const override { return stiffness; }
 
@@ -77,14 +62,18 @@ struct PenaltyForce final : Force {
       touched->x = state.x;
       touched->all.clear();
     }
-    SurfaceContact contact;
-    for (Eigen::Index i = 0; i < state.x.rows(); ++i) {
-      if (!find_contact(now, i, state.x.row(i).transpose(), contact)) continue;
-      if (touched) touched->all.push_back({i, contact});
-      if (arrives(start, i)) continue;
-      const double pressure = -masses[i] * stiffness * contact.gap / contact.length;
-      force.row(i) += pressure * contact.outward.transpose();
-    }
+    const auto push = [&](Eigen::Index first, Eigen::Index count) {
+      SurfaceContact contact;
+      for (Eigen::Index i = first; i < first + count; ++i) {
+        if (!find_contact(now, i, state.x.row(i).transpose(), contact)) continue;
+        if (touched) touched->all.push_back({i, contact});
+        if (arrives(start, i)) continue;
+        const double pressure = -masses[i] * stiffness * contact.gap / contact.length;
+        force.row(i) += pressure * contact.outward.transpose();
+      }
+    };
+    // What is remembered of some vertices for others is one thread's.
+    for_ranges(touched || remembers(now) ? one_thread() : threads, state.x.rows(), push);
   }
 };
 
@@ -281,7 +270,7 @@ void install_contact(const Surface& surface, const ContactLaw& law, System& syst
   if (law.response == Response::implicit_energy) {
     system.energies.push_back(std::make_unique<PenaltyEnergy<Surface>>(surface, law.stiffness, masses, start));
   } else {
-    auto push = std::make_unique<PenaltyForce<Surface>>(surface, law.stiffness, masses, start);
+    auto push = std::make_unique<PenaltyForce<Surface>>(surface, law.stiffness, masses, start, system.threads);
     if (rubs) {
       touched = std::make_shared<TouchedVertices>(masses.size());
       push->touched = touched;

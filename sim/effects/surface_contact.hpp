@@ -17,6 +17,14 @@ struct SurfaceContact {
   [[nodiscard]] Eigen::Vector3d normal() const { return outward / length; }
 };
 
+/// Whether a surface keeps something of the vertices that it was asked for.
+template <class Shape>
+constexpr bool remembers(const Shape& /*shape*/) {
+  return requires(const Shape& shape, SurfaceContact& contact) {
+    shape.find(Eigen::Index{}, Eigen::Vector3d(), contact);
+  };
+}
+
 /// Whether a vertex is inside a surface, and how: see below. What remembers where vertices were is told which it is.
 template <class Shape>
 bool find_contact(const Shape& shape, Eigen::Index vertex, const Eigen::Vector3d& point, SurfaceContact& contact) {

@@ -20,9 +20,10 @@ constexpr int none = -1;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-void wait_for(const std::atomic<unsigned>& done, unsigned solve) {
-  Patience patience;
-  while (done.load(std::memory_order_acquire) != solve) patience.wait();
+void wait_for(const Threads& threads, const std::atomic<unsigned>& done, unsigned solve) {
+  if (done.load(std::memory_order_acquire) == solve) return;
+  Wait wait(threads);
+  while (done.load(std::memory_order_acquire) != solve) wait.go_on();
 }
 
 }  // namespace
@@ -226,14 +227,14 @@ void SolveTree::solve(const Threads& threads, const PackedTriangle<T>& triangle,
     const int number = ahead ? turn : 2 * count - 1 - turn;
     const Part& part = parts_[at(number)];
     if (ahead) {
-      for (const int child : part.children) wait_for(forward_done_[at(child)], solve);
+      for (const int child : part.children) wait_for(threads, forward_done_[at(child)], solve);
       forward(part, triangle, x);
       forward_done_[at(number)].store(solve, std::memory_order_release);
     } else {
       if (part.parent == none) {
-        wait_for(forward_done_[at(number)], solve);
+        wait_for(threads, forward_done_[at(number)], solve);
       } else {
-        wait_for(backward_done_[at(part.parent)], solve);
+        wait_for(threads, backward_done_[at(part.parent)], solve);
       }
       backward(part, triangle, x);
       backward_done_[at(number)].store(solve, std::memory_order_release);

@@ -12,9 +12,10 @@ namespace drape {
 /// From how many vertices on a loop over them is divided, and sums are taken part by part: below, dividing would cost
 /// more than it gains. A sum's parts depend on its length alone, so that its bits are the same for any number of
 /// threads.
-inline constexpr Eigen::Index worth_dividing = 8192;
-inline constexpr Eigen::Index numbers_worth_dividing = 3 * worth_dividing;  ///< of loops over the vertices' coordinates
-inline constexpr int most_parts = 64;                                       ///< of a sum
+inline constexpr int worth_dividing = 8192;
+inline constexpr Eigen::Index numbers_worth_dividing =
+    Eigen::Index{3} * worth_dividing;  ///< of loops over the vertices' coordinates
+inline constexpr int most_parts = 64;  ///< of a sum
 
 /// Where part `part` of `parts` begins, of `count` things: at multiples of eight, where cache lines of numbers begin.
 constexpr Eigen::Index begin_of_part(Eigen::Index count, int part, int parts) {

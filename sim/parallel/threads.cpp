@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <mutex>
@@ -9,6 +10,8 @@
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "sim/parallel/turnout.hpp"
 
 namespace drape {
 namespace {
@@ -23,6 +26,8 @@ constexpr int asleep_at = 1100;
 constexpr int bits_of_parts = 32;
 constexpr std::uint64_t one_loop = std::uint64_t{1} << bits_of_parts;
 constexpr std::uint64_t parts_mask = one_loop - 1;
+
+Turnout::Time now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
 }  // namespace
 
@@ -56,7 +61,8 @@ class Threads::Crew {
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
 
-  void divide(int parts, void* given, void (*call)(void* given, int part)) {
+  void divide(const Threads& threads, int parts, void* given, void (*call)(void* given, int part)) {
+    divider_ = std::this_thread::get_id();
     given_ = given;
     call_ = call;
     parts_ = parts;
@@ -65,14 +71,27 @@ class Threads::Crew {
     left_.store(loop * one_loop + static_cast<std::uint64_t>(parts));
     left_.notify_all();
     take_parts();
-    Patience patience;
-    for (int done = done_.load(std::memory_order_acquire); done < parts; done = done_.load(std::memory_order_acquire)) {
-      if (patience.wait()) done_.wait(done, std::memory_order_acquire);
-    }
+    wait(threads, parts);
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   }
 
+  /// Whether this thread divides the present loop.
+  [[nodiscard]] bool divided_here() const { return divider_ == std::this_thread::get_id(); }
+
+  Turnout turnout;
+  Turnout::Time waited{0};  // in the present loop, by who divides it
+
  private:
+  /// Until all parts are done.
+  void wait(const Threads& threads, int parts) {
+    int done = done_.load(std::memory_order_acquire);
+    if (done == parts) return;
+    Wait wait(threads);
+    for (; done < parts; done = done_.load(std::memory_order_acquire)) {
+      if (wait.go_on()) done_.wait(done, std::memory_order_acquire);
+    }
+  }
+
   void serve() {
     Patience patience;
     while (!ending_) {
@@ -116,6 +135,7 @@ class Threads::Crew {
   alignas(64) std::atomic<std::uint64_t> left_ = 0;
   alignas(64) std::atomic<int> done_ = 0;
   alignas(64) std::atomic<bool> ending_ = false;
+  std::thread::id divider_;
   void* given_ = nullptr;
   void (*call_)(void*, int) = nullptr;
   int parts_ = 0;
@@ -125,17 +145,36 @@ class Threads::Crew {
   std::vector<std::jthread> members_;  // last: they end before the rest goes
 };
 
-Threads::Threads(int count) : count_(std::max(1, count)) {}
+Threads::Threads(int count, bool spare) : count_(std::max(1, count)), spare_(spare) {}
 Threads::~Threads() = default;
 
 void Threads::divide(int parts, void* given, void (*call)(void* given, int part)) const {
   if (!crew_) crew_ = std::make_unique<Crew>(count_ - 1);
-  crew_->divide(parts, given, call);
+  if (!spare_) {
+    crew_->divide(*this, parts, given, call);
+    return;
+  }
+  crew_->waited = {};
+  const Turnout::Time begin = now();
+  crew_->divide(*this, parts, given, call);
+  const Turnout::Time end = now();
+  crew_->turnout.note(end - begin, crew_->waited, end);
 }
+
+bool Threads::alone() const { return spare_ && crew_ && crew_->turnout.poor(now()); }
 
 const Threads& one_thread() {
   static const Threads one;
   return one;
+}
+
+Wait::Wait(const Threads& threads)
+    : threads_(threads),
+      measured_(threads.spare_ && threads.crew_->divided_here()),
+      begin_(measured_ ? now() : Turnout::Time{}) {}
+
+Wait::~Wait() {
+  if (measured_) threads_.crew_->waited += now() - begin_;
 }
 
 }  // namespace drape

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/effects/air.hpp"
 #include "sim/linear/constant_factor.hpp"
 #include "sim/make_system.hpp"
 #include "sim/parallel/vectors.hpp"
@@ -231,6 +232,34 @@ INSTANTIATE_TEST_SUITE_P(Of, ThreadsOfASimulation,
                          method_name);
 
 TEST_P(ThreadsOfASimulation, GiveTheSameBits) { expect_the_same_motion(large_cloth(), GetParam()); }
+
+TEST(Threads, OfGustyAirGiveTheSameBits) {
+  for (const Cloth& cloth : {large_cloth(), shuffled_cloth()}) {
+    const State state{.x = cloth.positions + 0.002 * random_vertices(cloth.vertex_count(), 1),
+                      .v = random_vertices(cloth.vertex_count(), 2),
+                      .step = 0};
+    const auto force = [&](const Threads& threads) {
+      System system(cloth, 0.01, threads);
+      Air{.velocity = {3, 1, 0}, .gusts = {.speed = 2}}.install(system);
+      Vertices sum = random_vertices(cloth.vertex_count(), 3);
+      system.forces.front()->add(state, 0.3, sum);
+      return sum;
+    };
+    const Vertices alone = force(one_thread());
+    for (const int count : counts) {
+      const Threads threads(count);
+      EXPECT_TRUE(same_bits(force(threads), alone)) << count << " threads";
+    }
+  }
+}
+
+// What is asked to spare others may compute alone at any time: nobody can tell when.
+TEST(Threads, ThatSpareOthersGiveTheSameBits) {
+  const Vertices a = random_vertices(20'000, 1), b = random_vertices(20'000, 2);
+  const double product = dot(one_thread(), a, b);
+  const Threads threads(8, true);
+  for (int loop = 0; loop < 300; ++loop) ASSERT_EQ(dot(threads, a, b), product);
+}
 
 TEST(Threads, OfNewtonOnAnIrregularMeshGiveTheSameBits) { expect_the_same_motion(shuffled_cloth(), all_methods[1]); }
 
