@@ -77,8 +77,8 @@ TEST(SceneSelection, ByTheNamesOfAFile) {
             "scene.toml:4:21: pins[0].primvar: a.usda:7:24: primvars:one: expected a number for each of the 3 points, "
             "found 1");
   EXPECT_EQ(
-      problem("{ primvar = \"none\" }", "\"a.usda\""),
-      "scene.toml:4:21: pins[0].primvar: a.usda:2:1: the Mesh 'm' has no primvars:none; its primvars of one number "
+      problem("{ primvar = \"seam\" }", "\"a.usda\""),
+      "scene.toml:4:21: pins[0].primvar: a.usda:2:1: the Mesh 'm' has no primvars:seam; its primvars of one number "
       "are 'held', 'one'");
   EXPECT_EQ(problem("{ primvar = \"hold\" }", "\"a.usda\""),
             "scene.toml:4:21: pins[0].primvar: a.usda:2:1: the Mesh 'm' has no primvars:hold; did you mean 'held'?");
