@@ -31,6 +31,13 @@ bool is_bare_word(std::string_view text) {
   return !text.empty() && text.find_first_of(" \t\r\n\"'[]{},=\\") == std::string_view::npos;
 }
 
+/// What is written as a number, though TOML has no such: 1e400, 007.
+bool is_like_number(std::string_view text) {
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  return std::from_chars(text.data(), end, number).ptr == end;
+}
+
 /// "cloth.mesh" into its names. Empty if a name is missing, or there are more than in any scene.
 std::vector<std::string> split_path(std::string_view text) {
   std::vector<std::string> path;
@@ -63,7 +70,7 @@ Assignment parse_assignment(std::string_view text, const Place& place) {
   try {
     assignment.value = parse_value(value, place);
   } catch (const UsageError& error) {
-    if (!is_bare_word(value)) {
+    if (!is_bare_word(value) || is_like_number(value)) {
       throw UsageError(fmt::format("expected a TOML value or a bare word after the '=': {}", error.what()));
     }
     assignment.value.data = std::string(value);

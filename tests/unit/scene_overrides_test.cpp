@@ -152,7 +152,8 @@ TEST(SceneOverrides, AreAnAssignment) {
 
 TEST(SceneOverrides, HaveOneTomlValueOrOneWord) {
   const SceneFolder folder;
-  for (const std::string value : {"[1, 2", "1 2", "two words", "\"open", "{a = }", "1\n2", "1\n[cloth]", "a=b"}) {
+  for (const std::string value : {"[1, 2", "1 2", "two words", "\"open", "{a = }", "1\n2", "1\n[cloth]", "a=b", "1e400",
+                                  "-1e400", "007", "9223372036854775808"}) {
     const std::string problem = folder.problems(least_scene, {"cloth.mass=" + value});
     const std::string expected = "--set cloth.mass=" + value + ": expected a TOML value or a bare word after the '=': ";
     EXPECT_EQ(problem.substr(0, expected.size()), expected);
