@@ -37,7 +37,7 @@ inline Finished drape(const SceneFolder& folder, const std::string& arguments, c
 }
 
 /// A cloth that swings for 0.4 s; a test adds tables.
-inline const std::string swinging_scene =
+const std::string swinging_scene =
     "[cloth]\n"
     "mesh = { grid = [6, 6] }\n"
     "stiffness = 50\n"

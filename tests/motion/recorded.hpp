@@ -48,7 +48,7 @@ inline RunResult resume(const std::string& file, RunOptions options = {}, std::i
 }
 
 /// A cloth that swings on its pins past a sphere that moves.
-inline const std::string recorded_scene = R"(
+const std::string recorded_scene = R"(
 [cloth]
 mesh = { grid = [5, 4] }
 stiffness = 50

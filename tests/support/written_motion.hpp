@@ -12,7 +12,7 @@
 namespace drape::test {
 
 /// A cloth that swings above a ball that moves and over a ground. Frames fall between steps as well as on them.
-inline const std::string moving_scene = R"(
+const std::string moving_scene = R"(
 [cloth]
 mesh = { grid = [4, 3] }
 stiffness = 50

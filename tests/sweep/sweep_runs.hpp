@@ -14,7 +14,7 @@
 namespace drape::test {
 
 /// A cloth of four cells that falls for ten steps.
-inline const std::string tiny_scene =
+const std::string tiny_scene =
     least_scene + "duration = 0.1\n[integrator]\nmethod = \"liu13\"\n[effects.gravity]\n[video]\nsize = [64, 48]\n";
 
 /// A request of one scene with what varies, as on a command line.

@@ -9,10 +9,10 @@
 namespace drape::test {
 
 /// In metres, with z up; three lines.
-inline const std::string usd_header = "#usda 1.0\n( metersPerUnit = 1\nupAxis = \"Z\" )\n";
+const std::string usd_header = "#usda 1.0\n( metersPerUnit = 1\nupAxis = \"Z\" )\n";
 
 /// What makes a mesh of one triangle: it goes between the braces of a Mesh.
-inline const std::string usd_triangle =
+const std::string usd_triangle =
     "int[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\n"
     "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n";
 
