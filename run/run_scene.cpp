@@ -118,9 +118,11 @@ class Pipeline {
     if (recorder_) observers.push_back(&*recorder_);
     for (StepObserver* record : records_.observers()) observers.push_back(record);
     if (options_.observer != nullptr) observers.push_back(options_.observer);
-    const bool annotated = annotations_ && annotations_->needs_motion();
-    const bool drawn_later = drawn_ && (annotated || needs_motion(scene_.camera));
-    drawn_later ? simulate_then_draw(std::move(observers)) : simulate_and_draw(std::move(observers));
+    if (drawn_ && ((annotations_ && annotations_->needs_motion()) || needs_motion(scene_.camera))) {
+      simulate_then_draw(std::move(observers));
+    } else {
+      simulate_and_draw(std::move(observers));
+    }
     close_queues();
   }
 

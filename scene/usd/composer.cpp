@@ -170,8 +170,9 @@ class UsdComposer {
     const UsdSpec& spec = *opinion.spec;
     if (depth == most_arcs) spec.place.fail(fmt::format("references nested deeper than {}", most_arcs));
     if (++specs_ > most_specs) spec.place.fail(fmt::format("references lead to more than {} prims", most_specs));
-    if (all.size() == most_opinions)
+    if (all.size() == most_opinions) {
       spec.place.fail(fmt::format("references lead to more than {} specs of one prim", most_opinions));
+    }
     for (const auto& [set, variant] : spec.selections) selections.emplace(set, variant);
     all.push_back(opinion);
     const auto follow = [&](UsdArc::Kind kind) {

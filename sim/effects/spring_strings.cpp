@@ -19,15 +19,14 @@ constexpr double slackening = 1e-3;
 /// For each spring the one that goes on from it at either end.
 class Continuations {
  public:
-  Continuations(const Cloth& cloth, const std::vector<Index>& springs, const std::vector<char>& fixed)
+  Continuations(const Cloth& cloth, const std::vector<Index>& springs)
       : cloth_(cloth), next_(cloth.springs.size(), {none, none}) {
-    std::vector<std::vector<Index>> at(fixed.size());
+    std::vector<std::vector<Index>> at(static_cast<Index>(cloth.vertex_count()));
     for (const Index k : springs) {
       for (const int end : {cloth.springs[k].i, cloth.springs[k].j}) at[static_cast<Index>(end)].push_back(k);
     }
-    for (int vertex = 0; vertex < cloth.vertex_count(); ++vertex) {
-      if (fixed[static_cast<Index>(vertex)] == 0) join(vertex, at[static_cast<Index>(vertex)]);
-    }
+    for (const int pin : cloth.pins) at[static_cast<Index>(pin)].clear();
+    for (int vertex = 0; vertex < cloth.vertex_count(); ++vertex) join(vertex, at[static_cast<Index>(vertex)]);
   }
 
   [[nodiscard]] Index& next(Index k, int at) { return next_[k][cloth_.springs[k].i == at ? 0 : 1]; }
@@ -92,9 +91,8 @@ bool exchange(std::span<Tension> string) {
 
 }  // namespace
 
-std::vector<StringLink> lay_out_strings(const Cloth& cloth, const std::vector<std::size_t>& springs,
-                                        const std::vector<char>& fixed) {
-  Continuations continuations(cloth, springs, fixed);
+std::vector<StringLink> lay_out_strings(const Cloth& cloth, const std::vector<std::size_t>& springs) {
+  Continuations continuations(cloth, springs);
   std::vector<char> laid(cloth.springs.size(), 0);
   std::vector<StringLink> links;
   links.reserve(springs.size());

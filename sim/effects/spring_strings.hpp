@@ -15,12 +15,10 @@ struct StringLink {
   bool joined;         ///< whether it goes on from the link before it
 };
 
-/// Lays the springs out in strings, each spring once. Strings go through vertices that can move, by what is straight at
-/// rest, and end where nothing goes on within 37° of straight. On a grid they are its lines and diagonals.
+/// Lays the springs out in strings, each spring once. Strings go through vertices that are no pins, by what is straight
+/// at rest, and end where nothing goes on within 37° of straight. On a grid they are its lines and diagonals.
 /// @param springs the numbers of those that are laid out
-/// @param fixed   for each vertex, whether it does not move
-std::vector<StringLink> lay_out_strings(const Cloth& cloth, const std::vector<std::size_t>& springs,
-                                        const std::vector<char>& fixed);
+std::vector<StringLink> lay_out_strings(const Cloth& cloth, const std::vector<std::size_t>& springs);
 
 /// A spring that pulls, in a string of them, and by how much more it should.
 struct Tension {

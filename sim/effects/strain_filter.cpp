@@ -22,17 +22,13 @@ StrainFilter::StrainFilter(const StrainLimit& limits, const Cloth& cloth)
       last_change_(change_),
       is_moved_(change_.size(), 0),
       springs_at_(change_.size()) {
-  std::vector<char> fixed(change_.size(), 0);
-  for (const int pin : cloth.pins) {
-    weight_[pin] = 0;
-    fixed[Index(pin)] = 1;
-  }
+  for (const int pin : cloth.pins) weight_[pin] = 0;
   std::vector<Index> springs;
   for (Index k = 0; k < cloth.springs.size(); ++k) {
     const Spring& s = cloth.springs[k];
     if (weight_[s.i] + weight_[s.j] > 0 && s.rest_length > 0) springs.push_back(k);
   }
-  for (const StringLink& link : lay_out_strings(cloth, springs, fixed)) {
+  for (const StringLink& link : lay_out_strings(cloth, springs)) {
     const double rest_length = cloth.springs[link.spring].rest_length;
     for (const int end : {link.from, link.to}) springs_at_[Index(end)].push_back(limited_.size());
     limited_.push_back({.i = link.from,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/error.hpp"
 #include "sim/parallel/vectors.hpp"
@@ -21,6 +20,13 @@ constexpr double margin = 0.5;  // that the tolerance leaves for the rims
 
 std::size_t at(int number) { return static_cast<std::size_t>(number); }
 
+Incidence springs_at(const System& system) {
+  std::vector<int> ends;
+  ends.reserve(2 * system.springs.size());
+  for (const Spring& spring : system.springs) ends.insert(ends.end(), {spring.i, spring.j});
+  return {ends, 2, system.cloth.vertex_count()};
+}
+
 /// The rows of those vertices.
 Vertices rows_of(const Vertices& all, const std::vector<int>& vertices) {
   Vertices some(static_cast<Eigen::Index>(vertices.size()), 3);
@@ -34,32 +40,17 @@ PatchNewton::PatchNewton(const System& system, const StepObjective& objective, d
     : system_(system),
       objective_(objective),
       tolerance_(tolerance),
+      springs_at_(springs_at(system)),
       places_(at(system.cloth.vertex_count())),
-      numbers_(places_.size()) {
-  find_neighbours();
-}
-
-void PatchNewton::find_neighbours() {
-  starts_.assign(places_.size() + 1, 0);
-  for (const Spring& spring : system_.springs) {
-    ++starts_[at(spring.i) + 1];
-    ++starts_[at(spring.j) + 1];
-  }
-  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-  neighbours_.resize(at(starts_.back()));
-  std::vector<int> next = starts_;
-  for (const Spring& spring : system_.springs) {
-    neighbours_[at(next[at(spring.i)]++)] = spring.j;
-    neighbours_[at(next[at(spring.j)]++)] = spring.i;
-  }
-}
+      numbers_(places_.size()) {}
 
 void PatchNewton::surround(std::size_t first, Place place) {
   const std::size_t end = vertices_.size();
   for (std::size_t v = first; v < end; ++v) {
-    const std::size_t vertex = at(vertices_[v]);
-    for (int n = starts_[vertex]; n < starts_[vertex + 1]; ++n) {
-      const int neighbour = neighbours_[at(n)];
+    const int vertex = vertices_[v];
+    for (const int number : springs_at_.of(vertex)) {
+      const Spring& spring = system_.springs[at(number)];
+      const int neighbour = spring.i == vertex ? spring.j : spring.i;
       if (places_[at(neighbour)] != Place::outside) continue;
       places_[at(neighbour)] = place;
       vertices_.push_back(neighbour);

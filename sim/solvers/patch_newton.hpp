@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "sim/parallel/incidence.hpp"
 #include "sim/solvers/minimiser.hpp"
 #include "sim/system.hpp"
 
@@ -30,7 +31,6 @@ class PatchNewton {
   /// Of a vertex: outside of all patches, next to one, or in one.
   enum class Place : char { outside, rim, inside };
 
-  void find_neighbours();
   /// Finds the patches, and their vertices with those of their rims.
   void find_patches(const Vertices& gradient);
   /// Appends all neighbours outside of the vertices from `first` on, which are then in that place.
@@ -41,11 +41,11 @@ class PatchNewton {
   const System& system_;
   const StepObjective& objective_;
   double tolerance_;
-  std::vector<int> starts_, neighbours_;  // those of vertex i are from starts_[i] to starts_[i + 1]
-  std::vector<Place> places_;             // of all vertices
-  std::vector<int> vertices_;             // inside and on rims, ascending
-  std::vector<int> numbers_;              // of those in vertices_
-  std::size_t inside_ = 0;                // how many
+  Incidence springs_at_;       // of each vertex, its springs
+  std::vector<Place> places_;  // of all vertices
+  std::vector<int> vertices_;  // inside and on rims, ascending
+  std::vector<int> numbers_;   // of those in vertices_
+  std::size_t inside_ = 0;     // how many
 };
 
 }  // namespace drape

@@ -48,6 +48,14 @@ Cloth shuffled_cloth() {
   return cloth_of(mesh, 1, 180, {std::min(place(0), place(cells)), std::max(place(0), place(cells))});
 }
 
+void expect_what_one_thread_computes(const auto& compute) {
+  const Vertices alone = compute(one_thread());
+  for (const int count : counts) {
+    const Threads threads(count);
+    EXPECT_TRUE(same_bits(compute(threads), alone)) << count << " threads";
+  }
+}
+
 TEST(Threads, ComputeEveryPartOnce) {
   for (const int count : {1, 2, 3, 8}) {
     const Threads threads(count);
@@ -173,11 +181,7 @@ TEST(Threads, SolveToTheSameBits) {
       EXPECT_TRUE(same_bits(y, Vertices(b - x)));
       return x;
     };
-    const Vertices alone = solution(one_thread());
-    for (const int count : counts) {
-      const Threads threads(count);
-      EXPECT_TRUE(same_bits(solution(threads), alone)) << count << " threads";
-    }
+    expect_what_one_thread_computes(solution);
   }
 }
 
@@ -245,11 +249,7 @@ TEST(Threads, OfGustyAirGiveTheSameBits) {
       system.forces.front()->add(state, 0.3, sum);
       return sum;
     };
-    const Vertices alone = force(one_thread());
-    for (const int count : counts) {
-      const Threads threads(count);
-      EXPECT_TRUE(same_bits(force(threads), alone)) << count << " threads";
-    }
+    expect_what_one_thread_computes(force);
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 std::vector<StringLink> strings_of(const Cloth& cloth) {
   std::vector<std::size_t> all(cloth.springs.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  return lay_out_strings(cloth, all, std::vector<char>(static_cast<std::size_t>(cloth.vertex_count()), 0));
+  return lay_out_strings(cloth, all);
 }
 
 TEST(SpringStrings, HaveEachSpringOnceAndGoOnWhereTheyAreJoined) {
