@@ -1,11 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/gif_file.hpp"
+#include "tests/support/read_picture.hpp"
 
 namespace drape::cli {
 namespace {
@@ -104,8 +105,8 @@ TEST(CommandLine, WritesAllOutputsFromOnePass) {
     EXPECT_TRUE(fs::exists(folder.path() / name)) << name;
   }
   EXPECT_FALSE(fs::exists(folder.path() / "frames/0011.png"));
-  const cv::Mat last = cv::imread((folder.path() / "frames/0010.png").string());
-  const cv::Mat still = cv::imread((folder.path() / "still.png").string());
+  const cv::Mat last = test::read_picture(folder.path() / "frames/0010.png");
+  const cv::Mat still = test::read_picture(folder.path() / "still.png");
   EXPECT_EQ(last.size(), cv::Size(64, 48));
   EXPECT_EQ(cv::norm(last, still, cv::NORM_INF), 0);
 }
@@ -122,8 +123,8 @@ TEST(CommandLine, DrawsAFrameOfTheFilmWhicheverRangeItIsIn) {
   folder.write("scene.toml", scene);  // whose camera has to see the whole motion
   EXPECT_EQ(drape(folder, "render scene.toml -o all/{frame:02}.png").code, 0);
   EXPECT_EQ(drape(folder, "render scene.toml -o some/{frame:02}.png --frames 4..6").code, 0);
-  const cv::Mat all = cv::imread((folder.path() / "all/05.png").string());
-  const cv::Mat some = cv::imread((folder.path() / "some/05.png").string());
+  const cv::Mat all = test::read_picture(folder.path() / "all/05.png");
+  const cv::Mat some = test::read_picture(folder.path() / "some/05.png");
   ASSERT_FALSE(all.empty());
   ASSERT_FALSE(some.empty());
   EXPECT_EQ(cv::norm(all, some, cv::NORM_INF), 0);

@@ -9,7 +9,7 @@
 // What encodes and decodes is a module that is loaded when it is first used: drape starts without it, finds it from
 // wherever the two were installed or moved to, and says so if it is not there.
 
-namespace drape::codecs_module {
+namespace drape::codecs_apart {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ TEST(Codecs, ThatCannotBeLoadedSayWhatToInstall) {
 }
 
 }  // namespace
-}  // namespace drape::codecs_module
+}  // namespace drape::codecs_apart

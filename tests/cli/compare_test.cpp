@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "tests/cli/run_drape.hpp"
+#include "tests/support/read_picture.hpp"
 
 namespace drape::compare_cli {
 namespace {
@@ -48,7 +47,7 @@ TEST(Compare, PutsWhatOnlyTheLastKeyTellsApartIntoARow) {
       "compare a.toml --vary integrator.method=liu13,implicit,verlet --vary cloth.stiffness=10,20 ";
   const auto size = [&](const std::string& arguments) {
     EXPECT_EQ(drape(folder, arguments).code, 0);
-    return cv::imread(folder.path("x.png")).size();
+    return test::read_picture(folder.path("x.png")).size();
   };
   EXPECT_EQ(size(vary + "-o x.png"), size(vary + "-o x.png --grid 2x3"));
 }
@@ -107,7 +106,7 @@ TEST(Sheet, IsMadeOfASingleFilmToo) {
   const SceneFolder folder;
   folder.write("a.toml", scene);
   ASSERT_EQ(drape(folder, "render a.toml -o a.gif -o sheet.png --sheet 3x1").code, 0);
-  EXPECT_EQ(cv::imread(folder.path("sheet.png")).cols, 3 * 64 + 2 * 6);
+  EXPECT_EQ(test::read_picture(folder.path("sheet.png")).cols, 3 * 64 + 2 * 6);
   EXPECT_EQ(drape(folder, "render a.toml --sheet 2x1").code, 0);
   EXPECT_TRUE(std::filesystem::exists(folder.path("out/a.png")));
   EXPECT_EQ(drape(folder, "render a.toml -o a.gif --sheet 3x1").code, 2);

@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "overlay/color_map.hpp"
 #include "run/run_scene.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/read_picture.hpp"
 #include "tests/support/scene_folder.hpp"
 #include "tests/support/usage_error.hpp"
 
@@ -43,13 +44,13 @@ TEST(CompareScenes, ShowsEachMotionAsItsOwnFilmWould) {
   options.outputs = {folder.path("both.png")};
   const CompareResult result = compare(scenes, options);
   EXPECT_EQ(result.times.size(), 6U);
-  const cv::Mat both = cv::imread(options.outputs[0]);
+  const cv::Mat both = test::read_picture(options.outputs[0]);
   for (const Scene& scene : scenes) {
     RunOptions run;
     run.outputs = {folder.path("one.png")};
     Progress progress;
     run_scene(scene, run, {}, progress);
-    EXPECT_TRUE(contains(both, cv::imread(run.outputs[0])));
+    EXPECT_TRUE(contains(both, test::read_picture(run.outputs[0])));
   }
   EXPECT_EQ(both.cols, comparison_info(scenes, options).width);
   EXPECT_EQ(both.rows, comparison_info(scenes, options).height);
@@ -68,7 +69,8 @@ TEST(CompareScenes, TheCameraMovesAsInTheFirstOnesFilm) {
   run_scene(scene, run, {}, progress);
   for (const char* frame : {"0", "3", "5"}) {
     const std::string name = std::string(frame) + ".png";
-    EXPECT_TRUE(contains(cv::imread(folder.path("both" + name)), cv::imread(folder.path("one" + name)))) << frame;
+    EXPECT_TRUE(contains(test::read_picture(folder.path("both" + name)), test::read_picture(folder.path("one" + name))))
+        << frame;
   }
 }
 
@@ -113,7 +115,7 @@ TEST(CompareScenes, OneCameraHasAllOfThemInView) {
   options.outputs = {folder.path("both.png")};
   options.columns = 1;
   compare(scenes, options);
-  const cv::Mat both = cv::imread(options.outputs[0]);
+  const cv::Mat both = test::read_picture(options.outputs[0]);
   // Neither touches the sides of its panel, and the clothes stand at different places.
   for (int y = 0; y < both.rows; ++y) {
     EXPECT_EQ(both.at<cv::Vec3b>(y, 0), cv::Vec3b(255, 255, 255));

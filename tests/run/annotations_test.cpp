@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "overlay/color_map.hpp"
 #include "run/run_scene.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/read_picture.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape::annotations {
@@ -22,7 +23,7 @@ cv::Mat last_picture(const std::string& more) {
   options.outputs = {(folder.path() / "still.png").string()};
   Progress progress;
   run_scene(folder.load(swinging + more), options, {}, progress);
-  return cv::imread(options.outputs[0]);
+  return test::read_picture(options.outputs[0]);
 }
 
 bool same(const cv::Mat& a, const cv::Mat& b) { return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0; }

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 
 #include "study/reference.hpp"
 #include "tests/support/gif_file.hpp"
+#include "tests/support/read_picture.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace drape {
@@ -31,8 +31,7 @@ TEST(Animation, HasAPanelForEachMotionAndAFrameForEachMoment) {
                                         GlBackend::automatic, {}, progress);
   ASSERT_TRUE(animation);
   EXPECT_EQ(animation->gif.size(), std::filesystem::file_size(gif_file));
-  const std::vector<std::uint8_t> stills(animation->stills.begin(), animation->stills.end());
-  EXPECT_EQ(cv::imdecode(stills, cv::IMREAD_COLOR).cols, 2 * (2 * 340 + 6) + 6);  // four of the five, in two rows
+  EXPECT_EQ(test::decoded_picture(animation->stills).cols, 2 * (2 * 340 + 6) + 6);  // four of the five, in two rows
   const test::GifFile gif = test::read_gif(gif_file);
   EXPECT_EQ(gif.delays.size(), 5U);  // 0 to 0.4 s, 10 a second
   EXPECT_EQ(gif.width, 2 * 340 + 6);

@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "core/error.hpp"
 #include "figures/svg_printer.hpp"
 #include "study/method_series.hpp"
 #include "study/stability_map.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/read_picture.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace drape {
@@ -41,10 +42,6 @@ std::vector<std::string> texts(const tinyxml2::XMLElement& element) {
     all.insert(all.end(), inner.begin(), inner.end());
   }
   return all;
-}
-
-cv::Mat decoded(const std::string& png) {
-  return cv::imdecode(cv::Mat(1, static_cast<int>(png.size()), CV_8U, const_cast<char*>(png.data())), cv::IMREAD_COLOR);
 }
 
 TEST(DiagramFile, IsXmlWithEveryWordAndNoVariables) {
@@ -149,7 +146,7 @@ TEST_F(Printed, PngHasTwiceTheSizeAndItsText) {
   const std::string svg = sample_svg();
   tinyxml2::XMLDocument xml;
   ASSERT_EQ(xml.Parse(svg.c_str()), tinyxml2::XML_SUCCESS);
-  const cv::Mat picture = decoded(printer_->png(svg, 2));
+  const cv::Mat picture = test::decoded_picture(printer_->png(svg, 2));
   EXPECT_EQ(picture.cols, 2 * xml.RootElement()->IntAttribute("width"));
   EXPECT_EQ(picture.rows, 2 * xml.RootElement()->IntAttribute("height"));
   const auto inked = [](const cv::Mat& image) {
@@ -161,7 +158,7 @@ TEST_F(Printed, PngHasTwiceTheSizeAndItsText) {
   for (std::size_t at = 0; (at = mute.find("text", at)) != std::string::npos; at += 4) {
     if (mute[at - 1] == '<' || mute[at - 1] == '/') mute.replace(at, 4, "desc");
   }
-  const auto without = inked(decoded(printer_->png(mute, 2)));
+  const auto without = inked(test::decoded_picture(printer_->png(mute, 2)));
   EXPECT_GT(without, 1000);
   if (!has_font()) GTEST_SKIP() << "no font";
   EXPECT_GT(inked(picture), without + 2000);
