@@ -27,7 +27,7 @@ fs::path description_file(const fs::path& report, const std::string& name) { ret
 
 Candidate read_candidate(const fs::path& file) {
   try {
-    const Json json = parse_json(read_golden_file(file, most_description));
+    const Json json = parse_json(read_file(file, most_description));
     const Fields fields(json, "");
     return {.folder = file.parent_path() / "candidate",
             .name = file.parent_path().filename().string(),
@@ -115,7 +115,8 @@ std::vector<Candidate> find_candidates(const fs::path& report, const std::vector
     const fs::path file = description_file(report, entry.path().filename().string());
     if (fs::exists(file, error)) all.push_back(read_candidate(file));
   }
-  if (all.empty()) throw UsageError(fmt::format("{}: there is nothing to accept", report.string()));
+  if (all.empty())
+    throw UsageError(fmt::format("{}: there is nothing to accept: this check found no scene changed", report.string()));
   std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.name < b.name; });
   if (wanted.empty()) return all;
 

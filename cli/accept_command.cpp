@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "check/candidate.hpp"
+#include "cli/check_results.hpp"
 #include "cli/command_line.hpp"
 #include "cli/frame_list.hpp"
+#include "core/error.hpp"
 
 namespace drape {
 namespace {
@@ -15,8 +18,22 @@ struct AcceptArguments {
   std::string frames;
 };
 
+/// @throws UsageError unless drape check has written its report into the folder
+void require_report(const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto status = std::filesystem::status(folder, error);
+  if (std::filesystem::exists(folder / check_report_files.front(), error)) return;
+  throw UsageError(fmt::format(
+      "{}: {}; expected the report folder of a check: drape check SCENE writes out/check, or what --report says",
+      folder.string(),
+      !std::filesystem::exists(status)        ? "no such folder"
+      : std::filesystem::is_directory(status) ? "there is no report of drape check in this folder"
+                                              : "this is a file"));
+}
+
 ExitCode accept(const AcceptArguments& arguments, const CommonOptions& common) {
   const std::vector<int> frames = parse_frame_list(arguments.frames);
+  require_report(arguments.report);
   const std::vector<Candidate> candidates = find_candidates(arguments.report, arguments.scenes);
   for (const Candidate& candidate : candidates) require_acceptable(candidate, frames);  // before any is
   for (const Candidate& candidate : candidates) {

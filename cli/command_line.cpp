@@ -148,8 +148,8 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   add_study_command(app, common, command);
   add_doctor_command(app, command);
   add_help_command(app, common, command);
-  add_examples(app);
   add_manual_command(app, command);
+  add_examples(app);
   name_values(app);
   try {
     app.parse(argc, argv);

@@ -12,7 +12,6 @@ ExitCode write_manual(const CLI::App& app, const std::filesystem::path& share) {
   const CommandText drape = describe_command(app);
   const std::vector<TableText> tables = reference_tables();
   const auto write = [&](const std::filesystem::path& file, const std::string& text) {
-    std::filesystem::create_directories((share / file).parent_path());
     write_file_atomically(share / file, text);
   };
   for (const ManPage& page : command_pages(drape)) write("man/man1/" + page.file, page.text);

@@ -52,12 +52,14 @@ ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder
   return conclude_check(whole, folder, common, verdicts);
 }
 
-/// What the shards in a folder are of; of a sweep where there are none.
+/// What the shards in a folder are of.
+/// @throws UsageError if there are none
 const char* mark_in(const fs::path& folder) {
-  for (const char* mark : {check_mark, stability_runs_name}) {
+  for (const char* mark : {check_mark, stability_runs_name, sweep_mark}) {
     if (!parts_in(folder, mark).empty()) return mark;
   }
-  return sweep_mark;
+  throw UsageError(
+      fmt::format("{}: there is no sweep, check or study of stability in it, nor a shard of one", folder.string()));
 }
 
 ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {

@@ -81,6 +81,7 @@ std::string read_text(const std::filesystem::path& file, std::size_t limit) {
   if (text.starts_with(utf16_little) || text.starts_with(utf16_big)) {
     fail(file, "the file is text in UTF-16: save it as UTF-8");
   }
+  if (text.find('\0') != std::string::npos) fail(file, "this is a binary file, not a text");
   if (text.starts_with(utf8)) text.erase(0, utf8.size());
   return text;
 }

@@ -12,7 +12,7 @@ namespace drape {
 std::string read_file(const std::filesystem::path& file, std::size_t limit);
 
 /// The same for a text in UTF-8, without the byte-order mark that some editors put before it.
-/// @throws UsageError also for UTF-16, which such a mark tells
+/// @throws UsageError also for UTF-16, which such a mark tells, and for what no text has, a zero byte
 std::string read_text(const std::filesystem::path& file, std::size_t limit);
 
 }  // namespace drape

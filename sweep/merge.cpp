@@ -68,6 +68,9 @@ std::vector<fs::path> parts_in(const fs::path& folder, const char* mark) {
       found.push_back(entry);
     }
   }
+  if (error == std::errc::not_a_directory) {
+    throw UsageError(fmt::format("{}: this is a file; expected a folder with shards", folder.string()));
+  }
   if (error) throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
   std::ranges::sort(found);
   if (found.empty() && is_part(folder, mark)) found.push_back(folder);

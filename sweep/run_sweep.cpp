@@ -174,9 +174,10 @@ SweepLock::SweepLock(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / ".lock";
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (!error) descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) {
-    throw OutputError(fmt::format("cannot write {}: {}", file.string(), std::generic_category().message(errno)));
+    if (!error) error.assign(errno, std::generic_category());
+    throw OutputError(fmt::format("cannot write {}: {}", file.string(), error.message()));
   }
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor_);

@@ -65,7 +65,7 @@ TEST_F(Accept, EverythingPassesAfterwards) {
   const auto checked = drape(folder_, "check a.toml b.toml --update none");
   EXPECT_EQ(checked.code, 0) << checked.text;
   // What passes has nothing to accept.
-  expect_refused("accept out/check", "out/check: there is nothing to accept");
+  expect_refused("accept out/check", "out/check: there is nothing to accept: this check found no scene changed");
 }
 
 TEST_F(Accept, OneSceneLeavesTheOtherAlone) {
@@ -109,6 +109,24 @@ TEST_F(Accept, NothingThatWasNotChecked) {
   expect_refused("accept out/check", "b.toml: cannot be accepted: it was checked by a different build of drape");
   fs::resize_file(folder_.path() / "out/check/a/candidate/frames/0005.png", 100);
   expect_refused("accept out/check a", "candidate/frames/0005.png: has been modified since it was recorded");
+}
+
+TEST_F(Accept, OnlyTheReportOfACheck) {
+  const std::string expected = "; expected the report folder of a check: drape check SCENE writes out/check";
+  folder_.write("empty", "");
+  fs::create_directory(folder_.path() / "folder");
+  expect_refused("accept nowhere", "nowhere: no such folder" + expected);
+  expect_refused("accept folder", "folder: there is no report of drape check in this folder" + expected);
+  for (const std::string file : {"empty", "a.toml", "a.golden/frames/0005.png", "out/check/report.json"}) {
+    expect_refused("accept " + file, file + ": this is a file" + expected);
+  }
+  for (const std::string text : {"", "{", "\x89PNG\r\n\x1a\n"}) {
+    folder_.write("out/check/a/candidate.json", text);
+    expect_refused("accept out/check", "out/check/a/candidate.json: is not valid JSON");
+  }
+  fs::remove(folder_.path() / "out/check/a/candidate.json");
+  fs::create_directory(folder_.path() / "out/check/a/candidate.json");
+  expect_refused("accept out/check", "out/check/a/candidate.json: this is a folder, not a file");
 }
 
 TEST_F(Accept, Kill9LeavesOneGoldenOrTheOther) {

@@ -87,10 +87,12 @@ TEST(CheckCommand, SaysWhatIsWrongWithItsOptions) {
          "--update changed no longer exists: look at the report of a check, then accept");
   expect("check swing.toml --set check.window=20",
          "'window' in [check] no longer exists: the whole motion is compared now, in windows of 'window_time' seconds");
-  expect("accept out/check", "out/check: there is nothing to accept");
+  expect("accept out/check", "out/check: no such folder; expected the report folder of a check");
   expect("check swing.toml --frames 1,,2", "--frames takes frame numbers A,B,C, counted from 0; found '1,,2'");
   expect("bless swing.toml --frames 1000", "the film ends with frame 10");
   expect("check nowhere.toml", "nowhere.toml: no such file");
+  EXPECT_EQ(drape(folder, "simulate swing.toml --steps 1 -o swing.drape").code, 0);
+  expect("check swing.drape", "swing.drape: this is a binary file, not a text");
   EXPECT_EQ(drape(folder, "bless swing.toml").code, 0);
   std::ofstream(folder.path() / "swing.golden/motion.bin", std::ios::binary) << "nonsense";
   expect("check swing.toml", "swing.golden/motion.bin: has been modified since it was recorded");

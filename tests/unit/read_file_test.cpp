@@ -47,6 +47,17 @@ TEST_F(ReadFile, SaysWhyItCannot) {
   EXPECT_EQ(problem("a"), "the file cannot be read: Permission denied");
 }
 
+TEST_F(ReadFile, TakesForATextWhatHasNoZeroByte) {
+  EXPECT_EQ(read_text(put(path() / "text",
+                          "\xEF\xBB\xBF"
+                          "a\r\n\xff"),
+                      1000),
+            "a\r\n\xff");
+  put(path() / "image", std::string("\x89PNG\0\0", 6));
+  EXPECT_EQ(usage_error([&] { read_text(path() / "image", 1000); }),
+            path("image") + ": this is a binary file, not a text");
+}
+
 TEST_F(ReadFile, TakesAtMostItsLimit) {
   put(path() / "a", std::string(2'000'000, 'x'));
   EXPECT_EQ(read_file(path() / "a", 2'000'000).size(), 2'000'000U);
