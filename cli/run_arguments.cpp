@@ -22,7 +22,7 @@ constexpr const char* threads_help =
 
 /// @returns 0 for as many as gain something
 int parse_threads(const std::string& text) {
-  if (text.empty() || text == "auto") return 0;
+  if (text == "auto") return 0;
   if (whole_number_in({1, 256})(text).empty()) return std::stoi(text);
   throw UsageError(fmt::format("--threads: expected auto or a whole number from 1 to 256, found '{}'", text));
 }

@@ -21,7 +21,7 @@ struct RunArguments {
   double checkpoint_seconds = MotionOptions{}.checkpoint_seconds;
   RecordPaths records;
   GlBackend backend = GlBackend::automatic;
-  std::string threads;  ///< that share a step: a number, or auto, as if nothing is said
+  std::string threads = "auto";  ///< that share a step: a number, or auto
   bool step_by_step = false;
   bool drawing = true;  ///< render; simulate draws nothing
 };

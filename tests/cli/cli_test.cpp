@@ -35,6 +35,34 @@ TEST(CommandLine, NamesTheNearestOptionAndCommand) {
   EXPECT_NE(finished.text.find("did you mean 'render'"), std::string::npos) << finished.text;
 }
 
+TEST(CommandLine, RefusesNumbersOfThreadsAndFramesThatAreNone) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const auto expect = [&](const std::string& arguments, const std::string& message) {
+    const Finished finished = drape(folder, arguments);
+    EXPECT_EQ(finished.code, 2) << arguments;
+    EXPECT_TRUE(finished.text.starts_with("drape: " + message)) << finished.text;
+    EXPECT_EQ(std::ranges::count(finished.text, '\n'), 1) << finished.text;
+  };
+  for (const std::string number : {"0", "-1", "257", "9999999999", "99999999999999999999", "x", "1.5", "2x", "''"}) {
+    const std::string text = number == "''" ? "" : number;
+    for (const std::string command : {"simulate", "render"}) {
+      expect(command + " scene.toml --threads " + number,
+             "--threads: expected auto or a whole number from 1 to 256, found '" + text + "'\n");
+    }
+    expect("sweep scene.toml --threads " + number,
+           "--threads: expected a whole number at least 1 and at most 256, found '" + text + "'");
+  }
+  for (const std::string range : {"9..3", "-1..3", "3", "3..", "..3", "a..b", "1..2..3", "0..9999999999"}) {
+    for (const std::string command : {"render", "simulate -o x.obj"}) {
+      expect(command + " scene.toml --frames " + range,
+             "--frames takes A..B, two frame numbers with 0 ≤ A ≤ B; found '" + range + "'\n");
+    }
+  }
+  expect("render scene.toml --frames 0..99999", "--frames 0..99999: the film ends with frame 10\n");
+  EXPECT_EQ(folder.file_count(), 1);
+}
+
 TEST(CommandLine, RefusesAFactorThatCannotFitBeforeItIsBegun) {
   const test::SceneFolder folder;
   folder.write("scene.toml", scene);

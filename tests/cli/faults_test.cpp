@@ -10,6 +10,7 @@
 #include <iterator>
 #include <thread>
 
+#include "output/registry.hpp"
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/gif_file.hpp"
@@ -59,32 +60,62 @@ int end_with(pid_t child, int signal, double seconds) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-TEST(Faults, AFullDiskExitsWith4AndLeavesTheOldFilm) {
-  const SceneFolder folder;
-  folder.write("scene.toml", scene);
-  for (const char* film : {"film.gif", "film.mp4", "film.png", "table.csv"}) {
-    folder.write(film, "old");
-    const std::string output =
-        std::string(film).ends_with(".csv") ? "simulate scene.toml --energies " : "render scene.toml -o ";
-    // The shell makes the system refuse to let any file grow, and drape inherits that.
-    const Finished finished = drape(folder, output + film, "ulimit -f 0;");
-    EXPECT_EQ(finished.code, 4) << finished.text;
-    EXPECT_NE(finished.text.find(film), std::string::npos) << finished.text;
-    EXPECT_EQ(content(folder.path() / film), "old");
-    fs::remove(folder.path() / film);
+/// What writes one file of each kind, the name that it has, or of which it is a part, and the command.
+std::vector<std::pair<std::string, std::string>> all_kinds_of_files() {
+  std::vector<std::pair<std::string, std::string>> kinds{
+      {"0000.png", "render scene.toml -o FOLDER/{frame:04}.png"},
+      {"0000.obj", "simulate scene.toml -o FOLDER/{frame:04}.obj"},
+      {"sheet.png", "render scene.toml --sheet 2x2 -o FOLDER/sheet.png"},
+      {"page.html", "compare scene.toml scene.toml -o FOLDER/page.html"}};
+  for (const OutputFormat& format : output_formats()) {
+    const std::string film = "film" + std::string(format.extension);
+    kinds.emplace_back(film, "render scene.toml -o FOLDER/" + film);
   }
-  EXPECT_EQ(names(folder), std::vector<std::string>{"scene.toml"});
+  for (const std::string record : {"energies", "trace", "positions", "stats"}) {
+    kinds.emplace_back(record, "simulate scene.toml --" + record + " FOLDER/" + record);
+  }
+  return kinds;
+}
+
+std::string in_folder(std::string command, const std::string& folder) {
+  return command.replace(command.find("FOLDER"), 6, folder);
+}
+
+TEST(Faults, AFullDiskExitsWith4AndLeavesTheOldFile) {
+  for (const auto& [file, command] : all_kinds_of_files()) {
+    SCOPED_TRACE(command);
+    const SceneFolder folder;
+    folder.write("scene.toml", scene);
+    folder.write(file, "old");
+    // The shell makes the system refuse to let any file grow, and drape inherits that.
+    const Finished finished = drape(folder, in_folder(command, "."), "ulimit -f 0;");
+    EXPECT_EQ(finished.code, 4) << finished.text;
+    EXPECT_NE(finished.text.find("cannot write "), std::string::npos) << finished.text;
+    EXPECT_EQ(content(folder.path() / file), "old");
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
+      const std::string name = entry.path().filename();
+      const bool known = entry.is_directory() || name == "scene.toml" || name == file || name == "film.drape.partial";
+      EXPECT_TRUE(known) << name;
+    }
+  }
 }
 
 TEST(Faults, AFolderThatCannotBeWrittenExitsWith4BeforeAnythingIsComputed) {
   const SceneFolder folder;
-  folder.write("scene.toml", scene);
-  for (const char* option : {"render scene.toml --set time.duration=1e5 -o /proc/film.gif",
-                             "simulate scene.toml --set time.duration=1e5 --energies /proc/table.csv"}) {
-    const Finished finished = drape(folder, option);
-    EXPECT_EQ(finished.code, 4) << finished.text;
-    EXPECT_NE(finished.text.find("/proc/"), std::string::npos) << finished.text;
+  std::string minutes = scene;
+  minutes.replace(minutes.find("duration = 2"), 12, "duration = 1e3");
+  folder.write("scene.toml", minutes);
+  folder.write("file", "old");
+  for (const auto& [file, command] : all_kinds_of_files()) {
+    for (const std::string place : {"/proc", "file"}) {
+      SCOPED_TRACE(in_folder(command, place));
+      const Finished finished = drape(folder, in_folder(command, place));
+      EXPECT_EQ(finished.code, 4) << finished.text;
+      EXPECT_TRUE(finished.text.starts_with("drape: cannot write " + place + "/")) << finished.text;
+    }
   }
+  EXPECT_EQ(content(folder.path() / "file"), "old");
+  EXPECT_EQ(names(folder), (std::vector<std::string>{"file", "scene.toml"}));
 }
 
 TEST(Faults, ATextureThatIsMissingOrCutIsNamed) {
