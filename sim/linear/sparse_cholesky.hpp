@@ -3,6 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace drape {
 
 /// The lower triangle of a symmetric n×n matrix by columns: the rows of column c are rows[starts[c]] to
@@ -15,10 +17,17 @@ struct LowerPattern {
   [[nodiscard]] int entries() const { return starts.back(); }
 };
 
+/// What takes far longer to factor than a surface: it depends on the cloth alone, unlike whether a factor fits into
+/// memory.
+class UnlikeASurface : public UsageError {
+ public:
+  using UsageError::UsageError;
+};
+
 /// Refuses the factor of a graph that is no surface's before minutes go by without a sign.
 /// @param operations it takes, multiplications and additions
 /// @param always     so many are allowed for any graph
-/// @throws UsageError
+/// @throws UnlikeASurface
 void require_surface(double rows, double operations, double always);
 
 /// The Cholesky factorisation A = Pᵀ L Lᵀ P of a sparse symmetric positive-definite matrix, by CHOLMOD (Chen et al.

@@ -1,9 +1,11 @@
 #include "sim/solvers/patch_newton.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
+#include "core/memory.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/solvers/newton.hpp"
 
@@ -17,6 +19,9 @@ constexpr double worthwhile = 0.02;
 // What the first iterations leave is mostly at the rims, which more of them do not move.
 constexpr int patch_iterations = 6;
 constexpr double margin = 0.5;  // that the tolerance leaves for the rims
+// So many vertices may be in patches, whatever memory the machine has, as the motion depends on it. Each takes up to
+// 5 kB: a factor's numbers, with what is needed to make it.
+constexpr double most_vertices = 250'000, bytes_per_vertex = 5e3;
 
 std::size_t at(int number) { return static_cast<std::size_t>(number); }
 
@@ -42,7 +47,11 @@ PatchNewton::PatchNewton(const System& system, const StepObjective& objective, d
       tolerance_(tolerance),
       springs_at_(springs_at(system)),
       places_(at(system.cloth.vertex_count())),
-      numbers_(places_.size()) {}
+      numbers_(places_.size()) {
+  const double most = std::min(most_vertices, usual_share * static_cast<double>(places_.size()));
+  require_memory(fmt::format("Newton's method on patches of {:.0f} vertices", most), bytes_per_vertex * most,
+                 "use a coarser cloth or another method");
+}
 
 void PatchNewton::surround(std::size_t first, Place place) {
   const std::size_t end = vertices_.size();
@@ -107,7 +116,8 @@ Cloth PatchNewton::cut_out(const Vertices& x) {
 
 double PatchNewton::settle(Iterate& point, double share) {
   find_patches(point.gradient);
-  if (inside_ == 0 || static_cast<double>(inside_) > share * static_cast<double>(places_.size())) return 0;
+  const double most = std::min(most_vertices, share * static_cast<double>(places_.size()));
+  if (inside_ == 0 || static_cast<double>(inside_) > most) return 0;
   const Cloth cloth = cut_out(point.x);
   System system(cloth, system_.step, system_.threads);
   system.stop = system_.stop;
@@ -125,8 +135,8 @@ double PatchNewton::settle(Iterate& point, double share) {
   settings.linear_solver = LinearSolver::cholesky;
   try {
     Newton(system, objective, settings).minimise(patch, [] { return true; });
-  } catch (const UsageError&) {
-    return 0;  // for want of memory
+  } catch (const UnlikeASurface&) {
+    return 0;
   }
   for (Eigen::Index row = 0; const int vertex : vertices_) point.x.row(vertex) = patch.x.row(row++);
   point.value = objective_.evaluate(point.x, point.gradient);

@@ -17,13 +17,18 @@ namespace drape {
 /// For cloth that is held together by springs alone: no energy is asked for the part of it that a patch has.
 class PatchNewton {
  public:
+  /// Of all vertices, those that may be in patches with the memory that is asked for at first.
+  static constexpr double usual_share = 0.25;
+
   /// @param objective of every step, which must outlive this
   /// @param tolerance of the error of a vertex [m]
+  /// @throws UsageError if the usual share would not fit into memory
   PatchNewton(const System& system, const StepObjective& objective, double tolerance);
 
   /// Lowers g by moving the vertices of the patches, which have vertices above the tolerance and those around them. A
   /// function of the point and the objective alone.
-  /// @param share of all vertices that may be in patches; where there are more nothing is done
+  /// @param share of all vertices that may be in patches, and never more than 250 000 of them; where there are more
+  ///              nothing is done
   /// @return how far they were moved [m], the 2-norm over all unknowns
   double settle(Iterate& point, double share);
 

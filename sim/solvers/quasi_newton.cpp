@@ -8,10 +8,10 @@ namespace {
 constexpr int quasi_newton_iterations = 500;
 
 // After so many iterations on the whole cloth there is one on patches, and while these are so small that it costs less
-// than those, some more. First there may be as many vertices in patches as there is memory for.
+// than those, some more.
 constexpr int between_patches = 5;
 constexpr int most_rounds = 4;
-constexpr double first_share = 0.25, next_share = 0.03;
+constexpr double next_share = 0.03;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void QuasiNewton::start() {
 
 double QuasiNewton::settle_patches(Iterate& point) {
   if (!patches_ || wait_-- > 0) return 0;
-  const double change = patches_->settle(point, round_ == 0 ? first_share : next_share);
+  const double change = patches_->settle(point, round_ == 0 ? PatchNewton::usual_share : next_share);
   if (change > 0) history_.clear();
   const bool again = change > 0 && ++round_ < most_rounds;
   wait_ = again ? 0 : between_patches;

@@ -74,6 +74,25 @@ TEST(CommandLine, RefusesAFactorThatCannotFitBeforeItIsBegun) {
   EXPECT_NE(finished.text.find("a sparse factor of 121197 rows would take"), std::string::npos) << finished.text;
 }
 
+// Whatever memory there is: quasi-Newton on patches of a large cloth is never left out for want of it.
+TEST(CommandLine, EitherRefusesWhatCannotFitOrComesToTheSameBits) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", scene);
+  const std::string command =
+      "simulate scene.toml --quiet --steps 1 --set cloth.mesh.grid=[145,145] --set "
+      "'integrator={stop=\"error\",tolerance=1e-3}' --positions ";
+  ASSERT_EQ(drape(folder, command + "any.csv").code, 0);
+  int patches_refused = 0;
+  for (int kilobytes = 110'000;; kilobytes += 5'000) {
+    const Finished finished = drape(folder, command + "few.csv", "ulimit -v " + std::to_string(kilobytes) + ";");
+    if (finished.code == 0) break;
+    ASSERT_EQ(finished.code, 2) << finished.text;
+    patches_refused += finished.text.find("patches of 5329 vertices would take 0.03 GB") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_GT(patches_refused, 0);
+  EXPECT_EQ(test::content(folder.path("few.csv")), test::content(folder.path("any.csv")));
+}
+
 TEST(CommandLine, SaysWhatErrorTheStepsLeftAndThatAStandingClothIsNoEquilibrium) {
   const test::SceneFolder folder;
   folder.write("scene.toml", scene + "[effects.damping]\nfactor = 1e-4\n");
