@@ -16,8 +16,9 @@ constexpr double tolerance_of_estimates = 0.1;
 
 // What takes how long, in nanoseconds of one machine: only their ratios count. Measured on grids of 10×10 to 100×100
 // cells and on irregular meshes of 1400 and 4000 vertices, with and without bending, where they agree within a third.
-// Of an iteration: a number of A's factor, a pair of vertices in a band or gathered by index, and a vertex;
-constexpr double of_number = 0.35, of_pair = 1.2, of_gathered_pair = 10, of_vertex = 4;
+// Of an iteration: a number of A's factor, a pair of vertices in a band or gathered by index, a vertex, and its block
+// of D, where there is one, with its share of making that;
+constexpr double of_number = 0.35, of_pair = 1.2, of_gathered_pair = 10, of_vertex = 4, of_block = 2.5;
 // of H's factor: an operation, an entry of L, and the assembly of a pair.
 constexpr double of_operation = 0.015, of_entry = 2.5, of_assembled_pair = 130;
 
@@ -83,8 +84,8 @@ int ConjugateGradients::worth_a_factor() const {
       static_cast<double>(springs.gathered()) / std::max(1.0, static_cast<double>(springs.springs().size()));
   const auto entries = static_cast<double>(preconditioner_.entries());
   const auto pairs = static_cast<double>(pair_count_), vertices = static_cast<double>(residual_.rows());
-  const double iteration =
-      of_number * entries + of_vertex * vertices + (gathered * of_gathered_pair + (1 - gathered) * of_pair) * pairs;
+  const double iteration = of_number * entries + (diagonal_ ? of_vertex + of_block : of_vertex) * vertices +
+                           (gathered * of_gathered_pair + (1 - gathered) * of_pair) * pairs;
   // H couples what A couples by 3×3 blocks: three times the columns, of three times the entries each.
   const double factor =
       27 * of_operation * preconditioner_.operations() + 9 * of_entry * entries + of_assembled_pair * pairs;
