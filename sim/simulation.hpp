@@ -34,6 +34,8 @@ enum class Timing { none, effects };
 /// moved; one that has been moved from can only be assigned to.
 class Simulation {
  public:
+  /// @param settings as a scene has them: a positive step, at least one thread, and effects whose check() finds nothing
+  ///                 wrong, which is not called again
   /// @param stop asked for as long as it lives
   /// @throws UsageError if the motion cannot be computed, see stability_problem() and MethodType::make
   /// @throws Interrupted

@@ -10,7 +10,7 @@ class Keys;
 struct GustValues {
   double speed = 0;     ///< the most that each component of the wind changes by; 0: there are none [m/s]
   double size = 1;      ///< from one gust to the next, in every direction [m]
-  double duration = 1;  ///< of a gust that one moves along with [s]
+  double duration = 1;  ///< lifetime of a gust, in the frame moving with the wind [s]
   int seed = 1;         ///< another number gives other gusts
 
   void describe(Keys& keys);
@@ -22,8 +22,8 @@ class Gusts {
  public:
   Gusts(const GustValues& values, const Eigen::Vector3d& wind) : values_(values), wind_(wind) {}
 
-  /// What is added to the wind [m/s]; each component is between −speed and speed, continuous with its first
-  /// derivatives, and 0 on average.
+  /// What is added to the wind [m/s] at a place [m] and time [s]; each component is between −speed and speed,
+  /// continuous with its first derivatives, and 0 on average.
   [[nodiscard]] Eigen::Vector3d at(const Eigen::Vector3d& place, double time) const;
 
  private:
