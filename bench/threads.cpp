@@ -16,7 +16,9 @@
 #include <vector>
 
 #include "bench/moving_cloth.hpp"
+#include "bench/touching_cloth.hpp"
 #include "sim/effects/gravity.hpp"
+#include "sim/effects/self_collision.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/simulation.hpp"
 
@@ -139,6 +141,37 @@ std::string row_of(const Case& c, int cells) {
   return row(fmt::format("{}, {}²", c.name, cells), seconds, c.batch);
 }
 
+/// A step of liu13 of one iteration with something that the cloth touches.
+struct Touch {
+  const char* name;
+  Effect with;
+  Cloth (*cloth)(int cells);
+};
+
+std::vector<Touch> touches() {
+  Body solved_for = make_cushion();
+  solved_for.response = Response::implicit_energy;
+  return {{"step of one iteration", Gravity{}, make_folded_cloth},
+          {"the same, folded on itself", SelfCollision{.thickness = 0.012}, make_folded_cloth},
+          {"the same, on a body", make_cushion(), make_lying_cloth},
+          {"the same, its push solved for", solved_for, make_lying_cloth}};
+}
+
+std::string row_of(const Touch& touch, int cells) {
+  SimulationSettings settings{.cloth = touch.cloth(cells), .effects = {touch.with}};
+  settings.step = 0.01;
+  settings.integrator = {.method = Method::liu13, .stop = StoppingRule::change, .tolerance = 0, .max_iterations = 1};
+  const std::vector<double> seconds = measure([&](int threads) {
+    settings.threads = threads;
+    const auto simulation = std::make_shared<Simulation>(settings);
+    return [simulation, start = simulation->state()] {
+      simulation->restore(start);
+      simulation->step();
+    };
+  });
+  return row(fmt::format("{}, {}²", touch.name, cells), seconds, 1);
+}
+
 std::string row_of_forks() {
   constexpr int forks = 100;
   return row("dividing an empty loop", measure([](int count) {
@@ -177,6 +210,10 @@ int main(int argc, char** argv) {
   for (const int cells : sizes) {
     for (const Case& c : cases) {
       fmt::print("{}\n", row_of(c, cells));
+      std::fflush(stdout);
+    }
+    for (const Touch& touch : touches()) {
+      fmt::print("{}\n", row_of(touch, cells));
       std::fflush(stdout);
     }
   }

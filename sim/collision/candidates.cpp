@@ -18,54 +18,81 @@ bool may_come_near(Feature feature, const FourPoints& from, FourPoints to, doubl
   return nearest(feature, from).squared <= near * near;
 }
 
-CollisionCandidates::CollisionCandidates(const Cloth& cloth)
-    : edges_(unique_edges(cloth.triangles)), pinned_(static_cast<std::size_t>(cloth.vertex_count()), false) {
+CollisionCandidates::CollisionCandidates(const Cloth& cloth, const Threads& threads)
+    : threads_(for_so_many(threads, cloth.vertex_count())),
+      edges_(unique_edges(cloth.triangles)),
+      pinned_(static_cast<std::size_t>(cloth.vertex_count()), 0) {
   for (const Triangle& t : cloth.triangles) {
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles_.push_back(t);
   }
   for (const Edge& edge : edges_) corners_.insert(corners_.end(), edge.begin(), edge.end());
   std::sort(corners_.begin(), corners_.end());
   corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
-  for (const int pin : cloth.pins) pinned_[static_cast<std::size_t>(pin)] = true;
+  for (const int pin : cloth.pins) pinned_[static_cast<std::size_t>(pin)] = 1;
+}
+
+void CollisionCandidates::surround(const std::vector<Point>& from, const std::vector<Point>& to, double margin) {
+  const auto for_all = [&](std::size_t count, auto&& use) {
+    for_ranges(threads_, static_cast<Eigen::Index>(count), [&](Eigen::Index first, Eigen::Index many) {
+      for (Eigen::Index i = first; i < first + many; ++i) use(static_cast<std::size_t>(i));
+    });
+  };
+  const auto box = [&](int i) -> const Box& { return vertex_boxes_[static_cast<std::size_t>(i)]; };
+  const Eigen::Vector3d all_around = Eigen::Vector3d::Constant(margin);
+  vertex_boxes_.resize(from.size());
+  for_all(from.size(), [&](std::size_t i) {
+    vertex_boxes_[i] = {from[i].cwiseMin(to[i]) - all_around, from[i].cwiseMax(to[i]) + all_around};
+  });
+  triangle_boxes_.resize(triangles_.size());
+  for_all(triangles_.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = triangles_[t];
+    triangle_boxes_[t] = around(around(box(a), box(b)), box(c));
+  });
+  edge_boxes_.resize(edges_.size());
+  for_all(edges_.size(), [&](std::size_t e) { edge_boxes_[e] = around(box(edges_[e][0]), box(edges_[e][1])); });
 }
 
 void CollisionCandidates::find(const std::vector<Point>& from, const std::vector<Point>& to, double reach) {
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(reach / 2);
-  vertex_boxes_.resize(from.size());
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    vertex_boxes_[i] = {from[i].cwiseMin(to[i]) - margin, from[i].cwiseMax(to[i]) + margin};
-  }
-  const auto box = [&](int i) -> const Box& { return vertex_boxes_[static_cast<std::size_t>(i)]; };
-  triangle_boxes_.resize(triangles_.size());
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    const auto& [a, b, c] = triangles_[t];
-    triangle_boxes_[t] = around(around(box(a), box(b)), box(c));
-  }
-  edge_boxes_.resize(edges_.size());
-  for (std::size_t e = 0; e < edges_.size(); ++e) edge_boxes_[e] = around(box(edges_[e][0]), box(edges_[e][1]));
-
-  pairs_.clear();
-  triangle_hash_.build(triangle_boxes_);
-  for (const int i : corners_) {
-    triangle_hash_.for_overlapping(box(i), [&](int k) {
-      const auto& [a, b, c] = triangles_[static_cast<std::size_t>(k)];
-      if (i != a && i != b && i != c) add({Feature::vertex_triangle, {i, a, b, c}}, from, to, reach);
-    });
-  }
-  edge_hash_.build(edge_boxes_);
-  edge_hash_.for_pairs([&](int k, int l) {
-    const auto& [a, b] = edges_[static_cast<std::size_t>(k)];
-    const auto& [c, d] = edges_[static_cast<std::size_t>(l)];
-    if (a != c && a != d && b != c && b != d) add({Feature::edge_edge, {a, b, c, d}}, from, to, reach);
+  surround(from, to, reach / 2);
+  threads_.for_each(2, [&](int part) {
+    if (part == 0) {
+      edge_hash_.build(edge_boxes_);
+    } else {
+      triangle_hash_.build(triangle_boxes_);
+    }
   });
-  std::sort(pairs_.begin(), pairs_.end());
-}
-
-void CollisionCandidates::add(const FeaturePair& pair, const std::vector<Point>& from, const std::vector<Point>& to,
-                              double reach) {
-  const auto& v = pair.vertices;
-  if (std::all_of(v.begin(), v.end(), [&](int i) { return pinned_[static_cast<std::size_t>(i)]; })) return;
-  if (may_come_near(pair.feature, gather(from, v), gather(to, v), reach)) pairs_.push_back(pair);
+  const auto add = [&](const FeaturePair& pair, std::vector<FeaturePair>& found) {
+    const auto& v = pair.vertices;
+    if (std::all_of(v.begin(), v.end(), [&](int i) { return pinned_[static_cast<std::size_t>(i)] != 0; })) return;
+    if (may_come_near(pair.feature, gather(from, v), gather(to, v), reach)) found.push_back(pair);
+  };
+  // Features are gone through in their order, so only the pairs of each have to be sorted.
+  const auto find_all = [&](std::size_t count, auto&& find_of) {
+    found_.fill(threads_, static_cast<Eigen::Index>(count),
+                [&](Eigen::Index first, Eigen::Index many, std::vector<FeaturePair>& found) {
+                  for (Eigen::Index k = first; k < first + many; ++k) {
+                    const auto before = static_cast<std::ptrdiff_t>(found.size());
+                    find_of(static_cast<std::size_t>(k), found);
+                    std::sort(found.begin() + before, found.end());
+                  }
+                });
+    found_.append_to(pairs_);
+  };
+  pairs_.clear();
+  find_all(corners_.size(), [&](std::size_t k, std::vector<FeaturePair>& found) {
+    const int i = corners_[k];
+    triangle_hash_.for_overlapping(vertex_boxes_[static_cast<std::size_t>(i)], [&](int t) {
+      const auto& [a, b, c] = triangles_[static_cast<std::size_t>(t)];
+      if (i != a && i != b && i != c) add({Feature::vertex_triangle, {i, a, b, c}}, found);
+    });
+  });
+  find_all(edges_.size(), [&](std::size_t k, std::vector<FeaturePair>& found) {
+    const auto& [a, b] = edges_[k];
+    edge_hash_.for_later(static_cast<int>(k), [&](int l) {
+      const auto& [c, d] = edges_[static_cast<std::size_t>(l)];
+      if (a != c && a != d && b != c && b != d) add({Feature::edge_edge, {a, b, c, d}}, found);
+    });
+  });
 }
 
 }  // namespace drape

@@ -7,6 +7,7 @@
 #include "sim/cloth.hpp"
 #include "sim/collision/distance.hpp"
 #include "sim/collision/spatial_hash.hpp"
+#include "sim/parallel/part_lists.hpp"
 
 namespace drape {
 
@@ -53,7 +54,8 @@ bool may_come_near(Feature feature, const FourPoints& from, FourPoints to, doubl
 /// Finds the pairs of features of a cloth that may come near each other while its vertices move on straight lines.
 class CollisionCandidates {
  public:
-  explicit CollisionCandidates(const Cloth& cloth);
+  /// @param threads that share a search, in a large cloth
+  explicit CollisionCandidates(const Cloth& cloth, const Threads& threads = one_thread());
 
   /// Finds every pair that comes nearer than `reach` [m] while the vertices go from `from` to `to`, and some more;
   /// those of pins only are left out.
@@ -63,14 +65,17 @@ class CollisionCandidates {
   [[nodiscard]] const std::vector<FeaturePair>& pairs() const { return pairs_; }
 
  private:
-  void add(const FeaturePair& pair, const std::vector<Point>& from, const std::vector<Point>& to, double reach);
+  /// The boxes around all features on their ways.
+  void surround(const std::vector<Point>& from, const std::vector<Point>& to, double margin);
 
+  const Threads& threads_;
   std::vector<Triangle> triangles_;
   std::vector<Edge> edges_;
   std::vector<int> corners_;  // the vertices of the triangles, each once
-  std::vector<bool> pinned_;
+  std::vector<char> pinned_;
   std::vector<Box> vertex_boxes_, triangle_boxes_, edge_boxes_;
   SpatialHash triangle_hash_, edge_hash_;
+  PartLists<FeaturePair> found_;
   std::vector<FeaturePair> pairs_;
 };
 

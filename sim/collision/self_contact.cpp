@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 
 #include "sim/collision/impact.hpp"
@@ -18,11 +20,16 @@ constexpr double slack = 0.25;
 constexpr double clearly = 1.001;
 // After so many rounds all zones are joined: then it ends in as many rounds as there are vertices left outside.
 constexpr int most_zone_rounds = 50;
+constexpr Eigen::Index pairs_worth_dividing = 512;
 
 }  // namespace
 
-SelfContact::SelfContact(const SelfCollision& values, const Cloth& cloth)
-    : values_(values), cloth_(cloth), candidates_(cloth), sheet_(cloth) {
+SelfContact::SelfContact(const SelfCollision& values, const Cloth& cloth, const Threads& threads)
+    : values_(values),
+      cloth_(cloth),
+      threads_(for_so_many(threads, cloth.vertex_count())),
+      candidates_(cloth, threads),
+      sheet_(cloth) {
   const auto count = static_cast<Index>(cloth.vertex_count());
   moving_.velocities.resize(count);
   for (int i = 0; i < cloth.vertex_count(); ++i) moving_.inverse_masses.push_back(1 / cloth.masses[i]);
@@ -52,43 +59,57 @@ void SelfContact::apply(const Vertices& x, double, double h, Vertices& v) {
   repel();
   stop_impacts();
   if (!impacts_.empty()) make_rigid();
-  for (Eigen::Index i = 0; i < v.rows(); ++i) {
-    if (moving_.inverse_masses[Index(i)] > 0) v.row(i) = moving_.velocities[Index(i)].transpose();
-  }
+  for_ranges(threads_, v.rows(), [&](Eigen::Index first, Eigen::Index count) {
+    for (Eigen::Index i = first; i < first + count; ++i) {
+      if (moving_.inverse_masses[Index(i)] > 0) v.row(i) = moving_.velocities[Index(i)].transpose();
+    }
+  });
 }
 
 void SelfContact::load(const Vertices& x, double h, const Vertices& v) {
   h_ = h;
-  for (Eigen::Index i = 0; i < x.rows(); ++i) {
-    x_[Index(i)] = x.row(i).transpose();
-    moving_.velocities[Index(i)] = v.row(i).transpose();
-    target_[Index(i)] = x_[Index(i)] + h * moving_.velocities[Index(i)];
-  }
+  for_ranges(threads_, x.rows(), [&](Eigen::Index first, Eigen::Index count) {
+    for (Eigen::Index i = first; i < first + count; ++i) {
+      x_[Index(i)] = x.row(i).transpose();
+      moving_.velocities[Index(i)] = v.row(i).transpose();
+      target_[Index(i)] = x_[Index(i)] + h * moving_.velocities[Index(i)];
+    }
+  });
 }
 
 void SelfContact::find_candidates() {
   look_at_stop();
   // Reaches as far as two targets can move towards each other before the candidates are found anew.
   // What the whole cloth does together would only make them search in larger boxes.
-  Point together = Point::Zero();
-  for (Index i = 0; i < x_.size(); ++i) together += target_[i] - x_[i];
-  together /= static_cast<double>(x_.size());
-  for (Index i = 0; i < x_.size(); ++i) found_for_[i] = target_[i] - together;
+  const auto vertices = static_cast<Eigen::Index>(x_.size());
+  const Point together = sum_of(threads_, vertices,
+                                [&](Eigen::Index first, Eigen::Index count) {
+                                  Point sum = Point::Zero();
+                                  for (Index i = Index(first); i < Index(first + count); ++i) sum += target_[i] - x_[i];
+                                  return sum;
+                                }) /
+                         static_cast<double>(vertices);
+  for_ranges(threads_, vertices, [&](Eigen::Index first, Eigen::Index count) {
+    for (Index i = Index(first); i < Index(first + count); ++i) found_for_[i] = target_[i] - together;
+  });
   candidates_.find(x_, found_for_, (1 + 2 * slack) * values_.thickness);
   found_for_ = target_;
   std::fill(changed_.begin(), changed_.end(), 1);
 }
 
 void SelfContact::move_targets() {
-  bool far = false;
-  for (Index i = 0; i < x_.size(); ++i) {
-    const Point target = x_[i] + h_ * moving_.velocities[i];
-    if (target == target_[i]) continue;
-    target_[i] = target;
-    changed_[i] = 1;
-    far |= (target - found_for_[i]).norm() > slack * values_.thickness;
-  }
-  if (far) find_candidates();
+  const auto move = [&](Eigen::Index first, Eigen::Index count) {
+    bool far = false;
+    for (Index i = Index(first); i < Index(first + count); ++i) {
+      const Point target = x_[i] + h_ * moving_.velocities[i];
+      if (target == target_[i]) continue;
+      target_[i] = target;
+      changed_[i] = 1;
+      far |= (target - found_for_[i]).norm() > slack * values_.thickness;
+    }
+    return far;
+  };
+  if (reduce(threads_, static_cast<Eigen::Index>(x_.size()), move, std::logical_or<>())) find_candidates();
 }
 
 FourPoints SelfContact::places(const FeaturePair& pair) const {
@@ -102,26 +123,32 @@ double SelfContact::rest_distance(const FeaturePair& pair) const {
   return std::sqrt(nearest(pair.feature, rest).squared);
 }
 
+void SelfContact::add_contact(const FeaturePair& pair, std::vector<Contact>& contacts) const {
+  const FourPoints p = places(pair);
+  const Nearest near = nearest(pair.feature, p);
+  const double distance = std::sqrt(near.squared);
+  if (!(distance > 0)) return;
+  const Point difference = near.difference(p);
+  Point relative = Point::Zero();
+  for (Index i = 0; i < 4; ++i) relative += near.weights[i] * moving_.velocity(pair.vertices[i]);
+  const double end = distance + h_ * relative.dot(difference) / distance;
+  if (end >= values_.thickness) return;
+  // Neighbours are nearer than the thickness where the mesh is finer than that.
+  const double gap = distance - std::min(values_.thickness, rest_distance(pair));
+  const double speed = gap < 0 ? -gap * std::min(values_.repulsion, 1 / h_) : -gap / h_;
+  contacts.emplace_back(pair, near.weights, difference, speed, moving_);
+}
+
 void SelfContact::repel() {
-  contacts_.clear();
-  for (const FeaturePair& pair : candidates_.pairs()) {
-    const FourPoints p = places(pair);
-    const Nearest near = nearest(pair.feature, p);
-    const double distance = std::sqrt(near.squared);
-    if (!(distance > 0)) continue;
-    const Point difference = near.difference(p);
-    Point relative = Point::Zero();
-    for (Index i = 0; i < 4; ++i) relative += near.weights[i] * moving_.velocity(pair.vertices[i]);
-    const double end = distance + h_ * relative.dot(difference) / distance;
-    if (end >= values_.thickness) continue;
-    // Neighbours are nearer than the thickness where the mesh is finer than that.
-    const double gap = distance - std::min(values_.thickness, rest_distance(pair));
-    const double speed = gap < 0 ? -gap * std::min(values_.repulsion, 1 / h_) : -gap / h_;
-    contacts_.emplace_back(pair, near.weights, difference, speed, moving_);
-  }
+  contacts_.fill(
+      threads_, std::ssize(candidates_.pairs()),
+      [&](Eigen::Index first, Eigen::Index count, std::vector<Contact>& contacts) {
+        for (Index k = Index(first); k < Index(first + count); ++k) add_contact(candidates_.pairs()[k], contacts);
+      },
+      pairs_worth_dividing);
   for (int pass = 0; pass < values_.iterations; ++pass) {
     look_at_stop();
-    for (Contact& contact : contacts_) contact.apply(values_.friction, moving_);
+    contacts_.for_each([&](Contact& contact) { contact.apply(values_.friction, moving_); });
   }
   move_targets();
 }
@@ -132,13 +159,18 @@ bool SelfContact::changed(const FeaturePair& pair) const {
 
 void SelfContact::find_impacts() {
   look_at_stop();
+  const auto find = [&](Eigen::Index first, Eigen::Index count, std::vector<Impact>& impacts) {
+    for (Index k = Index(first); k < Index(first + count); ++k) {
+      const FeaturePair& pair = candidates_.pairs()[k];
+      if (!changed(pair)) continue;
+      FourPoints move;
+      for (Index i = 0; i < 4; ++i) move[i] = h_ * moving_.velocity(pair.vertices[i]);
+      if (const auto time = time_of_impact(pair.feature, places(pair), move)) impacts.push_back({pair, *time});
+    }
+  };
+  found_.fill(threads_, std::ssize(candidates_.pairs()), find, pairs_worth_dividing);
   impacts_.clear();
-  for (const FeaturePair& pair : candidates_.pairs()) {
-    if (!changed(pair)) continue;
-    FourPoints move;
-    for (Index i = 0; i < 4; ++i) move[i] = h_ * moving_.velocity(pair.vertices[i]);
-    if (const auto time = time_of_impact(pair.feature, places(pair), move)) impacts_.push_back({pair, *time});
-  }
+  found_.append_to(impacts_);
   std::fill(changed_.begin(), changed_.end(), 0);
 }
 

@@ -18,7 +18,8 @@ namespace drape {
 /// Every change is by opposite impulses or keeps momentum otherwise, so linear momentum is kept to rounding.
 class SelfContact final : public MotionFilter {
  public:
-  SelfContact(const SelfCollision& values, const Cloth& cloth);
+  /// @param threads that share the search and what is looked at of each pair; impulses are one after another
+  SelfContact(const SelfCollision& values, const Cloth& cloth, const Threads& threads = one_thread());
 
   void apply(const Vertices& x, double time, double h, Vertices& v) override;
   [[nodiscard]] bool converged() const override { return converged_; }
@@ -37,6 +38,8 @@ class SelfContact final : public MotionFilter {
   [[nodiscard]] FourPoints places(const FeaturePair& pair) const;
   [[nodiscard]] double rest_distance(const FeaturePair& pair) const;
   [[nodiscard]] bool changed(const FeaturePair& pair) const;
+  /// Appends a pair's contact, if it is to have one.
+  void add_contact(const FeaturePair& pair, std::vector<Contact>& contacts) const;
 
   struct Impact {
     FeaturePair pair;
@@ -45,6 +48,7 @@ class SelfContact final : public MotionFilter {
 
   SelfCollision values_;
   const Cloth& cloth_;
+  const Threads& threads_;
   CollisionCandidates candidates_;
   SmoothSheet sheet_;
   MovingVertices moving_;
@@ -52,7 +56,8 @@ class SelfContact final : public MotionFilter {
   double h_ = 0;
   std::vector<Point> x_, target_, found_for_;  // where vertices are, would go, and would have gone when last searched
   std::vector<char> changed_;                  // vertices whose targets changed since impacts were last looked for
-  std::vector<Contact> contacts_;
+  PartLists<Contact> contacts_;
+  PartLists<Impact> found_;
   std::vector<Impact> impacts_;
   bool converged_ = true;
 };

@@ -40,7 +40,15 @@ void SpatialHash::build(std::span<const Box> boxes) {
   };
   for_entries([&](const Entry& entry) { ++starts_[slot_of(entry.key) + 1]; });
   for (std::size_t s = 1; s < starts_.size(); ++s) starts_[s] += starts_[s - 1];
-  for_entries([&](const Entry& entry) { entries_[static_cast<std::size_t>(starts_[slot_of(entry.key)]++)] = entry; });
+  places_.resize(wanted);
+  ends_.resize(boxes.size() + 1);
+  int count = 0;
+  for_entries([&](const Entry& entry) {
+    const int place = starts_[slot_of(entry.key)]++;
+    entries_[static_cast<std::size_t>(place)] = entry;
+    places_[static_cast<std::size_t>(count)] = place;
+    ends_[static_cast<std::size_t>(entry.box) + 1] = ++count;
+  });
   // Every start has moved to the next slot's.
   std::copy_backward(starts_.begin(), starts_.end() - 1, starts_.end());
   starts_.front() = 0;

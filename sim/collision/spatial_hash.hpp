@@ -51,20 +51,20 @@ class SpatialHash {
     }
   }
 
-  /// Calls visit(k, l), k < l, for every two boxes that overlap.
+  /// Calls visit(l) for every box l > k that overlaps box k: of all k, for every two boxes that overlap.
   template <class Visit>
-  void for_pairs(Visit&& visit) const {
-    for (std::size_t slot = 0; slot + 1 < starts_.size(); ++slot) {
-      const std::size_t end = start_of(slot + 1);
-      for (std::size_t e = start_of(slot); e + 1 < end; ++e) {
-        const Entry& first = entries_[e];
-        const auto k = static_cast<std::size_t>(first.box);
-        for_near(round(boxes_[k]), e + 1, end, [&](const Entry& second) {
-          const auto l = static_cast<std::size_t>(second.box);
-          if (first.key != second.key || k == l || !is_first(cell_at(first.key), lows_[k], lows_[l])) return;
-          if (boxes_[k].overlaps(boxes_[l])) visit(first.box, second.box);
-        });
-      }
+  void for_later(int k, Visit&& visit) const {
+    const auto box = static_cast<std::size_t>(k);
+    const Rounded rounded = round(boxes_[box]);
+    for (auto n = static_cast<std::size_t>(ends_[box]); n < static_cast<std::size_t>(ends_[box + 1]); ++n) {
+      const auto e = static_cast<std::size_t>(places_[n]);
+      const std::uint64_t key = entries_[e].key;
+      // A slot's entries are in the order of the boxes.
+      for_near(rounded, e + 1, start_of(slot_of(key) + 1), [&](const Entry& other) {
+        const auto l = static_cast<std::size_t>(other.box);
+        if (other.key != key || l == box || !is_first(cell_at(key), lows_[box], lows_[l])) return;
+        if (boxes_[box].overlaps(boxes_[l])) visit(other.box);
+      });
     }
   }
 
@@ -158,6 +158,7 @@ class SpatialHash {
   std::vector<Cell> lows_, highs_;  // of the lowest and highest corner of each box
   std::vector<int> starts_;         // of each slot's entries
   std::vector<Entry> entries_;
+  std::vector<int> places_, ends_;             // of the entries, box by box; of each box's in there, after a 0
   std::array<std::vector<float>, 6> rounded_;  // the boxes of the entries, and room behind for reading at once
 };
 

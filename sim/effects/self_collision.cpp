@@ -38,7 +38,7 @@ void SelfCollision::check(const SimulationSettings& settings, const ProblemSink&
 }
 
 void SelfCollision::install(System& system) const {
-  system.filters.push_back(std::make_unique<SelfContact>(*this, system.cloth));
+  system.filters.push_back(std::make_unique<SelfContact>(*this, system.cloth, system.threads));
 }
 
 }  // namespace drape

@@ -17,6 +17,11 @@ inline constexpr Eigen::Index numbers_worth_dividing =
     Eigen::Index{3} * worth_dividing;  ///< of loops over the vertices' coordinates
 inline constexpr int most_parts = 64;  ///< of a sum
 
+/// The threads for loops over what belongs to so many vertices: where these are few, one.
+inline const Threads& for_so_many(const Threads& threads, Eigen::Index vertices) {
+  return vertices < worth_dividing ? one_thread() : threads;
+}
+
 /// Where part `part` of `parts` begins, of `count` things: at multiples of eight, where cache lines of numbers begin.
 constexpr Eigen::Index begin_of_part(Eigen::Index count, int part, int parts) {
   return part == parts ? count : count / 8 * part / parts * 8;

@@ -151,6 +151,31 @@ TEST_P(Allocations, AbsentEffectsTakeNothing) {
   EXPECT_EQ(made(), 3) << "the springs' copy, the list of forces and gravity";
 }
 
+/// A step of a cloth that threads share, taken again and again from the same start.
+long taken_by_the_same_step(SimulationSettings settings) {
+  settings.threads = 3;
+  Simulation simulation(settings);
+  for (int step = 0; step < 3; ++step) simulation.step();
+  const State start = simulation.state();
+  long before = 0;
+  for (int again = 0; again < 40; ++again) {
+    simulation.restore(start);
+    before = allocations;
+    simulation.step();
+  }
+  return allocations - before;
+}
+
+TEST(AllocationsByThreads, AStepTakesNothingForTheListsOfContacts) {
+  if (!counted) GTEST_SKIP() << "a sanitizer has an allocator of its own";
+  SimulationSettings settings = setup(cloth_of(make_grid(92, 92), 1, 180, {0, 92}), Method::liu13, 0.01);
+  settings.integrator.max_iterations = 3;
+  settings.cloth.positions.col(2) = 0.02 * (30 * settings.cloth.positions.col(0).array()).sin();
+  settings.cloth.positions.col(0) *= 0.3;
+  settings.effects = {Gravity{}, SelfCollision{.thickness = 0.012}};
+  EXPECT_EQ(taken_by_the_same_step(settings), 0);
+}
+
 TEST(AllocationCounter, Counts) {
   if (!counted) GTEST_SKIP() << "a sanitizer has an allocator of its own";
   const long before = allocations;
