@@ -87,8 +87,9 @@ void CollisionCandidates::find(const std::vector<Point>& from, const std::vector
     });
   });
   find_all(edges_.size(), [&](std::size_t k, std::vector<FeaturePair>& found) {
-    const auto& [a, b] = edges_[k];
+    const Edge& edge = edges_[k];
     edge_hash_.for_later(static_cast<int>(k), [&](int l) {
+      const auto& [a, b] = edge;
       const auto& [c, d] = edges_[static_cast<std::size_t>(l)];
       if (a != c && a != d && b != c && b != d) add({Feature::edge_edge, {a, b, c, d}}, found);
     });
