@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/collision/candidates.hpp"
+
 namespace drape {
 namespace {
 
 // How many times the gap that must be kept is near enough to count as colliding: it is only approached.
 constexpr double near_enough = 1.2;
-// Features that slide along each other at a small distance need many steps. Then they count as colliding.
+// Features that touch but for rounding need many steps. Then they count as colliding.
 constexpr int max_steps = 200;
 
 Point mean(const FourPoints& p) { return (p[0] + p[1] + p[2] + p[3]) / 4; }
@@ -35,8 +37,13 @@ std::optional<double> time_of_impact(Feature feature, FourPoints p, FourPoints m
     if (time + forward > 1) return std::nullopt;
     time += forward;
     for (std::size_t i = 0; i < 4; ++i) p[i] += forward * move[i];
-    distance = std::sqrt(nearest(feature, p).squared);
+    const Nearest now = nearest(feature, p);
+    distance = std::sqrt(now.squared);
     if (distance <= near_enough * gap) return time;
+    // Those that slide along each other do not come nearer on the rest of their way.
+    FourPoints to = p;
+    for (std::size_t i = 0; i < 4; ++i) to[i] += (1 - time) * move[i];
+    if (kept_apart(feature, now.difference(p), p, to, near_enough * gap)) return std::nullopt;
   }
   return time;
 }

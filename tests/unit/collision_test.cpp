@@ -115,6 +115,17 @@ TEST(TimeOfImpact, OfAFallingVertexIsKnown) {
   EXPECT_FALSE(time_of_impact(Feature::vertex_triangle, p, {Point(5, 0, -1), o, o, o})) << "passes beside it";
 }
 
+// However near they are, and however far they go.
+TEST(TimeOfImpact, ThereIsNoneWhereFeaturesSlideAlongEachOther) {
+  const Point o(0, 0, 0);
+  for (const double height : {1e-3, 1e-5, 1e-7}) {
+    const FourPoints vertex{Point(0.1, 0.1, height), o, Point(1, 0, 0), Point(0, 1, 0)};
+    EXPECT_FALSE(time_of_impact(Feature::vertex_triangle, vertex, {Point(0.5, 0.2, 0), o, o, o})) << height;
+    const FourPoints edges{Point(-1, 0, height), Point(1, 0.1, height), Point(0, -1, 0), Point(0, 1, 0)};
+    EXPECT_FALSE(time_of_impact(Feature::edge_edge, edges, {Point(0, 0.5, 0), Point(0.2, 0.5, 0), o, o})) << height;
+  }
+}
+
 TEST(TimeOfImpact, OfCrossingEdgesIsKnown) {
   const Point o(0, 0, 0), down(0, 0, -3);
   const FourPoints p{Point(-1, 0, 1), Point(1, 0, 1), Point(0, -1, 0), Point(0, 1, 0)};
