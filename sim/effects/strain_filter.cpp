@@ -10,6 +10,10 @@ namespace {
 constexpr int early_sweeps = 30;
 // How often springs are looked at that had no impulse.
 constexpr int sweeps_between_looks = 2;
+// Where no more than this part of the springs is beyond the limits, a sweep ends with some over these and what is so
+// many springs around them alone.
+constexpr double few = 0.01;
+constexpr int rings = 3, most_passes = 8;
 // A spring that turns in one step by more than 25°, by the cosine of this, is pulled along where it ends.
 constexpr double least_cosine = 0.9;
 
@@ -37,9 +41,11 @@ StrainFilter::StrainFilter(const StrainLimit& limits, const Cloth& cloth)
                         .longest = limits.max_stretch * rest_length,
                         .shortest = limits.min_stretch.value_or(0) * rest_length,
                         .joined = link.joined});
+    const Limited& s = limited_.back();
+    ranges_.push_back({.i = s.i, .j = s.j, .least = s.shortest * s.shortest, .most = s.longest * s.longest});
   }
   moved_.reserve(change_.size());
-  for (auto* list : {&active_, &watched_, &merged_}) list->reserve(limited_.size());
+  for (auto* list : {&active_, &watched_, &merged_, &restless_}) list->reserve(limited_.size());
   string_.reserve(limited_.size());
 }
 
@@ -48,16 +54,21 @@ void StrainFilter::apply(const Vertices& x, double /*time*/, double h, Vertices&
   converged_ = active_.empty();
   pace_ = 1;
   last_value_ = std::numeric_limits<double>::infinity();
-  Assessment found{.value = 0, .hold = false};
+  double value = 0;
   int next_look = 0;
   for (int sweep = 0; sweep < limits_.iterations && !converged_; ++sweep) {
     look_at_stop();
-    if (sweep > 0) go_on(found.value);
-    for (const Index k : active_) relax(limited_[k], sweep < early_sweeps);
+    const bool early = sweep < early_sweeps;
+    if (sweep > 0) go_on(value);
+    relax_all(early);
     pull_strings();
-    found = assess();
-    if (!found.hold && sweep < next_look) continue;
-    converged_ = look_around(x) && found.hold;
+    value = assess();
+    if (!restless_.empty() && static_cast<double>(restless_.size()) <= few * static_cast<double>(active_.size())) {
+      settle(early);
+      value = assess();
+    }
+    if (!restless_.empty() && sweep < next_look) continue;
+    converged_ = look_around(x, early) && restless_.empty();
     next_look = sweep + sweeps_between_looks;
   }
   for (const int i : moved_) v.row(i) += change_[Index(i)].transpose() / h;
@@ -77,10 +88,10 @@ void StrainFilter::find_beyond(const Vertices& x, double h, const Vertices& v) {
   active_.clear();
   watched_.clear();
   target_ = x + h * v;
-  for (Index k = 0; k < limited_.size(); ++k) {
-    const Limited& s = limited_[k];
-    const double squared = (target_.row(s.i) - target_.row(s.j)).squaredNorm();
-    if (squared > s.longest * s.longest || squared < s.shortest * s.shortest) active_.push_back(k);
+  for (Index k = 0; k < ranges_.size(); ++k) {
+    const Range& range = ranges_[k];
+    const double squared = (target_.row(range.i) - target_.row(range.j)).squaredNorm();
+    if (squared > range.most || squared < range.least) active_.push_back(k);
   }
   const Index found = active_.size();
   for (Index k = 0; k < found; ++k) activate(active_[k], x);
@@ -98,6 +109,7 @@ void StrainFilter::activate(Index k, const Vertices& x) {
   s.direction = from_j_to_i(x, s).normalized();
   s.impulse.setZero();
   s.last.setZero();
+  s.push = 0;
   for (const int end : {s.i, s.j}) {
     if (weight_[end] == 0 || is_moved_[Index(end)] != 0) continue;
     is_moved_[Index(end)] = 1;
@@ -112,20 +124,22 @@ void StrainFilter::activate(Index k, const Vertices& x) {
   }
 }
 
-/// Activates what has been brought beyond its limits; whether none of it is beyond the tolerance, too.
-bool StrainFilter::look_around(const Vertices& x) {
+/// Activates what has been brought beyond its limits, and gives what is beyond the tolerance, too, what it needs, so
+/// that what this in turn brings beyond them is found as well. Returns whether there was none.
+bool StrainFilter::look_around(const Vertices& x, bool early) {
   bool all_hold = true;
   const Index before = active_.size();
-  const Index count = watched_.size();
-  for (Index w = 0; w < count; ++w) {
-    const Limited& s = limited_[watched_[w]];
+  for (Index w = 0; w < watched_.size(); ++w) {  // which activate() makes longer
+    Limited& s = limited_[watched_[w]];
     if (s.stage == Stage::active) continue;
     const Eigen::Vector3d end = end_of(s);
     const double squared = end.squaredNorm();
     if (squared <= s.longest * s.longest && squared >= s.shortest * s.shortest) continue;
-    all_hold = all_hold && holds(s, end);
     active_.push_back(watched_[w]);
     activate(watched_[w], x);
+    if (holds(s, end)) continue;
+    all_hold = false;
+    relax(s, early);
   }
   if (active_.size() > before) {
     const auto added = active_.begin() + static_cast<std::ptrdiff_t>(before);
@@ -135,6 +149,16 @@ bool StrainFilter::look_around(const Vertices& x) {
     active_.swap(merged_);
   }
   return all_hold;
+}
+
+/// Gives every active spring the impulse it needs, every other one first: two that follow one another in a string do
+/// not then wait for one another in the processor.
+void StrainFilter::relax_all(bool early) {
+  for (const Index parity : {0U, 1U}) {
+    for (const Index k : active_) {
+      if (k % 2 == parity) relax(limited_[k], early);
+    }
+  }
 }
 
 /// Gives a spring the impulse it needs now.
@@ -147,12 +171,35 @@ void StrainFilter::relax(Limited& s, bool early) {
     const double most = std::sqrt(std::max(0.0, s.longest * s.longest - across));
     const double least = s.shortest > 0 ? std::sqrt(std::max(0.0, s.shortest * s.shortest - across)) : 0;
     const double length = along - s.weight * s.impulse.dot(s.direction);  // without it
-    give(s, (std::clamp(length, least, most) - length) / s.weight * s.direction);
+    give(s, (std::clamp(length, least, most) - length) / s.weight);
     return;
   }
   const Eigen::Vector3d free = end - s.weight * s.impulse;
   const double length = free.norm();
-  if (length > 0) give(s, (std::clamp(length, s.shortest, s.longest) - length) / (s.weight * length) * free);
+  if (length > 0) s.direction = free / length;
+  give(s, (std::clamp(length, s.shortest, s.longest) - length) / s.weight);
+}
+
+/// Sweeps over the springs that are still beyond the tolerance, and those around them, until they hold.
+void StrainFilter::settle(bool early) {
+  for (const Index k : restless_) limited_[k].stage = Stage::restless;
+  for (Index ring = 0, inner = 0; ring < rings; ++ring) {
+    for (const Index outer = restless_.size(); inner < outer; ++inner) {
+      for (const int end : {limited_[restless_[inner]].i, limited_[restless_[inner]].j}) {
+        for (const Index other : springs_at_[Index(end)]) {
+          if (limited_[other].stage != Stage::active) continue;
+          limited_[other].stage = Stage::restless;
+          restless_.push_back(other);
+        }
+      }
+    }
+  }
+  const auto hold = [this](Index k) { return holds(limited_[k], end_of(limited_[k])); };
+  for (int pass = 0; pass < most_passes; ++pass) {
+    for (const Index k : restless_) relax(limited_[k], early);
+    if (std::ranges::all_of(restless_, hold)) break;
+  }
+  for (const Index k : restless_) limited_[k].stage = Stage::active;
 }
 
 /// Balances each string of active springs that pull.
@@ -172,22 +219,21 @@ void StrainFilter::pull_string(Index first, Index count) {
   for (Index k = first; k < first + count; ++k) {
     const Limited& s = limited_[active_[k]];
     const Eigen::Vector3d end = end_of(s);
-    double pull = s.straight ? -s.impulse.dot(s.direction) : s.impulse.norm();
-    if (s.impulse.dot(end) >= 0) pull = 0;  // it pushes, or does nothing
-    Eigen::Vector3d direction = s.direction;
-    if (!s.straight && pull > 0) direction = s.impulse / -pull;
-    const double along = direction.dot(end);
+    const double along = s.direction.dot(end);
     // One that is kept straight has the part of its length that is left beside what is across.
     const double most =
         !s.straight ? s.longest : std::sqrt(std::max(0.0, s.longest * s.longest - end.squaredNorm() + along * along));
-    const double coupling = string_.empty() ? 0 : weight_[s.i] * direction.dot(string_.back().along);
-    string_.push_back(
-        {.along = direction, .weight = s.weight, .coupling = coupling, .excess = along - most, .pull = pull});
+    const double coupling = string_.empty() ? 0 : weight_[s.i] * s.direction.dot(string_.back().along);
+    string_.push_back({.along = s.direction,
+                       .weight = s.weight,
+                       .coupling = coupling,
+                       .excess = along - most,
+                       .pull = std::max(0.0, -s.push)});
   }
   balance(string_);
   for (Index k = 0; k < count; ++k) {
     const Tension& t = string_[k];
-    if (t.more != 0) give(limited_[active_[first + k]], -(t.pull + t.more) * t.along);
+    if (t.more != 0) give(limited_[active_[first + k]], -(t.pull + t.more));
   }
 }
 
@@ -198,17 +244,18 @@ bool StrainFilter::holds(const Limited& s, const Eigen::Vector3d& end) const {
   return squared <= longest * longest && squared >= shortest * shortest;
 }
 
-StrainFilter::Assessment StrainFilter::assess() const {
-  Assessment found{.value = 0, .hold = true};
+/// Returns φ, and finds what is beyond the tolerance.
+double StrainFilter::assess() {
+  double value = 0;
+  restless_.clear();
   for (const Index k : active_) {
     const Limited& s = limited_[k];
-    const Eigen::Vector3d way = change_[Index(s.i)] - change_[Index(s.j)], end = s.end + way;
-    found.hold = found.hold && holds(s, end);
+    const Eigen::Vector3d way = change_[Index(s.i)] - change_[Index(s.j)];
+    if (!holds(s, s.end + way)) restless_.push_back(k);
     // ‖δ‖²_M is the work of the impulses along δ.
-    found.value += s.impulse.dot(s.end + 0.5 * way);
-    found.value += s.impulse.norm() * (s.impulse.dot(end) > 0 ? -s.shortest : s.longest);
+    value += s.impulse.dot(s.end + 0.5 * way) - s.push * (s.push > 0 ? s.shortest : s.longest);
   }
-  return found;
+  return value;
 }
 
 /// Goes on from the impulses of a sweep in the direction of what it has changed, or, where that has raised φ to this

@@ -35,7 +35,12 @@ class StrainFilter final : public MotionFilter {
 
  private:
   using Index = std::size_t;
-  enum class Stage : unsigned char { still, watched, active };
+  // What is looked at of every spring in every step, close together.
+  struct Range {
+    int i, j;
+    double least, most;  // squared lengths [m²]
+  };
+  enum class Stage : unsigned char { still, watched, active, restless };
   struct Limited {
     int i, j;
     double weight;             // 1/m of both [1/kg]
@@ -43,13 +48,11 @@ class StrainFilter final : public MotionFilter {
     bool joined;               // its i is the j of the one before it
     Stage stage = Stage::still;
     bool straight = true;  // impulses are along its direction at the start
-    // From j to i at the end of the step as it would be without any impulse [m], and, of length 1, at its start.
+    // From j to i at the end of the step as it would be without any impulse [m], and, of length 1, where the impulse
+    // that it was last given is along: at its start while straight, and then at its end.
     Eigen::Vector3d end = Eigen::Vector3d::Zero(), direction = end;
     Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), last = impulse;  // on i, times h, now and a sweep ago [kg·m]
-  };
-  struct Assessment {
-    double value;  // φ [kg·m²]
-    bool hold;     // all limits
+    double push = 0;  // that it was last given, along that: negative where it pulls
   };
 
   void find_beyond(const Vertices& x, double h, const Vertices& v);
@@ -57,29 +60,33 @@ class StrainFilter final : public MotionFilter {
     return s.end + (change_[Index(s.i)] - change_[Index(s.j)]);
   }
   void activate(Index k, const Vertices& x);
-  bool look_around(const Vertices& x);
+  bool look_around(const Vertices& x, bool early);
+  void relax_all(bool early);
   void relax(Limited& s, bool early);
+  void settle(bool early);
   void pull_strings();
   void pull_string(Index first, Index count);
-  void give(Limited& s, const Eigen::Vector3d& impulse) {
-    const Eigen::Vector3d more = impulse - s.impulse;
+  void give(Limited& s, double push) {
+    s.push = push;
+    const Eigen::Vector3d impulse = push * s.direction, more = impulse - s.impulse;
     s.impulse = impulse;
     change_[Index(s.i)] += weight_[s.i] * more;
     change_[Index(s.j)] -= weight_[s.j] * more;
   }
   [[nodiscard]] bool holds(const Limited& s, const Eigen::Vector3d& end) const;
-  [[nodiscard]] Assessment assess() const;
+  [[nodiscard]] double assess();
   void go_on(double value);
   void go_back();
 
   StrainLimit limits_;
   Eigen::VectorXd weight_;                             // 1/m, 0 for a pin [1/kg]
   std::vector<Limited> limited_;                       // in strings
+  std::vector<Range> ranges_;                          // of each of these
   Vertices target_;                                    // where the step would end without any impulse [m]
   std::vector<Eigen::Vector3d> change_, last_change_;  // by how much the impulses change that, as Limited has them [m]
   std::vector<int> moved_;                             // the vertices for which they do
   std::vector<char> is_moved_;
-  std::vector<Index> active_, watched_, merged_;
+  std::vector<Index> active_, watched_, merged_, restless_;
   std::vector<std::vector<Index>> springs_at_;  // of each vertex
   std::vector<Tension> string_;
   double pace_ = 1, last_value_ = 0;  // Nesterov's t, and φ a sweep ago
