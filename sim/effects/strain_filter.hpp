@@ -25,7 +25,9 @@ namespace drape {
 /// have not settled after the early sweeps, gives up this restriction, and nothing else, for the rest of the step.
 ///
 /// Only springs that have had an impulse are swept over. Those that have an end in common with one of these are looked
-/// at after every second sweep, and before the limits are said to hold; the ends of all others are not moved.
+/// at after every second sweep, and before the limits are said to hold; the ends of all others are not moved. Where the
+/// springs that are still beyond the limits are few, as at a pin that a large load hangs on, a sweep ends with some
+/// over these and those around them alone.
 class StrainFilter final : public MotionFilter {
  public:
   StrainFilter(const StrainLimit& limits, const Cloth& cloth);
