@@ -70,9 +70,10 @@ const SheetBlocks::Pairs& SheetBlocks::pairs_apart(Index columns) {
     std::array<Pairs, 5> pairs{};
     for (Index width = 1; width < pairs.size(); ++width) {
       for (Index k = 0; k < most_inside; ++k) {
+        pairs[width][k].setConstant(std::numeric_limits<float>::infinity());
         for (Index m = k; m < most_inside; ++m) {
           const Index a = k % width, b = m % width, across = a < b ? b - a : a - b;
-          pairs[width][k][m] = static_cast<int>(across > 1 || m / width - k / width > 1);
+          if (across > 1 || m / width - k / width > 1) pairs[width][k][Eigen::Index(m)] = 0;
         }
       }
     }

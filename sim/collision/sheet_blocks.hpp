@@ -85,10 +85,11 @@ class SheetBlocks {
     }
   };
 
-  /// Of a window's blocks' blocks, row by row, whether the first of two has another between it and the second, which
-  /// comes after it.
+  /// A number for each of a window's blocks' blocks, row by row.
   static constexpr std::size_t most_inside = 16;
-  using Pairs = std::array<std::array<int, most_inside>, most_inside>;
+  using Numbers = Eigen::Array<float, most_inside, 1>;
+  /// Of two of them 0 where the first has another between it and the second, which comes after it; else infinity.
+  using Pairs = std::array<Numbers, most_inside>;
   static const Pairs& pairs_apart(std::size_t columns);
 
   /// Nothing where the triangles and what fills holes and notches do not tile the convex hull: all have to lie the same

@@ -19,13 +19,9 @@ constexpr Index most_sampled = 2;
 constexpr int compared_per_vertex = 4;
 // By how much F has to change before a window that was not smooth is looked at again.
 constexpr double least_used = 0.2;
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr float unlimited = std::numeric_limits<float>::infinity();
 
-/// The smaller eigenvalue of the symmetric part of a 2×2 matrix.
-double least_of_symmetric_part(double xx, double xy, double yx, double yy) {
-  const double half = (xx - yy) / 2, across = (xy + yx) / 2;
-  return (xx + yy) / 2 - std::sqrt(half * half + across * across);
-}
+double norm_of(const SheetMotion::Row& row) { return row.matrix().norm(); }
 
 using Range = SheetBlocks::Range;
 
@@ -33,64 +29,28 @@ Range around(const Range& a, const Range& b) { return {std::min(a.first, b.first
 
 }  // namespace
 
-SmoothSheet::SmoothSheet(const Cloth& cloth) : sheet_(SheetBlocks::of(cloth)) {
-  if (!sheet_) return;
-  for (const SheetBlocks::Level& level : sheet_->levels()) {
+SmoothSheet::SmoothSheet(const Cloth& cloth) {
+  auto sheet = SheetBlocks::of(cloth);
+  if (!sheet) return;
+  for (const SheetBlocks::Level& level : sheet->levels()) {
     LevelState state;
     state.columns = std::max<Index>(level.columns() - 1, 1);
     state.windows.resize(state.columns * std::max<Index>(level.rows() - 1, 1));
-    state.balls.resize(level.columns() * level.rows());
     levels_.push_back(std::move(state));
   }
-  changes_.resize(sheet_->measured().columns() * sheet_->measured().rows());
+  motion_.emplace(std::move(*sheet));
 }
 
 bool SmoothSheet::stays_apart(const Vertices& x, double h, const Vertices& v, double distance) {
-  if (!sheet_ || pause_-- > 0) return false;
+  if (!motion_ || pause_-- > 0) return false;
   // What has not been visited in the call before is looked at anew.
   calls_ += distance == distance_ ? 1 : 2;
   distance_ = distance;
-  measure(x, h, v);
   allowance_ = compared_per_vertex * static_cast<int>(x.rows());
-  const bool apart = window_is_apart(0, 0, 0);
+  const bool apart = motion_->measure(x, h, v) && window_is_apart(0, 0, 0);
   failures_ = apart ? 0 : std::min(failures_ + 1, most_pause);
   pause_ = failures_;
   return apart;
-}
-
-void SmoothSheet::measure(const Vertices& x, double h, const Vertices& v) {
-  const bool first = vertices_.empty();
-  vertices_.resize(static_cast<Index>(x.rows()));
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    const double *now = x.col(k).data(), *velocity = v.col(k).data();
-    for (Index i = 0; i < vertices_.size(); ++i) {
-      Vertex& vertex = vertices_[i];
-      vertex.moved[Index(k)] << (first ? 0 : now[i] - vertex.place[k]), h * velocity[i];
-      vertex.place[k] = now[i];
-    }
-  }
-  for (Index block = 0; block < changes_.size(); ++block) {
-    Eigen::Array2d most = Eigen::Array2d::Zero();
-    for (const auto& [i, j, weight] : sheet_->edges_of(block)) {
-      const auto &a = vertices_[Index(i)].moved, &b = vertices_[Index(j)].moved;
-      const Eigen::Array2d dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
-      most = most.max(weight * (dx * dx + dy * dy + dz * dz));
-    }
-    changes_[block] = {.since = std::sqrt(most[0]), .next = std::sqrt(most[1])};
-  }
-}
-
-SmoothSheet::Change SmoothSheet::change_in(Index l, const Part& part) const {
-  const auto& [columns, rows] = sheet_->levels()[l].axes;
-  Change most;
-  for (Index row = rows.measured[part.rows.first].first; row < rows.measured[part.rows.last - 1].last; ++row) {
-    for (Index column = columns.measured[part.columns.first].first;
-         column < columns.measured[part.columns.last - 1].last; ++column) {
-      const Change& change = changes_[row * sheet_->measured().columns() + column];
-      most = {.since = std::max(most.since, change.since), .next = std::max(most.next, change.next)};
-    }
-  }
-  return most;
 }
 
 bool SmoothSheet::window_is_apart(Index l, Index column, Index row) {
@@ -98,10 +58,10 @@ bool SmoothSheet::window_is_apart(Index l, Index column, Index row) {
   if (window.seen == calls_) return true;
   const bool known = window.seen + 1 == calls_;
   window.seen = calls_;
-  const SheetBlocks::Level& level = sheet_->levels()[l];
+  const SheetBlocks::Level& level = motion_->sheet().levels()[l];
   const Part part = level.window(column, row);
   if (level.is_empty(part)) return true;
-  const Change change = change_in(l, part);
+  const Change change = motion_->change_in(l, part);
   window.used += change.since;
   const bool lasts = window.split ? window.used < least_used : window.room.lasts({window.used, change.next});
   if (!known || !lasts) {
@@ -130,39 +90,37 @@ std::optional<SmoothSheet::Room> SmoothSheet::smooth(Index l, const Part& part, 
                                                      std::optional<Index>& first) const {
   const auto axes = frame(l, part);
   if (!axes) return std::nullopt;
-  const double needed = distance_ / sheet_->least_distance();
+  const double needed = distance_ / motion_->sheet().least_distance() + motion_->gradient_rounding();
   const double least = std::max(needed + change.next, change.next / most_moved);
-  const auto least_in = [&](Index p) {
-    const auto& [vertices, inverse] = sheet_->pieces()[p];
-    const Point corner = place(vertices[0]);
-    const Eigen::Vector2d a = axes->transpose() * (place(vertices[1]) - corner);
-    const Eigen::Vector2d b = axes->transpose() * (place(vertices[2]) - corner);
-    return least_of_symmetric_part(
-        a[0] * inverse(0, 0) + b[0] * inverse(1, 0), a[0] * inverse(0, 1) + b[0] * inverse(1, 1),
-        a[1] * inverse(0, 0) + b[1] * inverse(1, 0), a[1] * inverse(0, 1) + b[1] * inverse(1, 1));
-  };
-  if (first && !(least_in(*first) >= least)) return std::nullopt;
-  double found = unlimited;
-  const bool all = sheet_->levels()[l].all_pieces(part, [&](Index p) {
-    found = std::min(found, least_in(p));
-    if (found < least) first = p;
-    return found >= least;
-  });
-  if (!all) return std::nullopt;
-  return Room{.whole = found, .beyond = found - needed};
+  if (first && !(motion_->least_along(*axes, {*first, *first, *first, *first})[0] >= least)) return std::nullopt;
+  SheetMotion::Row found = SheetMotion::Row::Constant(unlimited);
+  const SheetBlocks::Level& level = motion_->sheet().levels()[l];
+  for (Index row = part.rows.first; row < part.rows.last; ++row) {
+    for (Index column = part.columns.first; column < part.columns.last; ++column) {
+      const auto pieces = level.pieces_of(row * level.columns() + column);
+      for (Index k = 0; k < pieces.size(); k += 4) {
+        const auto piece = [&](Index next) { return pieces[std::min(k + next, pieces.size() - 1)]; };
+        const std::array<Index, 4> four{piece(0), piece(1), piece(2), piece(3)};
+        found = found.min(motion_->least_along(*axes, four));
+        if ((found >= static_cast<float>(least)).all()) continue;
+        Eigen::Index worst = 0;
+        found.minCoeff(&worst);
+        first = four[Index(worst)];
+        return std::nullopt;
+      }
+    }
+  }
+  return Room{.whole = found.minCoeff(), .beyond = found.minCoeff() - needed};
 }
 
-std::optional<SmoothSheet::Gradient> SmoothSheet::frame(Index l, const Part& part) const {
-  const SheetBlocks::Level& level = sheet_->levels()[l];
-  Gradient mean = Gradient::Zero();
+std::optional<SmoothSheet::Axes> SmoothSheet::frame(Index l, const Part& part) const {
+  const SheetBlocks::Level& level = motion_->sheet().levels()[l];
+  Eigen::Matrix<double, 3, 2> mean = Eigen::Matrix<double, 3, 2>::Zero();
   for (Index row = part.rows.first; row < part.rows.last; ++row) {
     for (Index column = part.columns.first; column < part.columns.last; ++column) {
       const auto pieces = level.pieces_of(row * level.columns() + column);
       for (Index k = 0; k < pieces.size(); k += 1 + pieces.size() / most_sampled) {
-        const auto& [vertices, inverse] = sheet_->pieces()[pieces[k]];
-        Gradient edges;
-        edges << place(vertices[1]) - place(vertices[0]), place(vertices[2]) - place(vertices[0]);
-        mean += edges * inverse;
+        mean += motion_->gradient(pieces[k]).cast<double>();
       }
     }
   }
@@ -171,59 +129,69 @@ std::optional<SmoothSheet::Gradient> SmoothSheet::frame(Index l, const Part& par
   const double root = std::sqrt(std::max(0.0, square.determinant()));
   if (!(root > 0)) return std::nullopt;
   const Eigen::Matrix2d sum = square + root * Eigen::Matrix2d::Identity();
-  return mean * sum.inverse() * std::sqrt(square.trace() + 2 * root);
+  return (mean * sum.inverse() * std::sqrt(square.trace() + 2 * root)).cast<float>();
 }
 
 bool SmoothSheet::blocks_are_apart(Index l, const Part& part) {
   const Index width = part.columns.last - part.columns.first, count = width * (part.rows.last - part.rows.first);
   std::array<Index, SheetBlocks::most_inside> blocks{};
-  std::array<double, SheetBlocks::most_inside> x{}, y{}, z{}, reach{};
-  Point together = Point::Zero();  // what they all do brings nothing together
-  for (Index k = 0; k < count; ++k) {
-    blocks[k] = (part.rows.first + k / width) * sheet_->levels()[l].columns() + part.columns.first + k % width;
-    together += ball(l, blocks[k]).way;
+  using Numbers = SheetBlocks::Numbers;
+  std::array<Numbers, 3> low, high;
+  for (Index axis = 0; axis < 3; ++axis) {
+    low[axis].setConstant(unlimited);
+    high[axis].setConstant(-unlimited);
   }
-  together /= static_cast<double>(count);
+  Numbers reach = Numbers::Zero();
+  Row together = Row::Zero();  // what they all do brings nothing together
   for (Index k = 0; k < count; ++k) {
-    const Ball& ball = levels_[l].balls[blocks[k]];
-    x[k] = ball.middle.x();
-    y[k] = ball.middle.y();
-    z[k] = ball.middle.z();
-    reach[k] = ball.radius + distance_ / 2 + ((ball.way - together).norm() + ball.spread) / most_moved;
-  }
-  const SheetBlocks::Pairs& far = SheetBlocks::pairs_apart(width);
-  for (Index k = 0; k + 1 < count; ++k) {
-    int near = 0;
-    for (Index m = k + 1; m < count; ++m) {
-      const double dx = x[m] - x[k], dy = y[m] - y[k], dz = z[m] - z[k], sum = reach[m] + reach[k];
-      near |= static_cast<int>(dx * dx + dy * dy + dz * dz <= sum * sum) & far[k][m];
+    blocks[k] = (part.rows.first + k / width) * motion_->sheet().levels()[l].columns() + part.columns.first + k % width;
+    const Boxes& boxes = motion_->boxes(l, blocks[k]);
+    for (Index axis = 0; axis < 3; ++axis) {
+      low[axis][Eigen::Index(k)] = boxes.low[Eigen::Index(axis)];
+      high[axis][Eigen::Index(k)] = boxes.high[Eigen::Index(axis)];
     }
-    for (Index m = k + 1; near != 0 && m < count; ++m) {
-      if (far[k][m] != 0 && !pair_is_apart(l, {blocks[k], blocks[m]})) return false;
+    together += boxes.way();
+  }
+  together /= static_cast<float>(count);
+  for (Index k = 0; k < count; ++k) {
+    const Boxes& boxes = motion_->boxes(l, blocks[k]);
+    const double moves = norm_of(boxes.way() - together) + boxes.spread();
+    reach[Eigen::Index(k)] = static_cast<float>(distance_ / 2 + motion_->rounding() + moves / most_moved);
+  }
+  const SheetBlocks::Pairs& near = SheetBlocks::pairs_apart(width);
+  for (Index k = 0; k + 1 < count; ++k) {
+    const auto at = Eigen::Index(k);
+    Numbers squared = near[k];
+    for (Index axis = 0; axis < 3; ++axis) {
+      squared += (low[axis] - high[axis][at]).max(low[axis][at] - high[axis]).max(0).square();
+    }
+    if ((squared - (reach + reach[at]).square()).minCoeff() > 0) continue;
+    for (Index m = k + 1; m < count; ++m) {
+      if (near[k][Eigen::Index(m)] == 0 && !pair_is_apart(l, {blocks[k], blocks[m]})) return false;
     }
   }
   return true;
 }
 
 bool SmoothSheet::pair_is_apart(Index l, const Pair& pair) {
-  const SheetBlocks::Level& level = sheet_->levels()[l];
+  const SheetBlocks::Level& level = motion_->sheet().levels()[l];
   const auto& [first, second] = pair;
   const Part a = level.part_of(first), b = level.part_of(second);
   if (level.is_empty(a) || level.is_empty(b)) return true;
   const Part between{.columns = around(a.columns, b.columns), .rows = around(a.rows, b.rows)};
-  const Ball &at = ball(l, first), &other = ball(l, second);
-  const double moved = (at.way - other.way).norm() + at.spread + other.spread;
-  const double enough = std::max(distance_ + moved, moved / most_moved);
+  const Boxes &at = motion_->boxes(l, first), &other = motion_->boxes(l, second);
+  const double moved = norm_of(at.way() - other.way()) + at.spread() + other.spread();
+  const double enough = std::max(distance_ + moved, moved / most_moved) + motion_->rounding();
   if (gap(l, pair, enough) >= enough) return true;
   if (l + 1 == levels_.size()) {
     std::optional<Index> unused;
-    if (smooth(l, between, change_in(l, between), unused)) return true;
+    if (smooth(l, between, motion_->change_in(l, between), unused)) return true;
     gather(l, a, features_[0]);
     gather(l, b, features_[1]);
     return features_are_apart(features_[0], features_[1]);
   }
   const Part inner = level.inside(a), others = level.inside(b);
-  const Index width = sheet_->levels()[l + 1].columns();
+  const Index width = motion_->sheet().levels()[l + 1].columns();
   for (Index row = inner.rows.first; row < inner.rows.last; ++row) {
     for (Index column = inner.columns.first; column < inner.columns.last; ++column) {
       for (Index r = others.rows.first; r < others.rows.last; ++r) {
@@ -237,45 +205,24 @@ bool SmoothSheet::pair_is_apart(Index l, const Pair& pair) {
 }
 
 double SmoothSheet::gap(Index l, const Pair& pair, double enough) {
-  const Ball &a = ball(l, pair.first), &b = ball(l, pair.second);
-  const Point between = a.middle - b.middle;
-  const double distance = between.norm(), found = distance - a.radius - b.radius;
+  const Boxes &a = motion_->boxes(l, pair.first), &b = motion_->boxes(l, pair.second);
+  const double found = norm_of((a.low - b.high).max(b.low - a.high).max(0));
+  const Row between = a.middle() - b.middle();
+  const double distance = norm_of(between);
   if (found >= enough || !(distance > enough)) return found;
   // Then the room between two planes across.
-  const SheetBlocks::Level& level = sheet_->levels()[l];
-  const Point axis = between / distance;
-  double low = unlimited, high = -unlimited;
-  for (const int i : level.vertices_of(pair.first)) low = std::min(low, axis.dot(place(i) - b.middle));
-  for (const int i : level.vertices_of(pair.second)) high = std::max(high, axis.dot(place(i) - b.middle));
-  return std::max(found, low - high);
-}
-
-const SmoothSheet::Ball& SmoothSheet::ball(Index l, Index block) {
-  Ball& ball = levels_[l].balls[block];
-  if (ball.seen == calls_) return ball;
-  ball.seen = calls_;
-  const auto vertices = sheet_->levels()[l].vertices_of(block);
-  if (vertices.empty()) return ball;
-  Point low = Point::Constant(unlimited), high = -low, slow = low, fast = high;
-  for (const int i : vertices) {
-    low = low.cwiseMin(place(i));
-    high = high.cwiseMax(place(i));
-    slow = slow.cwiseMin(way(i));
-    fast = fast.cwiseMax(way(i));
-  }
-  ball.middle = (low + high) / 2;
-  ball.way = (slow + fast) / 2;
-  ball.spread = (fast - slow).norm() / 2;
-  double widest = 0;
-  for (const int i : vertices) widest = std::max(widest, (place(i) - ball.middle).squaredNorm());
-  ball.radius = std::sqrt(widest);
-  return ball;
+  const SheetBlocks::Level& level = motion_->sheet().levels()[l];
+  const Row axis = between / static_cast<float>(distance);
+  float low = unlimited, high = -unlimited;
+  for (const int i : level.vertices_of(pair.first)) low = std::min(low, (axis * motion_->row(i)).sum());
+  for (const int i : level.vertices_of(pair.second)) high = std::max(high, (axis * motion_->row(i)).sum());
+  return std::max(found, static_cast<double>(low - high));
 }
 
 void SmoothSheet::gather(Index l, const Part& part, FeatureSet& features) const {
   features.clear();
-  sheet_->levels()[l].all_pieces(part, [&](Index p) {
-    if (sheet_->is_cloth(p)) features.triangles.push_back(sheet_->pieces()[p].vertices);
+  motion_->sheet().levels()[l].all_pieces(part, [&](Index p) {
+    if (motion_->sheet().is_cloth(p)) features.triangles.push_back(motion_->sheet().pieces()[p].vertices);
     return true;
   });
   features.complete();
@@ -286,8 +233,8 @@ bool SmoothSheet::features_are_apart(const FeatureSet& a, const FeatureSet& b) {
     if (allowance_-- <= 0) return false;
     FourPoints p, move;
     for (Index k = 0; k < 4; ++k) {
-      p[k] = place(vertices[k]);
-      move[k] = way(vertices[k]);
+      p[k] = motion_->place(vertices[k]);
+      move[k] = motion_->way(vertices[k]);
     }
     const double distance = std::sqrt(nearest(feature, p).squared), change = largest_change(feature, move);
     return change <= distance - distance_ && change <= most_moved * distance;

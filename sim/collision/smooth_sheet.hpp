@@ -11,6 +11,7 @@
 #include "sim/collision/distance.hpp"
 #include "sim/collision/feature_set.hpp"
 #include "sim/collision/sheet_blocks.hpp"
+#include "sim/collision/sheet_motion.hpp"
 
 namespace drape {
 
@@ -49,16 +50,10 @@ class SmoothSheet {
   using Index = std::size_t;
   using Pair = std::pair<Index, Index>;  // of blocks
   using Part = SheetBlocks::Part;
-  using Gradient = Eigen::Matrix<double, 3, 2>;
-  struct Vertex {
-    /// In each coordinate by how much it has moved since the last call, and how much it is about to [m].
-    std::array<Eigen::Array2d, 3> moved;
-    Point place;
-  };
-  /// Upper bounds of how much F has changed since the last call, and of D.
-  struct Change {
-    double since = 0, next = 0;
-  };
+  using Axes = Eigen::Matrix<float, 3, 2>;
+  using Change = SheetMotion::Change;
+  using Boxes = SheetMotion::Boxes;
+  using Row = SheetMotion::Row;
   /// What a window has: σ, and σ − distance/δ.
   struct Room {
     double whole = 0, beyond = 0;
@@ -74,47 +69,30 @@ class SmoothSheet {
     bool split = false;          // into smaller ones
     std::optional<Index> first;  // the piece that was not smooth when it was
   };
-  /// What a block is in now, and what the ways are in that it is about to go.
-  struct Ball {
-    Point middle = Point::Zero(), way = Point::Zero();
-    double radius = 0, spread = 0;
-    Index seen = 0;  // in which call it was computed
-  };
-  /// The windows of a level, row by row, and the balls around its blocks.
+  /// The windows of a level, row by row.
   struct LevelState {
     Index columns = 1;
     std::vector<Window> windows;
-    std::vector<Ball> balls;
   };
   /// Of the distance of two points, the part by which they may come nearer in a step.
   static constexpr double most_moved = 0.8;
 
-  void measure(const Vertices& x, double h, const Vertices& v);
-  [[nodiscard]] Change change_in(Index l, const Part& part) const;
   [[nodiscard]] bool window_is_apart(Index l, Index column, Index row);
   /// What a window has as a whole, if it lasts for a step; else `first` is a piece that has not.
   [[nodiscard]] std::optional<Room> smooth(Index l, const Part& part, const Change& change,
                                            std::optional<Index>& first) const;
-  [[nodiscard]] std::optional<Gradient> frame(Index l, const Part& part) const;
+  [[nodiscard]] std::optional<Axes> frame(Index l, const Part& part) const;
   /// Whether any two of these blocks stay apart that have another between them.
   [[nodiscard]] bool blocks_are_apart(Index l, const Part& part);
   [[nodiscard]] bool pair_is_apart(Index l, const Pair& pair);
   /// A lower bound of the distance of two blocks now, as sharp as it has to be to say that it is `enough` [m].
   [[nodiscard]] double gap(Index l, const Pair& pair, double enough);
-  [[nodiscard]] const Ball& ball(Index l, Index block);
   void gather(Index l, const Part& part, FeatureSet& features) const;
   /// Compares them one by one.
   [[nodiscard]] bool features_are_apart(const FeatureSet& a, const FeatureSet& b);
-  [[nodiscard]] const Point& place(int i) const { return vertices_[Index(i)].place; }
-  [[nodiscard]] Point way(int i) const {
-    const auto& [x, y, z] = vertices_[Index(i)].moved;
-    return {x[1], y[1], z[1]};
-  }
 
-  std::optional<SheetBlocks> sheet_;  // nothing: it is not one that is flat
+  std::optional<SheetMotion> motion_;  // nothing: it is not one that is flat
   std::vector<LevelState> levels_;
-  std::vector<Change> changes_;  // of the blocks that are measured
-  std::vector<Vertex> vertices_;
   std::array<FeatureSet, 2> features_;  // that are compared
   double distance_ = 0;
   Index calls_ = 1;

@@ -1,0 +1,180 @@
+#include "sim/collision/sheet_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace drape {
+namespace {
+
+using Index = std::size_t;
+using SheetRow = SheetMotion::Row;
+
+// Of the largest number: far more than some operations in single precision lose.
+constexpr double lost_in_rows = 1.0 / (1 << 19);
+// What is too small for its square, and what is too large, of lengths [m] and of F.
+constexpr double too_small = 1e-18, too_large = 1e15;
+
+/// Vectors in single precision, less the first of them; returns the largest number.
+double round_to_rows(const Vertices& vectors, std::vector<SheetRow>& rows) {
+  rows.resize(static_cast<Index>(vectors.rows()), SheetRow::Zero());
+  const double *x = vectors.col(0).data(), *y = vectors.col(1).data(), *z = vectors.col(2).data();
+  for (Index i = 0; i < rows.size(); ++i) {
+    rows[i] << static_cast<float>(x[i] - x[0]), static_cast<float>(y[i] - y[0]), static_cast<float>(z[i] - z[0]), 0;
+  }
+  return Eigen::Map<const Eigen::ArrayXf>(rows[0].data(), static_cast<Eigen::Index>(4 * rows.size())).abs().maxCoeff();
+}
+
+/// The x, y and z of four vectors.
+struct ColumnsOfFour {
+  SheetRow x, y, z;
+
+  ColumnsOfFour(const SheetRow& a, const SheetRow& b, const SheetRow& c, const SheetRow& d) {
+    Eigen::Matrix4f rows;
+    rows << a, b, c, d;
+    rows.transposeInPlace();
+    x = rows.col(0);
+    y = rows.col(1);
+    z = rows.col(2);
+  }
+};
+
+}  // namespace
+
+SheetMotion::SheetMotion(SheetBlocks sheet) : sheet_(std::move(sheet)) {
+  for (const auto& [vertices, inverse] : sheet_.pieces()) {
+    steepest_ = std::max(steepest_, inverse.norm());
+    const Eigen::Matrix2f rounded = inverse.cast<float>();
+    pieces_.push_back({vertices, {rounded(0, 0), rounded(1, 0), rounded(0, 1), rounded(1, 1)}});
+  }
+  for (const SheetBlocks::Level& level : sheet_.levels()) boxes_.emplace_back(level.columns() * level.rows());
+  gather_edges();
+}
+
+void SheetMotion::gather_edges() {
+  const Index blocks = sheet_.measured().columns() * sheet_.measured().rows();
+  changes_.resize(blocks);
+  for (Index block = 0; block < blocks; ++block) {
+    first_edges_.push_back(edges_.size());
+    Index k = 0;
+    for (const auto& [i, j, weight] : sheet_.edges_of(block)) {
+      steepest_ = std::max(steepest_, std::sqrt(weight));
+      if (k % 4 == 0) edges_.push_back({.from = {}, .to = {}, .weights = Row::Zero()});
+      edges_.back().from[k % 4] = i;
+      edges_.back().to[k % 4] = j;
+      edges_.back().weights[static_cast<Eigen::Index>(k % 4)] = static_cast<float>(weight);
+      ++k;
+    }
+  }
+  first_edges_.push_back(edges_.size());
+}
+
+bool SheetMotion::measure(const Vertices& x, double h, const Vertices& v) {
+  const bool first = ++calls_ == 1;
+  // Mostly it has gone as it was about to: then how F has changed is known.
+  const bool expected = !first && x == from_ + ways_;
+  for (Change& change : changes_) change.since = expected ? change.next : 0;
+  double largest = 0;
+  if (!first && !expected) {
+    ways_ = x - from_;
+    largest = round_to_rows(ways_, rows_);
+    find_changes(rows_, largest, &Change::since);
+  }
+  from_ = x;
+  ways_ = h * v;
+  const double place = round_to_rows(from_, places_), way = round_to_rows(ways_, rows_);
+  find_changes(rows_, way, &Change::next);
+  rounding_ = lost_in_rows * (place + way) + too_small;
+  return std::max({largest, place, way}) * std::max(1.0, steepest_) < too_large;
+}
+
+void SheetMotion::find_changes(const std::vector<Row>& moves, double largest, double Change::*which) {
+  const double rounding = (lost_in_rows * largest + too_small) * steepest_;
+  for (Index block = 0; block < changes_.size(); ++block) {
+    Row most = Row::Zero();
+    for (Index k = first_edges_[block]; k < first_edges_[block + 1]; ++k) {
+      const FourEdges& edges = edges_[k];
+      const auto move = [&](Index e) -> Row { return moves[Index(edges.from[e])] - moves[Index(edges.to[e])]; };
+      const ColumnsOfFour d(move(0), move(1), move(2), move(3));
+      most = most.max(edges.weights * (d.x * d.x + d.y * d.y + d.z * d.z));
+    }
+    changes_[block].*which = std::sqrt(double(most.maxCoeff())) + rounding;
+  }
+}
+
+SheetMotion::Change SheetMotion::change_in(Index l, const SheetBlocks::Part& part) const {
+  const auto& [columns, rows] = sheet_.levels()[l].axes;
+  const Index first = columns.measured[part.columns.first].first, last = columns.measured[part.columns.last - 1].last;
+  Change most;
+  for (Index row = rows.measured[part.rows.first].first; row < rows.measured[part.rows.last - 1].last; ++row) {
+    for (Index column = first; column < last; ++column) {
+      const Change& change = changes_[row * sheet_.measured().columns() + column];
+      most = {.since = std::max(most.since, change.since), .next = std::max(most.next, change.next)};
+    }
+  }
+  return most;
+}
+
+const SheetMotion::Boxes& SheetMotion::boxes(Index l, Index block) {
+  Boxes& boxes = boxes_[l][block];
+  if (boxes.seen == calls_) return boxes;
+  const SheetBlocks::Level& level = sheet_.levels()[l];
+  Row low = Row::Constant(std::numeric_limits<float>::infinity()), high = -low, slow = low, fast = high;
+  const auto add = [&](const Boxes& inner) {
+    low = low.min(inner.low);
+    high = high.max(inner.high);
+    slow = slow.min(inner.slow);
+    fast = fast.max(inner.fast);
+  };
+  if (&level < &sheet_.measured()) {
+    const auto [columns, rows] = level.inside(level.part_of(block));
+    for (Index row = rows.first; row < rows.last; ++row) {
+      for (Index column = columns.first; column < columns.last; ++column) {
+        add(this->boxes(l + 1, row * sheet_.levels()[l + 1].columns() + column));
+      }
+    }
+  } else {
+    for (const int i : level.vertices_of(block)) {
+      const Row &place = places_[Index(i)], &way = rows_[Index(i)];
+      low = low.min(place);
+      high = high.max(place);
+      slow = slow.min(way);
+      fast = fast.max(way);
+    }
+  }
+  boxes = {.low = low, .high = high, .slow = slow, .fast = fast, .seen = calls_};
+  return boxes;
+}
+
+SheetMotion::Row SheetMotion::least_along(const Eigen::Matrix<float, 3, 2>& axes,
+                                          const std::array<Index, 4>& pieces) const {
+  const auto edge = [&](Index p, Index corner) -> Row {
+    const Triangle& t = pieces_[p].vertices;
+    return row(t[corner]) - row(t[0]);
+  };
+  const auto& [p, q, r, s] = pieces;
+  const ColumnsOfFour a(edge(p, 1), edge(q, 1), edge(r, 1), edge(s, 1)),
+      b(edge(p, 2), edge(q, 2), edge(r, 2), edge(s, 2));
+  Eigen::Matrix4f inverse;
+  inverse << pieces_[p].inverse, pieces_[q].inverse, pieces_[r].inverse, pieces_[s].inverse;
+  inverse.transposeInPlace();
+  const auto along = [&](const ColumnsOfFour& c, Eigen::Index k) -> Row {
+    return axes(0, k) * c.x + axes(1, k) * c.y + axes(2, k) * c.z;
+  };
+  const Row ax = along(a, 0), ay = along(a, 1), bx = along(b, 0), by = along(b, 1);
+  const Row i = inverse.col(0), j = inverse.col(1), k = inverse.col(2), l = inverse.col(3);
+  const Row xx = ax * i + bx * j, xy = ax * k + bx * l, yx = ay * i + by * j, yy = ay * k + by * l;
+  const Row half = (xx - yy) / 2, across = (xy + yx) / 2;
+  return (xx + yy) / 2 - (half * half + across * across).sqrt();
+}
+
+Eigen::Matrix<float, 3, 2> SheetMotion::gradient(Index piece) const {
+  const auto& [vertices, inverse] = pieces_[piece];
+  const Row a = row(vertices[1]) - row(vertices[0]), b = row(vertices[2]) - row(vertices[0]);
+  Eigen::Matrix<float, 3, 2> gradient;
+  gradient << (a * inverse[0] + b * inverse[1]).head<3>(), (a * inverse[2] + b * inverse[3]).head<3>();
+  return gradient;
+}
+
+}  // namespace drape
