@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/collision/impact.hpp"
+#include "sim/parallel/loops.hpp"
 
 namespace drape {
 namespace {
@@ -60,8 +61,10 @@ bool parted(const Triangle& a, const Triangle& b, const Point& axis, const BodyS
 
 }  // namespace
 
-BodyCandidates::BodyCandidates(const MeshTopology& body, int body_vertices, const Cloth& cloth, double margin)
-    : cloth_count_(cloth.vertex_count()),
+BodyCandidates::BodyCandidates(const MeshTopology& body, int body_vertices, const Cloth& cloth, double margin,
+                               const Threads& threads)
+    : threads_(for_so_many(threads, cloth.vertex_count())),
+      cloth_count_(cloth.vertex_count()),
       margin_(margin),
       pinned_(Index(cloth_count_), 0),
       body_patches_(make_patches(body.triangles, cloth_count_, body_vertices)) {
@@ -87,6 +90,7 @@ BodyCandidates::BodyCandidates(const MeshTopology& body, int body_vertices, cons
     vertices_.erase(std::unique(vertices_.begin() + first, vertices_.end()), vertices_.end());
     ends.emplace_back(cloth_patches_.size(), vertices_.size());
   });
+  findings_.resize(threads_.count() == 1 ? 1 : most_parts);
   Index patch = 0, vertex = 0;
   const Box nothing{Point::Constant(1), Point::Constant(-1)};
   for (const auto& [patch_end, vertex_end] : ends) {
@@ -98,38 +102,55 @@ BodyCandidates::BodyCandidates(const MeshTopology& body, int body_vertices, cons
   }
 }
 
-void BodyCandidates::find(const BodyStep& step, double reach) {
+template <class Find>
+void BodyCandidates::find_all(Find&& find) {
+  const int parts = static_cast<int>(findings_.size());
+  const auto count = static_cast<Eigen::Index>(groups_.size());
+  threads_.for_each(parts, [&](int part) {
+    Findings& findings = findings_[Index(part)];
+    findings.pairs.clear();
+    for (auto g = begin_of_part(count, part, parts); g < begin_of_part(count, part + 1, parts); ++g) {
+      Group& group = groups_[Index(g)];
+      const Index before = findings.pairs.size();
+      find(group, findings);
+      group.count = findings.pairs.size() - before;
+    }
+  });
   pairs_.clear();
-  for (Group& group : groups_) {
-    find_of(group, step, reach);
-    group.end = pairs_.size();
+  for (const Findings& findings : findings_) {
+    pairs_.insert(pairs_.end(), findings.pairs.begin(), findings.pairs.end());
   }
+  Index begin = 0;
+  for (Group& group : groups_) {
+    group.begin = begin;
+    begin += group.count;
+  }
+}
+
+void BodyCandidates::find(const BodyStep& step, double reach) {
+  find_all([&](Group& group, Findings& findings) { find_of(group, step, reach, findings); });
 }
 
 void BodyCandidates::find_again(const BodyStep& step, double reach, const std::vector<char>& changed) {
   pairs_.swap(before_);
-  pairs_.clear();
-  Index begin = 0;
-  for (Group& group : groups_) {
+  find_all([&](Group& group, Findings& findings) {
     if (std::ranges::any_of(group.vertices, [&](int i) { return changed[Index(i)] != 0; })) {
-      find_of(group, step, reach);
+      find_of(group, step, reach, findings);
     } else {
-      pairs_.insert(pairs_.end(), before_.begin() + static_cast<std::ptrdiff_t>(begin),
-                    before_.begin() + static_cast<std::ptrdiff_t>(group.end));
+      const auto begin = before_.begin() + static_cast<std::ptrdiff_t>(group.begin);
+      findings.pairs.insert(findings.pairs.end(), begin, begin + static_cast<std::ptrdiff_t>(group.count));
     }
-    begin = group.end;
-    group.end = pairs_.size();
-  }
+  });
 }
 
-void BodyCandidates::find_of(Group& group, const BodyStep& step, double reach) {
+void BodyCandidates::find_of(Group& group, const BodyStep& step, double reach, Findings& findings) const {
   const Box box = way_box(group.vertices, step);
   if (!holds(group.region, larger(box, reach + travel_since(group.travel, step)))) {
     look_around(group, box, step, reach);
   }
   if (group.near.empty() || apart(group, step, reach)) return;
   place_plane(group, step);
-  if (!apart(group, step, reach)) add_group(group, step, reach);
+  if (!apart(group, step, reach)) add_group(group, step, reach, findings);
 }
 
 void BodyCandidates::look_around(Group& group, const Box& box, const BodyStep& step, double reach) const {
@@ -174,46 +195,50 @@ bool BodyCandidates::apart(const Group& group, const BodyStep& step, double reac
   return lowest - group.level > reach + travel_since(group.of_travel, step);
 }
 
-void BodyCandidates::add_group(const Group& group, const BodyStep& step, double reach) {
+void BodyCandidates::add_group(const Group& group, const BodyStep& step, double reach, Findings& findings) const {
   const Box around = larger(way_box(group.vertices, step), reach);
-  near_.clear();
-  near_boxes_.clear();
+  auto& [pairs, near, near_boxes] = findings;
+  near.clear();
+  near_boxes.clear();
   for (const int t : group.near) {
     const Box& box = step.start.boxes()[Index(t)];
     const Box on_its_way = &step.start == &step.end ? box : around_both(box, step.end.boxes()[Index(t)]);
     if (!around.overlaps(on_its_way)) continue;
-    near_.push_back(t);
-    near_boxes_.push_back(on_its_way);
+    near.push_back(t);
+    near_boxes.push_back(on_its_way);
   }
   for (const Patch& patch : group.patches) {
     const Box box = swept_box(patch, step.from, step.to, reach);
-    for (Index k = 0; k < near_.size(); ++k) {
-      if (!box.overlaps(near_boxes_[k])) continue;
-      const int t = near_[k];
+    for (Index k = 0; k < near.size(); ++k) {
+      if (!box.overlaps(near_boxes[k])) continue;
+      const int t = near[k];
       if (parted(patch.corners, body_patches_[Index(t)].corners, step.start.face_normal(t), step, reach)) continue;
-      add_pairs(patch, t, step, reach);
+      add_pairs(patch, t, step, reach, pairs);
     }
   }
 }
 
-void BodyCandidates::add_pairs(const Patch& patch, int triangle, const BodyStep& step, double reach) {
+void BodyCandidates::add_pairs(const Patch& patch, int triangle, const BodyStep& step, double reach,
+                               std::vector<BodyPair>& pairs) const {
   const Patch& body = body_patches_[Index(triangle)];
   const auto &a = patch.corners, &b = body.corners;
   for (Index c = 0; c < 3; ++c) {
-    if (patch.own_vertex[c]) add({Feature::vertex_triangle, {a[c], b[0], b[1], b[2]}}, triangle, -1, step, reach);
+    if (patch.own_vertex[c])
+      add({Feature::vertex_triangle, {a[c], b[0], b[1], b[2]}}, triangle, -1, step, reach, pairs);
     if (body.own_vertex[c]) {
-      add({Feature::vertex_triangle, {b[c], a[0], a[1], a[2]}}, triangle, static_cast<int>(c), step, reach);
+      add({Feature::vertex_triangle, {b[c], a[0], a[1], a[2]}}, triangle, static_cast<int>(c), step, reach, pairs);
     }
     if (!patch.own_edge[c]) continue;
     for (Index d = 0; d < 3; ++d) {
       if (!body.own_edge[d]) continue;
       add({Feature::edge_edge, {a[c], a[(c + 1) % 3], b[d], b[(d + 1) % 3]}}, triangle, static_cast<int>(d), step,
-          reach);
+          reach, pairs);
     }
   }
 }
 
-void BodyCandidates::add(const FeaturePair& pair, int triangle, int corner, const BodyStep& step, double reach) {
+void BodyCandidates::add(const FeaturePair& pair, int triangle, int corner, const BodyStep& step, double reach,
+                         std::vector<BodyPair>& pairs) const {
   const auto& v = pair.vertices;
   if (std::ranges::all_of(v, [&](int i) { return i >= cloth_count_ || pinned_[Index(i)] != 0; })) return;
   const FourPoints from = gather(step.from, v), to = gather(step.to, v);
@@ -221,7 +246,7 @@ void BodyCandidates::add(const FeaturePair& pair, int triangle, int corner, cons
   const Nearest before = nearest(pair.feature, from);
   // When the step begins, no plane parts them better than the one across the line between their nearest points.
   if (kept_apart(pair.feature, before.difference(from), from, to, reach)) return;
-  pairs_.push_back({pair, triangle, corner, before});
+  pairs.push_back({pair, triangle, corner, before});
 }
 
 }  // namespace drape

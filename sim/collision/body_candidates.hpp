@@ -7,6 +7,7 @@
 #include "sim/collision/candidates.hpp"
 #include "sim/collision/patches.hpp"
 #include "sim/collision/placed_mesh.hpp"
+#include "sim/parallel/threads.hpp"
 
 namespace drape {
 
@@ -33,8 +34,10 @@ struct BodyStep {
 /// memory has it; those that do are found whatever it has, and in the same order.
 class BodyCandidates {
  public:
-  /// @param margin how far the cloth may go before a region is left, about [m]
-  BodyCandidates(const MeshTopology& body, int body_vertices, const Cloth& cloth, double margin);
+  /// @param margin  how far the cloth may go before a region is left, about [m]
+  /// @param threads that share a search, in a large cloth
+  BodyCandidates(const MeshTopology& body, int body_vertices, const Cloth& cloth, double margin,
+                 const Threads& threads = one_thread());
 
   /// Finds every pair that comes nearer than `reach` [m], and some more; those of pins only are left out.
   void find(const BodyStep& step, double reach);
@@ -48,22 +51,34 @@ class BodyCandidates {
   struct Group {
     std::span<const Patch> patches;
     std::span<const int> vertices;
-    Box region;                       // all of the body in it are `near` triangles; nothing at first
-    double travel = 0;                // of the body when that was so
-    std::vector<int> near = {};       // increasing
-    Point axis = Point::Zero();       // they are all below axis·x = level
-    double level = 0, of_travel = 0;  // when the body had travelled so far
-    std::size_t end = 0;              // of its pairs, which follow those of the group before
+    Box region;                        // all of the body in it are `near` triangles; nothing at first
+    double travel = 0;                 // of the body when that was so
+    std::vector<int> near = {};        // increasing
+    Point axis = Point::Zero();        // they are all below axis·x = level
+    double level = 0, of_travel = 0;   // when the body had travelled so far
+    std::size_t begin = 0, count = 0;  // of its pairs
   };
-  void find_of(Group& group, const BodyStep& step, double reach);
+  /// What is found in a part of the groups, and memory for finding it.
+  struct Findings {
+    std::vector<BodyPair> pairs;
+    std::vector<int> near = {};        // what is near a group in a step
+    std::vector<Box> near_boxes = {};  // of those
+  };
+  /// Makes the pairs of what find(group, findings) adds for each group.
+  template <class Find>
+  void find_all(Find&& find);
+  void find_of(Group& group, const BodyStep& step, double reach, Findings& findings) const;
   void look_around(Group& group, const Box& box, const BodyStep& step, double reach) const;
   /// Puts the plane between the group and what is near it as well as it can.
   static void place_plane(Group& group, const BodyStep& step);
   [[nodiscard]] static bool apart(const Group& group, const BodyStep& step, double reach);
-  void add_group(const Group& group, const BodyStep& step, double reach);
-  void add_pairs(const Patch& patch, int triangle, const BodyStep& step, double reach);
-  void add(const FeaturePair& pair, int triangle, int corner, const BodyStep& step, double reach);
+  void add_group(const Group& group, const BodyStep& step, double reach, Findings& findings) const;
+  void add_pairs(const Patch& patch, int triangle, const BodyStep& step, double reach,
+                 std::vector<BodyPair>& pairs) const;
+  void add(const FeaturePair& pair, int triangle, int corner, const BodyStep& step, double reach,
+           std::vector<BodyPair>& pairs) const;
 
+  const Threads& threads_;
   int cloth_count_;
   double margin_;
   std::vector<char> pinned_;
@@ -71,8 +86,7 @@ class BodyCandidates {
   std::vector<int> vertices_;                        // of each group, each once
   std::vector<Group> groups_;
   std::vector<BodyPair> pairs_, before_;
-  std::vector<int> near_;        // what is near a group in a step
-  std::vector<Box> near_boxes_;  // of those
+  std::vector<Findings> findings_;  // of each part
 };
 
 }  // namespace drape

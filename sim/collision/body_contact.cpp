@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -35,26 +36,20 @@ bool opposite(const FeaturePair& pair, const std::array<double, 4>& weights) {
 
 double BodyContact::reach() const { return (kept_part + search_slack) * law_.thickness; }
 
-BodyContact::BodyContact(std::shared_ptr<const MovingBody> body, const BodyLaw& law, const Cloth& cloth)
-    : body_(std::move(body)),
+BodyContact::BodyContact(std::shared_ptr<const MovingBody> body, const BodyLaw& law, const Cloth& cloth,
+                         const Threads& threads)
+    : ImpulseFilter(cloth, body->at(0).mesh->points().size(), threads),
+      body_(std::move(body)),
       law_(law),
       cloth_count_(cloth.vertex_count()),
       start_(body_->at(0)),
       end_(start_),
-      candidates_(body_->topology(), static_cast<int>(end_.mesh->points().size()), cloth, margin * law.thickness) {
-  const Index count = Index(cloth_count_) + end_.mesh->points().size();
-  for (Eigen::Index i = 0; i < cloth.masses.size(); ++i) moving_.inverse_masses.push_back(1 / cloth.masses[i]);
-  for (const int pin : cloth.pins) moving_.inverse_masses[Index(pin)] = 0;
-  moving_.inverse_masses.resize(count, 0);
-  moving_.velocities.resize(count, Point::Zero());
-  x_.resize(count);
-  target_.resize(count);
-  found_for_.resize(count);
-  changed_.resize(count);
-  moved_.resize(count);
+      candidates_(body_->topology(), static_cast<int>(end_.mesh->points().size()), cloth, margin * law.thickness,
+                  threads) {
+  moved_.resize(x_.size());
   impacts_.reserve(usual_impacts);
-  far_.resize(count);
-  held_.resize(count);
+  far_.resize(x_.size());
+  held_.resize(x_.size());
   place_body();
 }
 
@@ -74,7 +69,8 @@ void BodyContact::apply(const Vertices& x, double time, double h, Vertices& v) {
   if (candidates_.pairs().empty()) return;
   found_for_ = target_;
   std::ranges::fill(changed_, 1);
-  for (Index i = 0; i < x_.size(); ++i) moving_.velocities[i] = (target_[i] - x_[i]) / h;
+  for_all(threads_, std::ssize(x_),
+          [&](Eigen::Index i) { moving_.velocities[Index(i)] = (target_[Index(i)] - x_[Index(i)]) / h; });
   std::ranges::fill(moved_, 0);
   repel();
   stop_impacts();
@@ -101,11 +97,11 @@ bool BodyContact::clear(const Vertices& x, double h, const Vertices& v) const {
 
 void BodyContact::load(const Vertices& x, double h, const Vertices& v) {
   h_ = h;
-  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+  for_all(threads_, x.rows(), [&](Eigen::Index i) {
     const Point from = x.row(i).transpose(), to = from + h * v.row(i).transpose();
     x_[Index(i)] = start_.pose.in(from);
     target_[Index(i)] = end_.pose.in(to);
-  }
+  });
   if (body_->deforms()) place_body();
 }
 
@@ -121,16 +117,9 @@ bool BodyContact::resolved() const {
 }
 
 void BodyContact::store(const Vertices& x, Vertices& v) const {
-  for (int i = 0; i < cloth_count_; ++i) {
-    if (moved_[Index(i)] == 0) continue;
-    v.row(i) = (end_.pose.out(target_[Index(i)]).transpose() - x.row(i)) / h_;
-  }
-}
-
-FourPoints BodyContact::moves(const FeaturePair& pair) const {
-  FourPoints move;
-  for (Index i = 0; i < 4; ++i) move[i] = h_ * moving_.velocity(pair.vertices[i]);
-  return move;
+  for_all(threads_, cloth_count_, [&](Eigen::Index i) {
+    if (moved_[Index(i)] != 0) v.row(i) = (end_.pose.out(target_[Index(i)]).transpose() - x.row(i)) / h_;
+  });
 }
 
 Point BodyContact::outwards(const BodyPair& met) const {
@@ -193,26 +182,26 @@ void BodyContact::solve() {
 }
 
 void BodyContact::repel() {
+  near_.fill(
+      threads_, std::ssize(candidates_.pairs()),
+      [&](Eigen::Index k, std::vector<Contact>& contacts) {
+        if (const auto found = contact(candidates_.pairs()[Index(k)], 0, true)) contacts.push_back(*found);
+      },
+      pairs_worth_dividing);
   contacts_.clear();
-  for (const BodyPair& met : candidates_.pairs()) {
-    if (const auto found = contact(met, 0, true)) contacts_.push_back(*found);
-  }
+  near_.append_to(contacts_);
   if (!contacts_.empty()) solve();
 }
 
 void BodyContact::move_targets() {
-  bool any_far = false;
   std::ranges::fill(far_, 0);
-  for (Index i = 0; i < Index(cloth_count_); ++i) {
-    const Point target = x_[i] + h_ * moving_.velocities[i];
-    if (!is_free(static_cast<int>(i)) || target == target_[i]) continue;
-    target_[i] = target;
-    changed_[i] = moved_[i] = 1;
-    if (astray(i) <= search_slack * law_.thickness) continue;
-    found_for_[i] = target;
+  const bool any_far = change_targets(cloth_count_, [&](Index i) {
+    moved_[i] = 1;
+    if (astray(i) <= search_slack * law_.thickness) return false;
+    found_for_[i] = target_[i];
     far_[i] = 1;
-    any_far = true;
-  }
+    return true;
+  });
   if (any_far) candidates_.find_again({x_, found_for_, *start_.mesh, *end_.mesh}, reach(), far_);
 }
 
@@ -226,20 +215,26 @@ double BodyContact::astray(std::size_t i) const {
 
 void BodyContact::find_impacts() {
   look_at_stop();
+  found_.fill(
+      threads_, std::ssize(candidates_.pairs()),
+      [&](Eigen::Index k, std::vector<Impact>& impacts) { add_impact(candidates_.pairs()[Index(k)], impacts); },
+      pairs_worth_dividing);
   impacts_.clear();
-  const double widest = impact_part * kept_part * law_.thickness;
-  for (const BodyPair& met : candidates_.pairs()) {
-    const FeaturePair& pair = met.pair;
-    if (std::ranges::none_of(pair.vertices, [&](int i) { return changed_[Index(i)] != 0; })) continue;
-    // Most stay on their sides of a plane across the line between them.
-    const FourPoints from = gather(x_, pair.vertices), to = gather(target_, pair.vertices);
-    const double gap = std::min(kept_gap * std::sqrt(met.before.squared), widest);
-    if (kept_apart(pair.feature, met.before.difference(from), from, to, 2 * gap)) continue;
-    const auto time = time_of_impact(pair.feature, from, moves(pair), widest);
-    if (!time) continue;
-    if (const auto found = contact(met, *time, false)) impacts_.push_back({met, *found});
-  }
+  found_.append_to(impacts_);
   std::ranges::fill(changed_, 0);
+}
+
+void BodyContact::add_impact(const BodyPair& met, std::vector<Impact>& impacts) const {
+  const FeaturePair& pair = met.pair;
+  if (!changed(pair)) return;
+  const double widest = impact_part * kept_part * law_.thickness;
+  // Most stay on their sides of a plane across the line between them.
+  const FourPoints from = gather(x_, pair.vertices), to = gather(target_, pair.vertices);
+  const double gap = std::min(kept_gap * std::sqrt(met.before.squared), widest);
+  if (kept_apart(pair.feature, met.before.difference(from), from, to, 2 * gap)) return;
+  const auto time = time_of_impact(pair.feature, from, moves(pair), widest);
+  if (!time) return;
+  if (const auto found = contact(met, *time, false)) impacts.push_back({met, *found});
 }
 
 void BodyContact::stop_impacts() {

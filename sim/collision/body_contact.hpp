@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "sim/collision/body_candidates.hpp"
-#include "sim/collision/contacts.hpp"
+#include "sim/collision/impulse_filter.hpp"
 #include "sim/moving_body.hpp"
-#include "sim/system.hpp"
+#include "sim/parallel/part_lists.hpp"
 
 namespace drape {
 
@@ -27,15 +27,15 @@ struct BodyLaw {
 /// All of it is in the body's own coordinates: a rigid body stands still there, so that its tree is built once. A
 /// contact's normal is that of the triangle or of the two edges that meet, so that what slides on a flat face meets no
 /// edges in it.
-class BodyContact final : public MotionFilter {
+class BodyContact final : public ImpulseFilter {
  public:
   /// What is kept free by contacts, as a part of the thickness. The rest is the push's.
   static constexpr double kept_part = 0.25;
 
-  BodyContact(std::shared_ptr<const MovingBody> body, const BodyLaw& law, const Cloth& cloth);
+  BodyContact(std::shared_ptr<const MovingBody> body, const BodyLaw& law, const Cloth& cloth,
+              const Threads& threads = one_thread());
 
   void apply(const Vertices& x, double time, double h, Vertices& v) override;
-  [[nodiscard]] bool converged() const override { return converged_; }
 
  private:
   struct Impact {
@@ -52,7 +52,6 @@ class BodyContact final : public MotionFilter {
   void store(const Vertices& x, Vertices& v) const;
   /// What may come so near in a step is looked at [m].
   [[nodiscard]] double reach() const;
-  [[nodiscard]] bool is_free(int vertex) const { return moving_.inverse_mass(vertex) > 0; }
   /// Whether two features meet at a pin, or almost: where that is, nothing else can change.
   [[nodiscard]] bool is_at_pin(const FeaturePair& pair, const std::array<double, 4>& weights) const;
   /// A contact of two features as they are at a part of the step; nothing if they meet from a solid's inside or at a
@@ -62,13 +61,13 @@ class BodyContact final : public MotionFilter {
   /// The way out of a solid where a pair meets it, in the direction from its second feature to its first; zero on a
   /// shell.
   [[nodiscard]] Point outwards(const BodyPair& met) const;
-  [[nodiscard]] FourPoints moves(const FeaturePair& pair) const;
   void repel();
   void stop_impacts();
   void go_with_body();
   void solve();
   /// Of features that collide on their way, with a contact when they do.
   void find_impacts();
+  void add_impact(const BodyPair& met, std::vector<Impact>& impacts) const;
   /// The target of every vertex whose velocity has changed; finds its candidates anew if it went further than they were
   /// found for.
   void move_targets();
@@ -77,18 +76,15 @@ class BodyContact final : public MotionFilter {
 
   std::shared_ptr<const MovingBody> body_;
   BodyLaw law_;
-  int cloth_count_;  // the body's vertices are numbered on from the cloth's
-  double h_ = 0;
+  int cloth_count_;  // the body's vertices are numbered on from the cloth's; all are in the body's coordinates
   BodyAt start_, end_;
   BodyCandidates candidates_;
-  MovingVertices moving_;
-  std::vector<Point> x_, target_, found_for_;  // in the body's coordinates
-  std::vector<char> changed_;                  // vertices whose targets changed since impacts were last looked for
-  std::vector<char> moved_, held_;             // vertices of other velocities than they came with; with the body's
-  std::vector<char> far_;                      // vertices whose pairs are to be found anew
+  std::vector<char> moved_, held_;  // vertices of other velocities than they came with; with the body's
+  std::vector<char> far_;           // vertices whose pairs are to be found anew
+  PartLists<Contact> near_;         // at the start of the step
+  PartLists<Impact> found_;
   std::vector<Contact> contacts_;
   std::vector<Impact> impacts_;
-  bool converged_ = true;
 };
 
 }  // namespace drape

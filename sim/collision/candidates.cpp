@@ -1,6 +1,7 @@
 #include "sim/collision/candidates.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "sim/collision/impact.hpp"
 
@@ -32,24 +33,23 @@ CollisionCandidates::CollisionCandidates(const Cloth& cloth, const Threads& thre
 }
 
 void CollisionCandidates::surround(const std::vector<Point>& from, const std::vector<Point>& to, double margin) {
-  const auto for_all = [&](std::size_t count, auto&& use) {
-    for_ranges(threads_, static_cast<Eigen::Index>(count), [&](Eigen::Index first, Eigen::Index many) {
-      for (Eigen::Index i = first; i < first + many; ++i) use(static_cast<std::size_t>(i));
-    });
-  };
   const auto box = [&](int i) -> const Box& { return vertex_boxes_[static_cast<std::size_t>(i)]; };
   const Eigen::Vector3d all_around = Eigen::Vector3d::Constant(margin);
   vertex_boxes_.resize(from.size());
-  for_all(from.size(), [&](std::size_t i) {
+  for_all(threads_, std::ssize(from), [&](Eigen::Index index) {
+    const auto i = static_cast<std::size_t>(index);
     vertex_boxes_[i] = {from[i].cwiseMin(to[i]) - all_around, from[i].cwiseMax(to[i]) + all_around};
   });
   triangle_boxes_.resize(triangles_.size());
-  for_all(triangles_.size(), [&](std::size_t t) {
-    const auto& [a, b, c] = triangles_[t];
-    triangle_boxes_[t] = around(around(box(a), box(b)), box(c));
+  for_all(threads_, std::ssize(triangles_), [&](Eigen::Index t) {
+    const auto& [a, b, c] = triangles_[static_cast<std::size_t>(t)];
+    triangle_boxes_[static_cast<std::size_t>(t)] = around(around(box(a), box(b)), box(c));
   });
   edge_boxes_.resize(edges_.size());
-  for_all(edges_.size(), [&](std::size_t e) { edge_boxes_[e] = around(box(edges_[e][0]), box(edges_[e][1])); });
+  for_all(threads_, std::ssize(edges_), [&](Eigen::Index e) {
+    const auto& [a, b] = edges_[static_cast<std::size_t>(e)];
+    edge_boxes_[static_cast<std::size_t>(e)] = around(box(a), box(b));
+  });
 }
 
 void CollisionCandidates::find(const std::vector<Point>& from, const std::vector<Point>& to, double reach) {
@@ -68,14 +68,11 @@ void CollisionCandidates::find(const std::vector<Point>& from, const std::vector
   };
   // Features are gone through in their order, so only the pairs of each have to be sorted.
   const auto find_all = [&](std::size_t count, auto&& find_of) {
-    found_.fill(threads_, static_cast<Eigen::Index>(count),
-                [&](Eigen::Index first, Eigen::Index many, std::vector<FeaturePair>& found) {
-                  for (Eigen::Index k = first; k < first + many; ++k) {
-                    const auto before = static_cast<std::ptrdiff_t>(found.size());
-                    find_of(static_cast<std::size_t>(k), found);
-                    std::sort(found.begin() + before, found.end());
-                  }
-                });
+    found_.fill(threads_, static_cast<Eigen::Index>(count), [&](Eigen::Index k, std::vector<FeaturePair>& found) {
+      const auto before = static_cast<std::ptrdiff_t>(found.size());
+      find_of(static_cast<std::size_t>(k), found);
+      std::sort(found.begin() + before, found.end());
+    });
     found_.append_to(pairs_);
   };
   pairs_.clear();

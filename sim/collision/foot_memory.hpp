@@ -10,7 +10,8 @@ namespace drape {
 
 /// Finds where points are beside a mesh, and remembers which triangles were near each of them: while a point and the
 /// mesh move little, only those of them are looked at that can be the nearest. It saves time and changes nothing about
-/// what is found. Points and mesh are in the mesh's coordinates.
+/// what is found. Points and mesh are in the mesh's coordinates. What is kept is of each point by itself: threads may
+/// ask for different ones at once.
 class FootMemory {
  public:
   /// @param reach within which feet are asked for [m]

@@ -20,25 +20,11 @@ constexpr double slack = 0.25;
 constexpr double clearly = 1.001;
 // After so many rounds all zones are joined: then it ends in as many rounds as there are vertices left outside.
 constexpr int most_zone_rounds = 50;
-constexpr Eigen::Index pairs_worth_dividing = 512;
 
 }  // namespace
 
 SelfContact::SelfContact(const SelfCollision& values, const Cloth& cloth, const Threads& threads)
-    : values_(values),
-      cloth_(cloth),
-      threads_(for_so_many(threads, cloth.vertex_count())),
-      candidates_(cloth, threads),
-      sheet_(cloth) {
-  const auto count = static_cast<Index>(cloth.vertex_count());
-  moving_.velocities.resize(count);
-  for (int i = 0; i < cloth.vertex_count(); ++i) moving_.inverse_masses.push_back(1 / cloth.masses[i]);
-  for (const int pin : cloth.pins) moving_.inverse_masses[Index(pin)] = 0;
-  x_.resize(count);
-  target_.resize(count);
-  found_for_.resize(count);
-  changed_.resize(count);
-}
+    : ImpulseFilter(cloth, 0, threads), values_(values), cloth_(cloth), candidates_(cloth, threads), sheet_(cloth) {}
 
 void SelfContact::apply(const Vertices& x, double, double h, Vertices& v) {
   converged_ = true;
@@ -59,21 +45,17 @@ void SelfContact::apply(const Vertices& x, double, double h, Vertices& v) {
   repel();
   stop_impacts();
   if (!impacts_.empty()) make_rigid();
-  for_ranges(threads_, v.rows(), [&](Eigen::Index first, Eigen::Index count) {
-    for (Eigen::Index i = first; i < first + count; ++i) {
-      if (moving_.inverse_masses[Index(i)] > 0) v.row(i) = moving_.velocities[Index(i)].transpose();
-    }
+  for_all(threads_, v.rows(), [&](Eigen::Index i) {
+    if (is_free(static_cast<int>(i))) v.row(i) = moving_.velocities[Index(i)].transpose();
   });
 }
 
 void SelfContact::load(const Vertices& x, double h, const Vertices& v) {
   h_ = h;
-  for_ranges(threads_, x.rows(), [&](Eigen::Index first, Eigen::Index count) {
-    for (Eigen::Index i = first; i < first + count; ++i) {
-      x_[Index(i)] = x.row(i).transpose();
-      moving_.velocities[Index(i)] = v.row(i).transpose();
-      target_[Index(i)] = x_[Index(i)] + h * moving_.velocities[Index(i)];
-    }
+  for_all(threads_, x.rows(), [&](Eigen::Index i) {
+    x_[Index(i)] = x.row(i).transpose();
+    moving_.velocities[Index(i)] = v.row(i).transpose();
+    target_[Index(i)] = x_[Index(i)] + h * moving_.velocities[Index(i)];
   });
 }
 
@@ -89,32 +71,16 @@ void SelfContact::find_candidates() {
                                   return sum;
                                 }) /
                          static_cast<double>(vertices);
-  for_ranges(threads_, vertices, [&](Eigen::Index first, Eigen::Index count) {
-    for (Index i = Index(first); i < Index(first + count); ++i) found_for_[i] = target_[i] - together;
-  });
+  for_all(threads_, vertices, [&](Eigen::Index i) { found_for_[Index(i)] = target_[Index(i)] - together; });
   candidates_.find(x_, found_for_, (1 + 2 * slack) * values_.thickness);
   found_for_ = target_;
   std::fill(changed_.begin(), changed_.end(), 1);
 }
 
 void SelfContact::move_targets() {
-  const auto move = [&](Eigen::Index first, Eigen::Index count) {
-    bool far = false;
-    for (Index i = Index(first); i < Index(first + count); ++i) {
-      const Point target = x_[i] + h_ * moving_.velocities[i];
-      if (target == target_[i]) continue;
-      target_[i] = target;
-      changed_[i] = 1;
-      far |= (target - found_for_[i]).norm() > slack * values_.thickness;
-    }
-    return far;
-  };
-  if (reduce(threads_, static_cast<Eigen::Index>(x_.size()), move, std::logical_or<>())) find_candidates();
-}
-
-FourPoints SelfContact::places(const FeaturePair& pair) const {
-  const auto& v = pair.vertices;
-  return {x_[Index(v[0])], x_[Index(v[1])], x_[Index(v[2])], x_[Index(v[3])]};
+  const bool far = change_targets(
+      std::ssize(x_), [&](Index i) { return (target_[i] - found_for_[i]).norm() > slack * values_.thickness; });
+  if (far) find_candidates();
 }
 
 double SelfContact::rest_distance(const FeaturePair& pair) const {
@@ -124,7 +90,7 @@ double SelfContact::rest_distance(const FeaturePair& pair) const {
 }
 
 void SelfContact::add_contact(const FeaturePair& pair, std::vector<Contact>& contacts) const {
-  const FourPoints p = places(pair);
+  const FourPoints p = gather(x_, pair.vertices);
   const Nearest near = nearest(pair.feature, p);
   const double distance = std::sqrt(near.squared);
   if (!(distance > 0)) return;
@@ -142,9 +108,7 @@ void SelfContact::add_contact(const FeaturePair& pair, std::vector<Contact>& con
 void SelfContact::repel() {
   contacts_.fill(
       threads_, std::ssize(candidates_.pairs()),
-      [&](Eigen::Index first, Eigen::Index count, std::vector<Contact>& contacts) {
-        for (Index k = Index(first); k < Index(first + count); ++k) add_contact(candidates_.pairs()[k], contacts);
-      },
+      [&](Eigen::Index k, std::vector<Contact>& contacts) { add_contact(candidates_.pairs()[Index(k)], contacts); },
       pairs_worth_dividing);
   for (int pass = 0; pass < values_.iterations; ++pass) {
     look_at_stop();
@@ -153,20 +117,13 @@ void SelfContact::repel() {
   move_targets();
 }
 
-bool SelfContact::changed(const FeaturePair& pair) const {
-  return std::any_of(pair.vertices.begin(), pair.vertices.end(), [&](int i) { return changed_[Index(i)] != 0; });
-}
-
 void SelfContact::find_impacts() {
   look_at_stop();
-  const auto find = [&](Eigen::Index first, Eigen::Index count, std::vector<Impact>& impacts) {
-    for (Index k = Index(first); k < Index(first + count); ++k) {
-      const FeaturePair& pair = candidates_.pairs()[k];
-      if (!changed(pair)) continue;
-      FourPoints move;
-      for (Index i = 0; i < 4; ++i) move[i] = h_ * moving_.velocity(pair.vertices[i]);
-      if (const auto time = time_of_impact(pair.feature, places(pair), move)) impacts.push_back({pair, *time});
-    }
+  const auto find = [&](Eigen::Index k, std::vector<Impact>& impacts) {
+    const FeaturePair& pair = candidates_.pairs()[Index(k)];
+    if (!changed(pair)) return;
+    const auto time = time_of_impact(pair.feature, gather(x_, pair.vertices), moves(pair));
+    if (time) impacts.push_back({pair, *time});
   };
   found_.fill(threads_, std::ssize(candidates_.pairs()), find, pairs_worth_dividing);
   impacts_.clear();
@@ -178,7 +135,7 @@ void SelfContact::stop_impacts() {
   find_impacts();
   for (int pass = 0; pass < values_.iterations && !impacts_.empty(); ++pass) {
     for (const Impact& impact : impacts_) {
-      FourPoints p = places(impact.pair);
+      FourPoints p = gather(x_, impact.pair.vertices);
       for (const int i : impact.pair.vertices) changed_[Index(i)] = 1;
       for (Index i = 0; i < 4; ++i) p[i] += impact.time * h_ * moving_.velocity(impact.pair.vertices[i]);
       const Nearest near = nearest(impact.pair.feature, p);

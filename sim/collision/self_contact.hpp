@@ -1,10 +1,10 @@
 #pragma once
 
-#include "sim/collision/contacts.hpp"
+#include "sim/collision/impulse_filter.hpp"
 #include "sim/collision/rigid_zones.hpp"
 #include "sim/collision/smooth_sheet.hpp"
 #include "sim/effects/self_collision.hpp"
-#include "sim/system.hpp"
+#include "sim/parallel/part_lists.hpp"
 
 namespace drape {
 
@@ -16,13 +16,11 @@ namespace drape {
 /// 3. What collides after that moves as a rigid body, see RigidZones. After this step nothing collides.
 /// A cloth of which nothing can come near anything, see SmoothSheet, is not searched at all, with the same bits.
 /// Every change is by opposite impulses or keeps momentum otherwise, so linear momentum is kept to rounding.
-class SelfContact final : public MotionFilter {
+class SelfContact final : public ImpulseFilter {
  public:
-  /// @param threads that share the search and what is looked at of each pair; impulses are one after another
   SelfContact(const SelfCollision& values, const Cloth& cloth, const Threads& threads = one_thread());
 
   void apply(const Vertices& x, double time, double h, Vertices& v) override;
-  [[nodiscard]] bool converged() const override { return converged_; }
 
  private:
   void load(const Vertices& x, double h, const Vertices& v);
@@ -35,9 +33,7 @@ class SelfContact final : public MotionFilter {
   /// The target of every vertex whose velocity has changed; finds the candidates anew if one went further than they
   /// were found for.
   void move_targets();
-  [[nodiscard]] FourPoints places(const FeaturePair& pair) const;
   [[nodiscard]] double rest_distance(const FeaturePair& pair) const;
-  [[nodiscard]] bool changed(const FeaturePair& pair) const;
   /// Appends a pair's contact, if it is to have one.
   void add_contact(const FeaturePair& pair, std::vector<Contact>& contacts) const;
 
@@ -48,18 +44,12 @@ class SelfContact final : public MotionFilter {
 
   SelfCollision values_;
   const Cloth& cloth_;
-  const Threads& threads_;
   CollisionCandidates candidates_;
   SmoothSheet sheet_;
-  MovingVertices moving_;
   RigidZones zones_;
-  double h_ = 0;
-  std::vector<Point> x_, target_, found_for_;  // where vertices are, would go, and would have gone when last searched
-  std::vector<char> changed_;                  // vertices whose targets changed since impacts were last looked for
   PartLists<Contact> contacts_;
   PartLists<Impact> found_;
   std::vector<Impact> impacts_;
-  bool converged_ = true;
 };
 
 }  // namespace drape

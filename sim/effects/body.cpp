@@ -125,7 +125,7 @@ void Body::install(System& system) const {
   const auto feet = std::make_shared<FootMemory>(static_cast<std::size_t>(system.cloth.vertex_count()), thickness);
   install_contact(BodySurface{moving, thickness, feet}, law(), system);
   const BodyLaw limits{thickness, friction, std::sqrt(stiffness)};
-  system.filters.push_back(std::make_unique<BodyContact>(moving, limits, system.cloth));
+  system.filters.push_back(std::make_unique<BodyContact>(moving, limits, system.cloth, system.threads));
 }
 
 ContactLaw Body::law() const { return {stiffness, response, friction, restitution}; }

@@ -7,37 +7,32 @@
 #include <vector>
 
 #include "sim/effects/surface_contact.hpp"
+#include "sim/parallel/part_lists.hpp"
+#include "sim/parallel/vectors.hpp"
 #include "sim/system.hpp"
 
 namespace drape {
 
 /// What was at the start of a step.
 struct StepStart {
-  std::vector<bool> outside;  ///< which vertices were outside of a surface
+  std::vector<char> outside;  ///< which vertices were outside of a surface
   Vertices v;                 ///< [m/s]
 
   explicit StepStart(const Cloth& cloth)
-      : outside(static_cast<std::size_t>(cloth.vertex_count()), false), v(Vertices::Zero(cloth.vertex_count(), 3)) {}
-  [[nodiscard]] bool was_outside(int vertex) const { return outside[static_cast<std::size_t>(vertex)]; }
+      : outside(static_cast<std::size_t>(cloth.vertex_count()), 0), v(Vertices::Zero(cloth.vertex_count(), 3)) {}
+  [[nodiscard]] bool was_outside(int vertex) const { return outside[static_cast<std::size_t>(vertex)] != 0; }
 };
 
-/// Changes of single vertices' velocities that wait until the vertices have moved.
-class VelocityChanges {
- public:
-  /// Takes memory for as many, so that no step has to.
-  explicit VelocityChanges(std::size_t most) { changes_.reserve(most); }
-  void clear() { changes_.clear(); }
-  void add(int vertex, const Eigen::Vector3d& change) { changes_.push_back({vertex, change.transpose()}); }
-  void apply(Vertices& v) const {
-    for (const Change& c : changes_) v.row(c.vertex) += c.change;
-  }
+/// Whether a vertex arrives in this step at a surface from which it bounces: then it is the impact that stops it, and
+/// not the push.
+inline bool arrives(const std::shared_ptr<const StepStart>& start, Eigen::Index i) {
+  return start && start->was_outside(static_cast<int>(i));
+}
 
- private:
-  struct Change {
-    int vertex;
-    Eigen::RowVector3d change;  // [m/s]
-  };
-  std::vector<Change> changes_;
+/// A change of a vertex's velocity that waits until the vertices have moved.
+struct VelocityChange {
+  int vertex;
+  Eigen::RowVector3d change;  ///< [m/s]
 };
 
 /// Newton's law of impact: a vertex that would come into a surface in this step leaves it with the share e of
@@ -60,6 +55,7 @@ struct ReboundFilter final : MotionFilter {
   Eigen::Vector3d gravity;
   std::vector<int> free;  // the vertices that are not pinned
   std::shared_ptr<StepStart> start;
+  const Threads& threads;
 
   ReboundFilter(Surface s, double e, double mu, const System& system, std::vector<int> vertices)
       : surface(std::move(s)),
@@ -68,26 +64,37 @@ struct ReboundFilter final : MotionFilter {
         gravity(system.gravity),
         free(std::move(vertices)),
         start(std::make_shared<StepStart>(system.cloth)),
-        turns_(free.size()) {}
+        threads(system.threads) {
+    arriving_.reserve(std::ssize(free));
+    turns_.reserve(free.size());
+  }
 
   void begin(const State& state, double time) override {
     const auto now = surface.at(time);
-    SurfaceContact contact;
-    for (const int i : free) {
-      start->outside[static_cast<std::size_t>(i)] = !find_contact(now, i, state.x.row(i).transpose(), contact);
-    }
-    start->v = state.v;
+    for_all(threads, std::ssize(free), [&](Eigen::Index k) {
+      const int i = free[static_cast<std::size_t>(k)];
+      SurfaceContact contact;
+      const bool inside = find_contact(now, i, state.x.row(i).transpose(), contact);
+      start->outside[static_cast<std::size_t>(i)] = inside ? 0 : 1;
+    });
+    copy(threads, state.v, start->v);
   }
 
   void apply(const Vertices& x, double time, double h, Vertices& v) override {
     turns_.clear();
     const auto before = surface.at(time), after = surface.at(time + h);
     const auto drifts = way_of(surface, time, time + h);
+    arriving_.fill(threads, std::ssize(free), [&](Eigen::Index k, std::vector<int>& arriving) {
+      const int i = free[static_cast<std::size_t>(k)];
+      SurfaceContact contact;
+      if (!start->was_outside(i)) return;
+      if (find_contact(after, i, (x.row(i) + h * v.row(i)).transpose(), contact)) arriving.push_back(i);
+    });
+    // These are few, and a surface may be asked for other times by one thread alone.
     SurfaceContact contact;
-    for (const int i : free) {
-      if (!start->was_outside(i)) continue;
+    arriving_.for_each([&](int i) {
       const Eigen::Vector3d from = x.row(i).transpose(), mean = v.row(i).transpose();
-      if (!find_contact(after, i, from + h * mean, contact)) continue;
+      if (!find_contact(after, i, from + h * mean, contact)) return;
       const Eigen::Vector3d drift = drifts.of(contact) / h;
       // The gap on the way there is c + b·t + fall/2·t².
       const double fall = gravity.dot(contact.normal()), c = std::max(0.0, before.gap(from));
@@ -99,7 +106,7 @@ struct ReboundFilter final : MotionFilter {
       const Eigen::Vector3d arrival = mean - drift + (hit - 0.5 * h) * gravity;
 
       const double speed = -n.dot(arrival), pressed = std::max(0.0, n.dot(start->v.row(i).transpose() - mean));
-      if (speed <= 0) continue;
+      if (speed <= 0) return;
       const double back = restitution * speed > pressed ? restitution * speed : 0;
       const Eigen::Vector3d along = arrival + speed * n;
       const double slip = along.norm(), lost = friction * (speed + back);
@@ -110,11 +117,13 @@ struct ReboundFilter final : MotionFilter {
       if (back > 0) clear(after, 1e-6 * h * back, end);
       const Eigen::Vector3d way = (end - from) / h;
       v.row(i) = way.transpose();
-      turns_.add(i, departure + (left - 0.5 * h) * gravity - way);
-    }
+      turns_.push_back({i, (departure + (left - 0.5 * h) * gravity - way).transpose()});
+    });
   }
 
-  void finish(Vertices& v) override { turns_.apply(v); }
+  void finish(Vertices& v) override {
+    for (const VelocityChange& turn : turns_) v.row(turn.vertex) += turn.change;
+  }
 
  private:
   /// What leaves is outside at the end of the step, whatever rounding and curvature say: inside it would count as what
@@ -125,7 +134,8 @@ struct ReboundFilter final : MotionFilter {
     if (missing > 0) point += missing * shape.normal(point);
   }
 
-  VelocityChanges turns_;
+  PartLists<int> arriving_;
+  std::vector<VelocityChange> turns_;
 };
 
 }  // namespace drape

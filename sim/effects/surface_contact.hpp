@@ -17,14 +17,6 @@ struct SurfaceContact {
   [[nodiscard]] Eigen::Vector3d normal() const { return outward / length; }
 };
 
-/// Whether a surface keeps something of the vertices that it was asked for.
-template <class Shape>
-constexpr bool remembers(const Shape& /*shape*/) {
-  return requires(const Shape& shape, SurfaceContact& contact) {
-    shape.find(Eigen::Index{}, Eigen::Vector3d(), contact);
-  };
-}
-
 /// Whether a vertex is inside a surface, and how: see below. What remembers where vertices were is told which it is.
 template <class Shape>
 bool find_contact(const Shape& shape, Eigen::Index vertex, const Eigen::Vector3d& point, SurfaceContact& contact) {
@@ -57,6 +49,7 @@ auto way_of(const Surface& surface, double from, double to) {
 // is an object of which find(point, contact), or find(vertex, point, contact), says whether the point is inside the
 // surface, and fills in how; gap(point) is how far the point is from it, negative inside [m], and normal(point) the
 // direction outwards. Contact takes the surface as a template parameter, so that the loops over the vertices hold the
-// geometry and no virtual call. The surface is where the push begins, a little outside of what is drawn.
+// geometry and no virtual call. What at(time) returns is asked by several threads at once, of a vertex by one of them.
+// The surface is where the push begins, a little outside of what is drawn.
 
 }  // namespace drape

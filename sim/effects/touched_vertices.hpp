@@ -1,11 +1,11 @@
 #pragma once
 
-#include <cstddef>
 #include <limits>
-#include <vector>
 
 #include "sim/effects/surface_contact.hpp"
 #include "sim/mesh.hpp"
+#include "sim/parallel/part_lists.hpp"
+#include "sim/parallel/vectors.hpp"
 
 namespace drape {
 
@@ -19,11 +19,13 @@ struct TouchedVertices {
 
   double time = std::numeric_limits<double>::quiet_NaN();  // of nothing yet [s]
   Vertices x;
-  std::vector<Touched> all;
+  PartLists<Touched> all;
 
   /// Takes memory for as many, so that no step has to.
-  explicit TouchedVertices(Eigen::Index most) : x(most, 3) { all.reserve(static_cast<std::size_t>(most)); }
-  [[nodiscard]] bool are_those_of(const Vertices& places, double at) const { return time == at && x == places; }
+  explicit TouchedVertices(Eigen::Index most) : x(most, 3) { all.reserve(most); }
+  [[nodiscard]] bool are_those_of(const Vertices& places, double at, const Threads& threads) const {
+    return time == at && equal(threads, x, places);
+  }
 };
 
 }  // namespace drape

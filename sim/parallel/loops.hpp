@@ -43,6 +43,17 @@ void for_ranges(const Threads& threads, Eigen::Index count, Use&& use, Eigen::In
   });
 }
 
+/// Calls use(i) for all indices below `count`, likewise.
+template <class Use>
+void for_all(const Threads& threads, Eigen::Index count, Use&& use, Eigen::Index least = worth_dividing) {
+  for_ranges(
+      threads, count,
+      [&](Eigen::Index first, Eigen::Index many) {
+        for (Eigen::Index i = first; i < first + many; ++i) use(i);
+      },
+      least);
+}
+
 /// The results of part(first, count) for ranges of indices that depend on `count` alone, put together in their order:
 /// a sum, or whatever together(so far, next) makes of two.
 template <class Part, class Together>

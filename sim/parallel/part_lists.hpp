@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -17,40 +18,60 @@ class PartLists {
  public:
   /// Takes memory for one of each of `count` things, so that no step has to.
   void reserve(Eigen::Index count, Eigen::Index least = worth_dividing) {
-    resize(count, least);
+    resize(count < least ? 1 : most_parts);
     for (int part = 0; part < parts_; ++part) {
-      list(part).reserve(
-          static_cast<std::size_t>(begin_of_part(count, part + 1, parts_) - begin_of_part(count, part, parts_)));
+      const Eigen::Index first = begin_of_part(count, part, parts_);
+      list(part).reserve(static_cast<std::size_t>(begin_of_part(count, part + 1, parts_) - first));
     }
   }
 
-  /// Replaces them by what find(first, count, list) appends to a list for ranges of indices which together are all
-  /// below `count`.
+  /// Replaces them by what find(i, list) appends to a list for all indices i below `count`.
   /// @param least how many things are worth dividing
   template <class Find>
   void fill(const Threads& threads, Eigen::Index count, Find&& find, Eigen::Index least = worth_dividing) {
-    resize(count, least);
-    threads.for_each(parts_, [&](int part) {
-      // By itself: the lists' ends lie side by side, where threads that push would write to one cache line.
-      std::vector<Found> found = std::move(list(part));
-      found.clear();
-      const Eigen::Index first = begin_of_part(count, part, parts_);
-      find(first, begin_of_part(count, part + 1, parts_) - first, found);
-      list(part) = std::move(found);
+    resize(count < least ? 1 : most_parts);
+    replace(threads, [&](int part, std::vector<Found>& found) {
+      const Eigen::Index end = begin_of_part(count, part + 1, parts_);
+      for (Eigen::Index i = begin_of_part(count, part, parts_); i < end; ++i) find(i, found);
     });
+  }
+
+  /// Replaces them by what find(others, list) appends to a list for each of those of other things.
+  template <class Other, class Find>
+  void fill_from(const Threads& threads, const PartLists<Other>& others, Find&& find) {
+    resize(static_cast<int>(others.lists().size()));
+    replace(threads,
+            [&](int part, std::vector<Found>& found) { find(others.lists()[static_cast<std::size_t>(part)], found); });
   }
 
   /// Leaves nothing but memory.
   void clear() {
-    for (std::vector<Found>& list : lists()) list.clear();
+    for (std::vector<Found>& list : used()) list.clear();
+  }
+
+  [[nodiscard]] Eigen::Index size() const {
+    Eigen::Index sum = 0;
+    for (const std::vector<Found>& list : lists()) sum += std::ssize(list);
+    return sum;
   }
 
   /// Calls use(found) for all of them in their order.
   template <class Use>
   void for_each(Use&& use) {
-    for (std::vector<Found>& list : lists()) {
+    for (std::vector<Found>& list : used()) {
       for (Found& found : list) use(found);
     }
+  }
+
+  /// Calls use(found) for all of them, of which none depends on another.
+  template <class Use>
+  void for_each(const Threads& threads, Use&& use) const {
+    const int shares = size() < worth_dividing ? 1 : threads.count();
+    threads.for_each(shares, [&](int share) {
+      for (int part = parts_ * share / shares; part < parts_ * (share + 1) / shares; ++part) {
+        for (const Found& found : lists()[static_cast<std::size_t>(part)]) use(found);
+      }
+    });
   }
 
   /// Appends them to others in their order.
@@ -58,17 +79,28 @@ class PartLists {
     for (const std::vector<Found>& list : lists()) others.insert(others.end(), list.begin(), list.end());
   }
 
-  [[nodiscard]] std::span<std::vector<Found>> lists() { return {lists_.data(), static_cast<std::size_t>(parts_)}; }
+  /// Of each part.
   [[nodiscard]] std::span<const std::vector<Found>> lists() const {
     return {lists_.data(), static_cast<std::size_t>(parts_)};
   }
 
  private:
-  void resize(Eigen::Index count, Eigen::Index least) {
-    parts_ = count < least ? 1 : most_parts;
-    if (lists_.size() < static_cast<std::size_t>(parts_)) lists_.resize(static_cast<std::size_t>(parts_));
+  template <class Find>
+  void replace(const Threads& threads, Find&& find) {
+    threads.for_each(parts_, [&](int part) {
+      // By itself: the lists' ends lie side by side, where threads that push would write to one cache line.
+      std::vector<Found> found = std::move(list(part));
+      found.clear();
+      find(part, found);
+      list(part) = std::move(found);
+    });
+  }
+  void resize(int parts) {
+    parts_ = parts;
+    if (lists_.size() < static_cast<std::size_t>(parts)) lists_.resize(static_cast<std::size_t>(parts));
   }
   std::vector<Found>& list(int part) { return lists_[static_cast<std::size_t>(part)]; }
+  std::span<std::vector<Found>> used() { return {lists_.data(), static_cast<std::size_t>(parts_)}; }
 
   std::vector<std::vector<Found>> lists_;
   int parts_ = 0;  // of the last loop

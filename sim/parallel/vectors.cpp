@@ -1,5 +1,8 @@
 #include "sim/parallel/vectors.hpp"
 
+#include <algorithm>
+#include <functional>
+
 namespace drape {
 namespace {
 
@@ -57,6 +60,16 @@ void copy(const Threads& threads, const Vertices& from, Vertices& to) {
       threads, from.size(),
       [&](Eigen::Index first, Eigen::Index count) { std::copy_n(from.data() + first, count, to.data() + first); },
       numbers_worth_dividing);
+}
+
+bool equal(const Threads& threads, const Vertices& a, const Vertices& b) {
+  if (a.rows() != b.rows()) return false;
+  return reduce(
+      threads, a.size(),
+      [&](Eigen::Index first, Eigen::Index count) {
+        return std::equal(a.data() + first, a.data() + first + count, b.data() + first);
+      },
+      std::logical_and<>(), numbers_worth_dividing);
 }
 
 void subtract(const Threads& threads, const Vertices& a, const Vertices& b, Vertices& to) {

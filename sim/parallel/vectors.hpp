@@ -20,6 +20,9 @@ void dots(const Threads& threads, std::span<const double* const> vectors, const 
 /// to = from.
 void copy(const Threads& threads, const Vertices& from, Vertices& to);
 
+/// Whether all numbers are equal.
+bool equal(const Threads& threads, const Vertices& a, const Vertices& b);
+
 /// to = a − b.
 void subtract(const Threads& threads, const Vertices& a, const Vertices& b, Vertices& to);
 

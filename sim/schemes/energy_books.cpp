@@ -38,7 +38,7 @@ void balance_momentum(const Cloth& cloth, const StepObjective& objective, Iterat
   const double inertial = objective.inertial_value(point.x);
   point.x.rowwise() += shift;
   point.value += objective.inertial_value(point.x) - inertial;  // what it solves for is the same everywhere
-  point.gradient += objective.inertia() * shift;
+  point.gradient.noalias() += objective.inertia() * shift;
 }
 
 EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, const Accuracy& accuracy)
