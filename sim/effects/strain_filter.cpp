@@ -129,14 +129,15 @@ void StrainFilter::activate(Index k, const Vertices& x) {
 bool StrainFilter::look_around(const Vertices& x, bool early) {
   bool all_hold = true;
   const Index before = active_.size();
-  for (Index w = 0; w < watched_.size(); ++w) {  // which activate() makes longer
-    Limited& s = limited_[watched_[w]];
+  for (Index next = 0; next < watched_.size();) {  // which activate() makes longer
+    const Index k = watched_[next++];
+    Limited& s = limited_[k];
     if (s.stage == Stage::active) continue;
     const Eigen::Vector3d end = end_of(s);
     const double squared = end.squaredNorm();
     if (squared <= s.longest * s.longest && squared >= s.shortest * s.shortest) continue;
-    active_.push_back(watched_[w]);
-    activate(watched_[w], x);
+    active_.push_back(k);
+    activate(k, x);
     if (holds(s, end)) continue;
     all_hold = false;
     relax(s, early);
