@@ -75,15 +75,18 @@ std::string read_file(const std::filesystem::path& file, std::size_t limit) {
   fail(file, fmt::format("the file is too large: expected at most {} bytes", limit));
 }
 
-std::string read_text(const std::filesystem::path& file, std::size_t limit) {
+std::string text_of(const std::filesystem::path& file, std::string text) {
   constexpr std::string_view utf8 = "\xEF\xBB\xBF", utf16_little = "\xFF\xFE", utf16_big = "\xFE\xFF";
-  std::string text = read_file(file, limit);
   if (text.starts_with(utf16_little) || text.starts_with(utf16_big)) {
     fail(file, "the file is text in UTF-16: save it as UTF-8");
   }
   if (text.find('\0') != std::string::npos) fail(file, "this is a binary file, not a text");
   if (text.starts_with(utf8)) text.erase(0, utf8.size());
   return text;
+}
+
+std::string read_text(const std::filesystem::path& file, std::size_t limit) {
+  return text_of(file, read_file(file, limit));
 }
 
 }  // namespace drape

@@ -15,4 +15,7 @@ std::string read_file(const std::filesystem::path& file, std::size_t limit);
 /// @throws UsageError also for UTF-16, which such a mark tells, and for what no text has, a zero byte
 std::string read_text(const std::filesystem::path& file, std::size_t limit);
 
+/// The same of bytes that have been read from it.
+std::string text_of(const std::filesystem::path& file, std::string text);
+
 }  // namespace drape
