@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
 #include <utility>
 
 #include "core/error.hpp"
@@ -16,13 +15,22 @@ namespace {
 /// Whether a byte is not the first of a character in UTF-8.
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
+/// Refuses what is no text, but would be one if it were exported again.
+void require_no_binary_usd(const std::filesystem::path& file, const std::string& bytes) {
+  const auto fail = [&](const char* form) {
+    throw UsageError(fmt::format("{}: this is a {}; export it as ASCII, with the ending .usda", file.string(), form));
+  };
+  if (bytes.starts_with("PXR-USDC")) fail("binary USD file (usdc)");
+  if (bytes.starts_with("PK\x03\x04")) fail("packed USD file (usdz)");
+}
+
 }  // namespace
 
 SourceText SourceText::read(const std::filesystem::path& file) {
   // A grid of four million cells, the largest there is, takes about half a gigabyte as text.
   constexpr std::size_t most_bytes = 2'000'000'000;
   std::string bytes = read_file(file, most_bytes);
-  if (bytes.starts_with("PXR-USDC")) return {file.string(), std::move(bytes)};  // whose reader says what to do about it
+  require_no_binary_usd(file, bytes);
   return {file.string(), text_of(file, std::move(bytes))};
 }
 

@@ -69,12 +69,6 @@ class Parser {
  private:
   static std::size_t check_header(const SourceText& source) {
     const std::string_view text = source.text();
-    if (text.starts_with("PXR-USDC")) {
-      source.fail("this is a binary USD file (usdc); export it as ASCII, with the ending .usda");
-    }
-    if (text.starts_with("PK\x03\x04")) {
-      source.fail("this is a packed USD file (usdz); export it as ASCII, with the ending .usda");
-    }
     const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
     if (!text.substr(0, end).starts_with("#usda 1.")) {
       source.fail(0, "expected '#usda 1.0', found " + in_quotes(text.substr(0, end)));

@@ -72,6 +72,9 @@ TEST(MeshFile, AsksForAsciiWhereTheUsdIsBinary) {
   const std::string package = write("package.usd", "PK\x03\x04...");
   EXPECT_EQ(usage_error([&] { read_mesh(package); }),
             package + ": this is a packed USD file (usdz); export it as ASCII, with the ending .usda");
+  const std::string stored = write("stored.usd", std::string("PK\x03\x04\x0a\0\0\0\0\0", 10));
+  EXPECT_EQ(usage_error([&] { read_mesh(stored); }),
+            stored + ": this is a packed USD file (usdz); export it as ASCII, with the ending .usda");
 }
 
 TEST(MeshFile, SaysWhatAnEmptyFileLacks) {
