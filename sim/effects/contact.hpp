@@ -66,7 +66,7 @@ struct PenaltyForce final : Force {
     }
     touched->time = time;
     copy(threads, state.x, touched->x);
-    touched->all.fill(threads, state.x.rows(), [&](Eigen::Index i, std::vector<TouchedVertices::Touched>& list) {
+    touched->all.fill(threads, state.x.rows(), [&](Eigen::Index i, std::vector<TouchedVertex>& list) {
       push(i, [&](const SurfaceContact& contact) { list.push_back({i, contact}); });
     });
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/effects/surface_contact.hpp"
+#include "sim/effects/touched_vertices.hpp"
 #include "sim/parallel/part_lists.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/system.hpp"
@@ -84,17 +85,16 @@ struct ReboundFilter final : MotionFilter {
     turns_.clear();
     const auto before = surface.at(time), after = surface.at(time + h);
     const auto drifts = way_of(surface, time, time + h);
-    arriving_.fill(threads, std::ssize(free), [&](Eigen::Index k, std::vector<int>& arriving) {
+    arriving_.fill(threads, std::ssize(free), [&](Eigen::Index k, std::vector<TouchedVertex>& arriving) {
       const int i = free[static_cast<std::size_t>(k)];
       SurfaceContact contact;
       if (!start->was_outside(i)) return;
-      if (find_contact(after, i, (x.row(i) + h * v.row(i)).transpose(), contact)) arriving.push_back(i);
+      if (find_contact(after, i, (x.row(i) + h * v.row(i)).transpose(), contact)) arriving.push_back({i, contact});
     });
     // These are few, and a surface may be asked for other times by one thread alone.
-    SurfaceContact contact;
-    arriving_.for_each([&](int i) {
+    arriving_.for_each([&](const TouchedVertex& arriving) {
+      const auto& [i, contact] = arriving;
       const Eigen::Vector3d from = x.row(i).transpose(), mean = v.row(i).transpose();
-      if (!find_contact(after, i, from + h * mean, contact)) return;
       const Eigen::Vector3d drift = drifts.of(contact) / h;
       // The gap on the way there is c + b·t + fall/2·t².
       const double fall = gravity.dot(contact.normal()), c = std::max(0.0, before.gap(from));
@@ -117,7 +117,7 @@ struct ReboundFilter final : MotionFilter {
       if (back > 0) clear(after, 1e-6 * h * back, end);
       const Eigen::Vector3d way = (end - from) / h;
       v.row(i) = way.transpose();
-      turns_.push_back({i, (departure + (left - 0.5 * h) * gravity - way).transpose()});
+      turns_.push_back({static_cast<int>(i), (departure + (left - 0.5 * h) * gravity - way).transpose()});
     });
   }
 
@@ -134,7 +134,7 @@ struct ReboundFilter final : MotionFilter {
     if (missing > 0) point += missing * shape.normal(point);
   }
 
-  PartLists<int> arriving_;
+  PartLists<TouchedVertex> arriving_;
   std::vector<VelocityChange> turns_;
 };
 

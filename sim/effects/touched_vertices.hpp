@@ -9,17 +9,18 @@
 
 namespace drape {
 
+/// A vertex inside a surface, and how.
+struct TouchedVertex {
+  Eigen::Index vertex;
+  SurfaceContact contact;
+};
+
 /// What a surface touches when a step begins, as the push finds it, for the friction in the same place at the same
 /// time.
 struct TouchedVertices {
-  struct Touched {
-    Eigen::Index vertex;
-    SurfaceContact contact;
-  };
-
   double time = std::numeric_limits<double>::quiet_NaN();  // of nothing yet [s]
   Vertices x;
-  PartLists<Touched> all;
+  PartLists<TouchedVertex> all;
 
   /// Takes memory for as many, so that no step has to.
   explicit TouchedVertices(Eigen::Index most) : x(most, 3) { all.reserve(most); }
