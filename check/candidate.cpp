@@ -115,8 +115,9 @@ std::vector<Candidate> find_candidates(const fs::path& report, const std::vector
     const fs::path file = description_file(report, entry.path().filename().string());
     if (fs::exists(file, error)) all.push_back(read_candidate(file));
   }
-  if (all.empty())
+  if (all.empty()) {
     throw UsageError(fmt::format("{}: there is nothing to accept: this check found no scene changed", report.string()));
+  }
   std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.name < b.name; });
   if (wanted.empty()) return all;
 

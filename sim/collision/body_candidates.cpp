@@ -223,8 +223,9 @@ void BodyCandidates::add_pairs(const Patch& patch, int triangle, const BodyStep&
   const Patch& body = body_patches_[Index(triangle)];
   const auto &a = patch.corners, &b = body.corners;
   for (Index c = 0; c < 3; ++c) {
-    if (patch.own_vertex[c])
+    if (patch.own_vertex[c]) {
       add({Feature::vertex_triangle, {a[c], b[0], b[1], b[2]}}, triangle, -1, step, reach, pairs);
+    }
     if (body.own_vertex[c]) {
       add({Feature::vertex_triangle, {b[c], a[0], a[1], a[2]}}, triangle, static_cast<int>(c), step, reach, pairs);
     }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -23,28 +22,6 @@ struct FeaturePair {
 inline FourPoints gather(const std::vector<Point>& points, const std::array<int, 4>& v) {
   return {points[static_cast<std::size_t>(v[0])], points[static_cast<std::size_t>(v[1])],
           points[static_cast<std::size_t>(v[2])], points[static_cast<std::size_t>(v[3])]};
-}
-
-/// Whether a plane across an axis lies between two features, further than the distance [m] from both together, the
-/// first above it. The axis counts with its length.
-inline bool separated(Feature feature, const Point& axis, const FourPoints& p, double distance) {
-  const double a = axis.dot(p[0]), b = axis.dot(p[1]), c = axis.dot(p[2]), d = axis.dot(p[3]);
-  const double gap = feature == Feature::vertex_triangle ? a - std::max({b, c, d}) : std::min(a, b) - std::max(c, d);
-  return gap > distance;
-}
-
-/// Whether two features stay further apart than `reach` [m] while their points go on straight lines, as far as a plane
-/// across an axis shows it: a distance along that changes linearly, so what is apart at both ends is so in between.
-inline bool kept_apart(Feature feature, const Point& axis, const FourPoints& from, const FourPoints& to, double reach) {
-  const double far = reach * axis.norm();
-  return separated(feature, axis, from, far) && separated(feature, axis, to, far);
-}
-
-/// The same of a plane between their middles.
-inline bool kept_apart(Feature feature, const FourPoints& from, const FourPoints& to, double reach) {
-  const Point axis = feature == Feature::vertex_triangle ? Point(from[0] - (from[1] + from[2] + from[3]) / 3)
-                                                         : Point((from[0] + from[1] - from[2] - from[3]) / 2);
-  return kept_apart(feature, axis, from, to, reach);
 }
 
 /// Whether two features may come nearer than `reach` [m] while their points go on straight lines; never misses any that

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/collision/candidates.hpp"
-
 namespace drape {
 namespace {
 

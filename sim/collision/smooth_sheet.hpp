@@ -41,9 +41,9 @@ class SmoothSheet {
   explicit SmoothSheet(const Cloth& cloth);
 
   /// Whether it is certain that any two features that share no vertex stay `distance` apart, and never come nearer than
-  /// a fifth of the distance that they begin with, while vertices go from x (n×3) on straight lines by h·v. Of a cloth
-  /// that is not flat at rest, or of several pieces, it never is. Where it was not for a few times, it is not looked
-  /// for each time.
+  /// a fifth of the distance that they begin with, while vertices go from x (n×3) on straight lines by h·v, all finite.
+  /// Of a cloth that is not flat at rest, or of several pieces, it never is. Where it was not for a few times, it is
+  /// not looked for each time.
   [[nodiscard]] bool stays_apart(const Vertices& x, double h, const Vertices& v, double distance);
 
  private:

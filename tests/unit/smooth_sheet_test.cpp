@@ -93,6 +93,17 @@ TEST(SmoothSheet, KnowsNothingOfWhatIsNotFlatOrNotOnePiece) {
   EXPECT_FALSE(SmoothSheet(cloth).stays_apart(cloth.rest, 0.01, at_rest(cloth), 0.01)) << "a triangle lies on others";
 }
 
+// It computes in single precision, which has seven digits and ends at 1e38.
+TEST(SmoothSheet, IsRightFarAwayAndKnowsNothingOfWhatIsTooLarge) {
+  const Cloth cloth = square();
+  Vertices far_away = cloth.rest, huge = 1e17 * cloth.rest;
+  far_away.array() += 1e6;
+  EXPECT_TRUE(SmoothSheet(cloth).stays_apart(far_away, 0.01, at_rest(cloth), 0.99 * height));
+  EXPECT_FALSE(SmoothSheet(cloth).stays_apart(far_away, 0.01, at_rest(cloth), 1.01 * height));
+  EXPECT_FALSE(SmoothSheet(cloth).stays_apart(huge, 0.01, at_rest(cloth), 0.01));
+  EXPECT_FALSE(SmoothSheet(cloth).stays_apart(cloth.rest, 0.01, huge, 0.01));
+}
+
 /// Half a turn of a cylinder around the y axis, whose edges are above each other.
 constexpr double radius = 2 / 3.141592653589793;
 Vertices half_pipe(const Cloth& cloth) {
