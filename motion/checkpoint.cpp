@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "core/error.hpp"
 #include "motion/block_writer.hpp"
@@ -14,11 +15,12 @@ namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
-// Blocks like a motion file's: how long the growing file is that counts, the state, and where there is any what the
-// guard remembers and the rows that are in no block; then the times.
+// Blocks like a motion file's: how long the growing file is that counts, the state, and where there is any what held
+// it back, what the guard remembers, and the rows that are in no block; then the times.
 constexpr const char* checkpoint_magic = "drape checkpoint 1\n";
 constexpr const char* length_tag = "SIZE";
 constexpr const char* books_tag = "BOOK";
+constexpr const char* held_tag = "HELD";
 constexpr const char* times_tag = "TIME";
 
 std::string block(std::string_view tag, const std::string& payload) { return block_head(tag, payload) + payload; }
@@ -27,15 +29,20 @@ std::string_view bytes_of(const Vertices& v) {
   return {reinterpret_cast<const char*>(v.data()), static_cast<std::size_t>(v.size()) * sizeof(double)};
 }
 
+Vertices vertices_of(std::string_view bytes, Eigen::Index count) {
+  Vertices v(count, 3);
+  if (bytes.size() != bytes_of(v).size()) throw std::invalid_argument("is of another cloth");
+  std::memcpy(v.data(), bytes.data(), bytes.size());
+  return v;
+}
+
 EnergyMemory unpack_books(std::string_view payload, Eigen::Index vertices) {
   const std::string bytes = unpack(payload);
   ByteReader reader(bytes);
   EnergyMemory books;
   books.explained = reader.number();
   books.work = reader.number();
-  books.looked_at.resize(vertices, 3);
-  if (reader.rest().size() != bytes_of(books.looked_at).size()) throw std::invalid_argument("is of another cloth");
-  std::memcpy(books.looked_at.data(), reader.rest().data(), reader.rest().size());
+  books.looked_at = vertices_of(reader.rest(), vertices);
   return books;
 }
 
@@ -49,12 +56,15 @@ std::vector<float> unpack_times(std::string_view payload) {
 /// What is in the blocks after the first.
 void read_blocks(const BlockReader& blocks, std::uint64_t begin, Resumption& found) {
   const MotionHeader& header = found.partial->header();
+  Vertices held;
   while (begin < blocks.size()) {
     const Block block = blocks.block(begin);
     if (block.tag == state_tag) {
       found.checkpoint.state = StateCodec(header.vertices, header.step).decode(block.payload);
     } else if (block.tag == books_tag) {
       found.checkpoint.books = unpack_books(block.payload, header.vertices);
+    } else if (block.tag == held_tag) {
+      held = vertices_of(unpack(block.payload), header.vertices);
     } else if (block.tag == rows_tag) {
       found.rows = unpack_rows(block.payload, header);
     } else if (block.tag == times_tag) {
@@ -62,6 +72,7 @@ void read_blocks(const BlockReader& blocks, std::uint64_t begin, Resumption& fou
     }
     begin = block.end;
   }
+  found.checkpoint.state.held = std::move(held);
   // The steps from 0 on, in the blocks and in the rest.
   const std::int64_t step = found.checkpoint.state.step, in_blocks = found.partial->rows();
   const bool whole = found.checkpoint.state.x.rows() == header.vertices &&
@@ -83,6 +94,9 @@ std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double ste
   std::string bytes = checkpoint_magic;
   bytes += block(length_tag, ByteWriter().whole(length).text());
   bytes += block(state_tag, StateCodec(checkpoint.state.x.rows(), step).encode(checkpoint.state));
+  if (const Vertices& held = checkpoint.state.held; held.size() > 0) {
+    bytes += block(held_tag, pack(bytes_of(held)));
+  }
   if (const auto& books = checkpoint.books) {
     bytes +=
         block(books_tag,

@@ -17,9 +17,13 @@ struct State {
   Vertices x = {};  ///< n×3 [m]
   Vertices v = {};  ///< n×3 [m/s]
   std::int64_t step = 0;
+  /// By which acceleration limits of strain held the vertices back in the last step, n×3 [m/s²]; empty where none did.
+  /// They will again: what solves for where the cloth goes begins there. Not where it is, but a part of the rest of its
+  /// motion, to the solver's tolerance.
+  Vertices held = {};
 };
 
-/// A hash of a state to the bit: of its step, its positions and its velocities. Two runs with the same hash agree from
+/// A hash of a state to the bit: of all that it holds. Two runs with the same hash agree from
 /// there on. It tells states apart, but is not cryptographic.
 std::uint64_t hash_of(const State& state);
 

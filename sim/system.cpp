@@ -22,12 +22,19 @@ std::vector<Collider> System::colliders_at(double at) const {
   return shapes;
 }
 
+void System::filter(State& state, Vertices& way) const {
+  for (const auto& filter : filters) {
+    filter->apply(state.x, time(state.step), step, way);
+    if (const Vertices* held = filter->held()) state.held = *held;
+  }
+}
+
 void System::move(State& state, const Vertices* reached) const {
   if (filters.empty() && reached != nullptr) {
     copy(threads, *reached, state.x);
     return;
   }
-  for (const auto& filter : filters) filter->apply(state.x, time(state.step), step, state.v);
+  filter(state, state.v);
   add_multiple(threads, step, state.v, state.x);
   place_pins(time(state.step + 1), state.x);
   for (const auto& filter : filters) filter->finish(state.v);
@@ -40,7 +47,7 @@ void System::move(State& state, const Vertices& reached, Vertices& way) const {
   }
   way = (reached - state.x) / step;
   state.v -= way;
-  for (const auto& filter : filters) filter->apply(state.x, time(state.step), step, way);
+  filter(state, way);
   state.v += way;
   add_multiple(threads, step, way, state.x);
   place_pins(time(state.step + 1), state.x);

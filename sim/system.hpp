@@ -96,6 +96,8 @@ struct MotionFilter {
   /// Makes of the velocities with which the vertices have moved those that they have where they are now: what bounces
   /// on its way ends it with another velocity than it went with on average.
   virtual void finish(Vertices& /*v*/) {}
+  /// By which acceleration the last call held the vertices back, n×3 [m/s²], if the next step's will do so, too.
+  [[nodiscard]] virtual const Vertices* held() const { return nullptr; }
   /// Whether the last call did all that the filter is for, rather than stop at its cap.
   [[nodiscard]] virtual bool converged() const { return true; }
 
@@ -166,7 +168,7 @@ struct System {
   // corrects them before it moves by them; one that solves for where the cloth is moves first.
 
   /// Moves the cloth to the end of the step that begins at state.step: lets every filter change its velocities, and
-  /// goes x + h·v.
+  /// goes x + h·v. Takes note of what held it back.
   /// @param reached if given, where that is without filters, to the bit
   void move(State& state, const Vertices* reached) const;
 
@@ -185,7 +187,8 @@ struct System {
   }
 
   /// Moves the cloth to where it has been computed to be at the end of the step that begins at state.step. What the
-  /// filters change about the velocities with which it goes there, (reached − x)/h, is added to state.v.
+  /// filters change about the velocities with which it goes there, (reached − x)/h, is added to state.v. Takes note of
+  /// what held it back.
   /// @param way scratch, n×3
   void move(State& state, const Vertices& reached, Vertices& way) const;
 
@@ -193,6 +196,11 @@ struct System {
   void drive_pins(double at, Vertices& v) const {
     for (const PinMotion& motion : pin_motions) motion.drive(at, v);
   }
+
+ private:
+  /// Lets every filter change the velocities with which the cloth goes from state.x, and notes in the state what held
+  /// it back.
+  void filter(State& state, Vertices& way) const;
 };
 
 }  // namespace drape

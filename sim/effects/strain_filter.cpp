@@ -24,6 +24,7 @@ StrainFilter::StrainFilter(const StrainLimit& limits, const Cloth& cloth)
       weight_(cloth.masses.cwiseInverse()),
       change_(static_cast<Index>(cloth.vertex_count()), Eigen::Vector3d::Zero()),
       last_change_(change_),
+      held_(Vertices::Zero(cloth.vertex_count(), 3)),
       is_moved_(change_.size(), 0),
       springs_at_(change_.size()) {
   for (const int pin : cloth.pins) weight_[pin] = 0;
@@ -71,7 +72,11 @@ void StrainFilter::apply(const Vertices& x, double /*time*/, double h, Vertices&
     converged_ = look_around(x, early) && restless_.empty();
     next_look = sweep + sweeps_between_looks;
   }
-  for (const int i : moved_) v.row(i) += change_[Index(i)].transpose() / h;
+  for (const int i : moved_) {
+    const Eigen::RowVector3d more = change_[Index(i)].transpose() / h;
+    v.row(i) += more;
+    held_.row(i) = -more / h;
+  }
 }
 
 /// Finds the springs that would end beyond their limits.
@@ -79,6 +84,7 @@ void StrainFilter::find_beyond(const Vertices& x, double h, const Vertices& v) {
   for (const int i : moved_) {
     change_[Index(i)].setZero();
     last_change_[Index(i)].setZero();
+    held_.row(i).setZero();
     is_moved_[Index(i)] = 0;
   }
   for (const auto* list : {&active_, &watched_}) {

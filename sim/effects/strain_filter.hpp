@@ -33,6 +33,7 @@ class StrainFilter final : public MotionFilter {
   StrainFilter(const StrainLimit& limits, const Cloth& cloth);
 
   void apply(const Vertices& x, double time, double h, Vertices& v) override;
+  [[nodiscard]] const Vertices* held() const override { return &held_; }
   [[nodiscard]] bool converged() const override { return converged_; }
 
  private:
@@ -87,6 +88,7 @@ class StrainFilter final : public MotionFilter {
   Vertices target_;                                    // where the step would end without any impulse [m]
   std::vector<Eigen::Vector3d> change_, last_change_;  // by how much the impulses change that, as Limited has them [m]
   std::vector<int> moved_;                             // the vertices for which they do
+  Vertices held_;                                      // the acceleration that they are against [m/s²]
   std::vector<char> is_moved_;
   std::vector<Index> active_, watched_, merged_, restless_;
   std::vector<std::vector<Index>> springs_at_;  // of each vertex

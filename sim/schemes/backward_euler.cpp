@@ -13,7 +13,7 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   const Vertices& force = forces.all(state, system_.time(state.step));
   objective_.begin(state.x, state.v, force, system_.time(state.step + 1));
   books_.begin(state, point_.x);
-  begin_point(state.x, state.v, expected.late);
+  begin_point(state, expected.late);
   StepReport report = solver_->minimise(point_, [this] { return !books_.gains(point_, true); });
   // A step that a small change ended has been looked at.
   const bool looked = report.converged && solver_->accuracy().rule == StoppingRule::change;

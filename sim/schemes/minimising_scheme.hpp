@@ -39,12 +39,17 @@ class MinimisingScheme : public Scheme {
   /// What the step that begins expects, and no other will, even if this one does not come to its end.
   Expected take_expected() { return std::exchange(expected_, {}); }
 
-  /// Sets the point to where a minimisation begins: where an acceleration leads from x and v, or if null to the
-  /// objective's y.
-  void begin_point(const Vertices& x, const Vertices& v, const Vertices* expected) {
-    if (expected != nullptr) {
-      const double t = objective_.duration();
-      point_.x = x + t * v + t * t * *expected;
+  /// Sets the point to where a minimisation begins from a state: where an acceleration leads, or if null to the
+  /// objective's y, and from there to where the vertices go that nothing holds back.
+  void begin_point(const State& from, const Vertices* expected) {
+    const double t = objective_.duration();
+    const bool held = expected == nullptr && from.held.rows() == from.x.rows();
+    if (expected != nullptr || held) {
+      if (held) {
+        point_.x = objective_.y() + t * t * from.held;
+      } else {
+        point_.x = from.x + t * from.v + t * t * *expected;
+      }
       for (const int pin : system_.cloth.pins) point_.x.row(pin) = objective_.y().row(pin);
       point_.value = objective_.evaluate(point_.x, point_.gradient);
       if (std::isfinite(point_.value)) return;

@@ -65,7 +65,7 @@ void Sdirk2::find_second_forces(double time, StepForces& forces) {
 
 void Sdirk2::solve(double end, const Vertices* expected, StepReport& report) {
   objective_.begin(stage_.x, stage_.v, force_, end);
-  begin_point(stage_.x, stage_.v, expected);
+  begin_point(stage_, expected);
   const StepReport stage = solver_->minimise(point_, [] { return true; });
   if (free_) balance_momentum(system_.cloth, objective_, point_);
   divided_difference(system_.threads, point_.x, stage_.x, objective_.duration(), stage_.v);
