@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -11,19 +12,35 @@ namespace {
 using Index = std::size_t;
 using SheetRow = SheetMotion::Row;
 
+constexpr Index at_once = 4;  // of a register's numbers
 // Of the largest number: far more than some operations in single precision lose.
 constexpr double lost_in_rows = 1.0 / (1 << 19);
 // What is too small for its square, and what is too large, of lengths [m] and of F.
 constexpr double too_small = 1e-18, too_large = 1e15;
 
-/// Vectors in single precision, less the first of them; returns the largest number.
-double round_to_rows(const Vertices& vectors, std::vector<SheetRow>& rows) {
-  rows.resize(static_cast<Index>(vectors.rows()), SheetRow::Zero());
-  const double *x = vectors.col(0).data(), *y = vectors.col(1).data(), *z = vectors.col(2).data();
-  for (Index i = 0; i < rows.size(); ++i) {
-    rows[i] << static_cast<float>(x[i] - x[0]), static_cast<float>(y[i] - y[0]), static_cast<float>(z[i] - z[0]), 0;
+/// `scale` times vectors in single precision, less the first of them; returns the largest number.
+double round_to_rows(const Vertices& vectors, double scale, std::vector<SheetRow>& rows) {
+  const auto count = static_cast<Index>(vectors.rows());
+  rows.resize(count, SheetRow::Zero());
+  const auto factor = static_cast<float>(scale);
+  SheetRow most = SheetRow::Zero();
+  for (Index first = 0; first < count; first += at_once) {
+    Eigen::Matrix4f four = Eigen::Matrix4f::Zero();
+    const Index present = std::min(at_once, count - first);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double* from = vectors.col(axis).data();
+      float* to = four.col(axis).data();
+      if (present == at_once) {  // a loop of this length is one of vectors
+        for (Index k = 0; k < at_once; ++k) to[k] = factor * static_cast<float>(from[first + k] - from[0]);
+      } else {
+        for (Index k = 0; k < present; ++k) to[k] = factor * static_cast<float>(from[first + k] - from[0]);
+      }
+    }
+    most = most.max(four.col(0).array().abs().max(four.col(1).array().abs()).max(four.col(2).array().abs()));
+    four.transposeInPlace();
+    for (Index k = 0; k < present; ++k) rows[first + k] = four.col(static_cast<Eigen::Index>(k)).array();
   }
-  return Eigen::Map<const Eigen::ArrayXf>(rows[0].data(), static_cast<Eigen::Index>(4 * rows.size())).abs().maxCoeff();
+  return most.maxCoeff();
 }
 
 /// The x, y and z of four vectors.
@@ -73,20 +90,24 @@ void SheetMotion::gather_edges() {
 bool SheetMotion::measure(const Vertices& x, double h, const Vertices& v) {
   const bool first = ++calls_ == 1;
   // Mostly it has gone as it was about to: then how F has changed is known.
-  const bool expected = !first && x == from_ + ways_;
+  const bool expected =
+      !first && std::memcmp(x.data(), ends_.data(), static_cast<Index>(x.size()) * sizeof(double)) == 0;
   for (Change& change : changes_) change.since = expected ? change.next : 0;
-  double largest = 0;
+  double before = 0;
   if (!first && !expected) {
-    ways_ = x - from_;
-    largest = round_to_rows(ways_, rows_);
-    find_changes(rows_, largest, &Change::since);
+    before = largest_place_;
+    ways_ = places_;
   }
-  from_ = x;
-  ways_ = h * v;
-  const double place = round_to_rows(from_, places_), way = round_to_rows(ways_, rows_);
-  find_changes(rows_, way, &Change::next);
-  rounding_ = lost_in_rows * (place + way) + too_small;
-  return std::max({largest, place, way}) * std::max(1.0, steepest_) < too_large;
+  largest_place_ = round_to_rows(x, 1, places_);
+  if (!first && !expected) {
+    for (Index i = 0; i < ways_.size(); ++i) ways_[i] = places_[i] - ways_[i];
+    find_changes(ways_, before + largest_place_, &Change::since);
+  }
+  ends_ = x + h * v;
+  const double way = round_to_rows(v, h, ways_);
+  find_changes(ways_, way, &Change::next);
+  rounding_ = lost_in_rows * (largest_place_ + way) + too_small;
+  return std::max({before, largest_place_, way}) * std::max(1.0, steepest_) < too_large;
 }
 
 void SheetMotion::find_changes(const std::vector<Row>& moves, double largest, double Change::*which) {
@@ -136,7 +157,7 @@ const SheetMotion::Boxes& SheetMotion::boxes(Index l, Index block) {
     }
   } else {
     for (const int i : level.vertices_of(block)) {
-      const Row &place = places_[Index(i)], &way = rows_[Index(i)];
+      const Row &place = places_[Index(i)], &way = ways_[Index(i)];
       low = low.min(place);
       high = high.max(place);
       slow = slow.min(way);
@@ -151,7 +172,7 @@ SheetMotion::Row SheetMotion::least_along(const Eigen::Matrix<float, 3, 2>& axes
                                           const std::array<Index, 4>& pieces) const {
   const auto edge = [&](Index p, Index corner) -> Row {
     const Triangle& t = pieces_[p].vertices;
-    return row(t[corner]) - row(t[0]);
+    return place(t[corner]) - place(t[0]);
   };
   const auto& [p, q, r, s] = pieces;
   const ColumnsOfFour a(edge(p, 1), edge(q, 1), edge(r, 1), edge(s, 1)),
@@ -171,7 +192,7 @@ SheetMotion::Row SheetMotion::least_along(const Eigen::Matrix<float, 3, 2>& axes
 
 Eigen::Matrix<float, 3, 2> SheetMotion::gradient(Index piece) const {
   const auto& [vertices, inverse] = pieces_[piece];
-  const Row a = row(vertices[1]) - row(vertices[0]), b = row(vertices[2]) - row(vertices[0]);
+  const Row a = place(vertices[1]) - place(vertices[0]), b = place(vertices[2]) - place(vertices[0]);
   Eigen::Matrix<float, 3, 2> gradient;
   gradient << (a * inverse[0] + b * inverse[1]).head<3>(), (a * inverse[2] + b * inverse[3]).head<3>();
   return gradient;

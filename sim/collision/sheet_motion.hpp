@@ -46,9 +46,8 @@ class SheetMotion {
   /// F of a piece.
   [[nodiscard]] Eigen::Matrix<float, 3, 2> gradient(std::size_t piece) const;
 
-  [[nodiscard]] const Row& row(int i) const { return places_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] Eigen::Vector3d place(int i) const { return from_.row(i).transpose(); }
-  [[nodiscard]] Eigen::Vector3d way(int i) const { return ways_.row(i).transpose(); }
+  [[nodiscard]] const Row& place(int i) const { return places_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const Row& way(int i) const { return ways_[static_cast<std::size_t>(i)]; }
   /// More than single precision loses of a distance or a way [m], and of F.
   [[nodiscard]] double rounding() const { return rounding_; }
   [[nodiscard]] double gradient_rounding() const { return rounding_ * steepest_; }
@@ -73,9 +72,10 @@ class SheetMotion {
   std::vector<FourEdges> edges_;  // of the blocks that are measured
   std::vector<Index> first_edges_;
   double steepest_ = 0;             // at most of F, for vertices a metre apart [1/m]
-  Vertices from_, ways_;            // n×3
-  std::vector<Row> places_, rows_;  // and the ways
-  std::vector<Change> changes_;     // of the blocks that are measured
+  Vertices ends_;                   // of the ways of the last call, n×3
+  std::vector<Row> places_, ways_;  // less those of the first vertex
+  double largest_place_ = 0;
+  std::vector<Change> changes_;  // of the blocks that are measured
   std::vector<std::vector<Boxes>> boxes_;
   double rounding_ = 0;
   Index calls_ = 0;

@@ -214,8 +214,8 @@ double SmoothSheet::gap(Index l, const Pair& pair, double enough) {
   const SheetBlocks::Level& level = motion_->sheet().levels()[l];
   const Row axis = between / static_cast<float>(distance);
   float low = unlimited, high = -unlimited;
-  for (const int i : level.vertices_of(pair.first)) low = std::min(low, (axis * motion_->row(i)).sum());
-  for (const int i : level.vertices_of(pair.second)) high = std::max(high, (axis * motion_->row(i)).sum());
+  for (const int i : level.vertices_of(pair.first)) low = std::min(low, (axis * motion_->place(i)).sum());
+  for (const int i : level.vertices_of(pair.second)) high = std::max(high, (axis * motion_->place(i)).sum());
   return std::max(found, static_cast<double>(low - high));
 }
 
@@ -233,10 +233,11 @@ bool SmoothSheet::features_are_apart(const FeatureSet& a, const FeatureSet& b) {
     if (allowance_-- <= 0) return false;
     FourPoints p, move;
     for (Index k = 0; k < 4; ++k) {
-      p[k] = motion_->place(vertices[k]);
-      move[k] = motion_->way(vertices[k]);
+      p[k] = motion_->place(vertices[k]).head<3>().cast<double>();
+      move[k] = motion_->way(vertices[k]).head<3>().cast<double>();
     }
-    const double distance = std::sqrt(nearest(feature, p).squared), change = largest_change(feature, move);
+    const double distance = std::sqrt(nearest(feature, p).squared) - motion_->rounding();
+    const double change = largest_change(feature, move) + motion_->rounding();
     return change <= distance - distance_ && change <= most_moved * distance;
   });
 }
