@@ -32,7 +32,7 @@ set(public_headers
   scene/method_names.hpp scene/scene.hpp
   render/backend.hpp render/image.hpp render/renderer.hpp render/settings.hpp render/view.hpp)
 set(included_headers
-  core/keys.hpp overlay/fonts.hpp overlay/pen.hpp overlay/settings.hpp overlay/text_template.hpp scene/check_settings.hpp
+  core/keyframe.hpp core/rgb.hpp overlay/fonts.hpp overlay/pen.hpp overlay/settings.hpp overlay/text_template.hpp scene/check_settings.hpp
   scene/document.hpp scene/portable.hpp sim/effects/gusts.hpp sim/effects/response.hpp sim/solvers/accuracy.hpp)
 install(CODE "
   foreach(header ${public_headers} ${included_headers})

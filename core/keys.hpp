@@ -14,13 +14,10 @@
 #include <variant>
 #include <vector>
 
-namespace drape {
+#include "core/keyframe.hpp"
+#include "core/rgb.hpp"
 
-/// A colour as people write it: sRGB-encoded, each channel in [0, 1].
-struct Rgb {
-  double r = 0, g = 0, b = 0;
-  bool operator==(const Rgb&) const = default;
-};
+namespace drape {
 
 /// One of several names; choosing one calls `set` with its place in `names`.
 struct Choice {
@@ -34,12 +31,6 @@ struct Choice {
 struct OwnForm {
   std::string form;  ///< for a reference page: "number or [x, y, z]"
   std::any target;   ///< a pointer to what is set if the key is given
-};
-
-/// A value at a moment.
-struct Keyframe {
-  double time = 0;  ///< [s]
-  Eigen::Vector3d value = Eigen::Vector3d::Zero();
 };
 
 /// Keyframes, [{ time = 0, NAME = [x, y, z] }, …], at times that increase from 0 on.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/rotation.hpp"
+
 namespace drape {
 namespace {
 
@@ -59,7 +61,7 @@ Vertices ground_corners(const GroundShape& ground, const GroundPatch& patch) {
   const Eigen::Vector3d& n = ground.normal;
   const Eigen::Vector3d middle = patch.middle + (ground.height - n.dot(patch.middle)) * n;
   // For a level ground the sides are along x and y.
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), n);
+  const Eigen::Quaterniond turn = rotation_from_z(n);
   const Eigen::Vector3d x = patch.side / 2 * (turn * Eigen::Vector3d::UnitX()),
                         y = patch.side / 2 * (turn * Eigen::Vector3d::UnitY());
   Vertices corners(4, 3);

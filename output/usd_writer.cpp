@@ -7,6 +7,7 @@
 
 #include <utility>
 
+#include "core/rotation.hpp"
 #include "output/usd_material.hpp"
 
 namespace drape {
@@ -166,14 +167,12 @@ void UsdWriter::write_colliders() {
     const GroundShape& ground = grounds_[i];
     const Eigen::Vector3d middle = ground_corners(ground, patch_).colwise().mean().transpose();
     file_.write(fmt::format("\n    def Plane \"Ground{}\"\n    {{\n", i + 1));
-    file_.write(
-        fmt::format("{0}uniform token axis = \"Z\"\n{0}double width = {1}\n{0}double length = {1}\n"
-                    "{0}matrix4d xformOp:transform = {2}\n"
-                    "{0}uniform token[] xformOpOrder = [\"xformOp:transform\"]\n"
-                    "{0}color3f[] primvars:displayColor = [{3}]\n    }}\n",
-                    indent, patch_.side,
-                    placing(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ground.normal), middle),
-                    usd_color(look.ground_color)));
+    file_.write(fmt::format(
+        "{0}uniform token axis = \"Z\"\n{0}double width = {1}\n{0}double length = {1}\n"
+        "{0}matrix4d xformOp:transform = {2}\n"
+        "{0}uniform token[] xformOpOrder = [\"xformOp:transform\"]\n"
+        "{0}color3f[] primvars:displayColor = [{3}]\n    }}\n",
+        indent, patch_.side, placing(rotation_from_z(ground.normal), middle), usd_color(look.ground_color)));
   }
 }
 

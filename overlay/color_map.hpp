@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/keys.hpp"
+#include "core/rgb.hpp"
 
 namespace drape {
 

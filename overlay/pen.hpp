@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/keys.hpp"
+#include "core/rgb.hpp"
 #include "overlay/fonts.hpp"
 #include "render/image.hpp"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "core/keys.hpp"
+#include "core/rgb.hpp"
 #include "overlay/pen.hpp"
 #include "overlay/text_template.hpp"
 

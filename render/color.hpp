@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "core/keys.hpp"
+#include "core/rgb.hpp"
 
 namespace drape {
 

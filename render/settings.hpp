@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/keys.hpp"
+#include "core/rgb.hpp"
 
 namespace drape {
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/rotation.hpp"
 #include "render/camera_path.hpp"
 
 namespace drape {
@@ -211,8 +212,7 @@ Camera placed(const Camera& camera, double azimuth, double elevation) {
   there.elevation = camera.elevation.value_or(elevation);
   if (camera.azimuth || camera.elevation) return there;
   there.up = Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d direction =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), camera.up) * distant_view(there).position;
+  const Eigen::Vector3d direction = rotation_from_z(camera.up) * distant_view(there).position;
   there.up = camera.up;
   if (camera.up.normalized() == Eigen::Vector3d::UnitZ()) return there;
   there.azimuth = std::atan2(direction.y(), direction.x()) * 180 / std::numbers::pi;

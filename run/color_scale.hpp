@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/keys.hpp"
+#include "core/rgb.hpp"
 #include "overlay/axis_ticks.hpp"
 
 namespace drape {

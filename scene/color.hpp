@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/keys.hpp"
+#include "core/rgb.hpp"
 
 namespace drape {
 

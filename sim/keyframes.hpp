@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "core/keys.hpp"
+#include "core/keyframe.hpp"
 
 namespace drape {
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/keys.hpp"
 #include "sim/mesh_anchors.hpp"
 #include "sim/settings.hpp"
 #include "sim/system.hpp"

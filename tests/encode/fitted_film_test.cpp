@@ -18,7 +18,7 @@ using namespace drape::test;
 
 namespace {
 
-constexpr int frames = 12, full_width = 240, full_height = 200;
+constexpr int frames = 12, full_width = 120, full_height = 100;
 constexpr double full_rate = 40;
 
 class FittedFilm : public InScratchFolder {
@@ -70,10 +70,12 @@ TEST_F(FittedFilm, HasEveryFrameWhereItKeepsItsRate) {
   const OutputFile fitted = write("x.gif", FileLimit{size_of(".gif") / 6, FilmKeeps::rate});
   const std::vector<Image> film = decoded_film(path("x.gif"));
   ASSERT_EQ(film.size(), static_cast<std::size_t>(frames));
-  EXPECT_EQ(fitted.note, fmt::format("{}x{} pixels instead of 240x200", film[0].width, film[0].height));
-  EXPECT_NEAR(static_cast<double>(film[0].height) / film[0].width, 200.0 / 240, 0.01);
+  EXPECT_EQ(fitted.note, fmt::format("{}x{} pixels instead of 120x100", film[0].width, film[0].height));
+  EXPECT_NEAR(static_cast<double>(film[0].height) / film[0].width, static_cast<double>(full_height) / full_width, 0.01);
   for (int k = 0; k < frames; ++k) {
-    EXPECT_GT(psnr(scaled_image(synthetic_frame(k, 240, 200), film[0].width, film[0].height), film[k]), 24) << k;
+    EXPECT_GT(psnr(scaled_image(synthetic_frame(k, full_width, full_height), film[0].width, film[0].height), film[k]),
+              24)
+        << k;
   }
 }
 
@@ -120,7 +122,7 @@ TEST_F(FittedFilm, SaysSoWhereNothingFits) {
   } catch (const OutputError& error) {
     const std::string message = error.what();
     EXPECT_TRUE(message.starts_with("cannot write " + path("x.gif") +
-                                    " with at most 500 bytes: with 16x13 pixels instead of 240x200 and 10 frames per "
+                                    " with at most 500 bytes: with 16x13 pixels instead of 120x100 and 10 frames per "
                                     "second instead of 40 it still has "))
         << message;
   }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/rotation.hpp"
 #include "tests/render/drawing.hpp"
 #include "tests/support/random.hpp"
 
@@ -105,7 +106,7 @@ TEST(Light, ComesFromAboveOnTheLeft) {
   const auto leaning = [](double x, double y) {
     Mesh mesh = make_grid(4, 4);
     const Vector3d normal = Vector3d(std::sin(0.7) * x, std::sin(0.7) * y, std::cos(0.7));
-    const auto turned = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal).toRotationMatrix();
+    const auto turned = rotation_from_z(normal).toRotationMatrix();
     mesh.positions *= turned.transpose();
     Look look;
     look.color = {0.5, 0.5, 0.5};
