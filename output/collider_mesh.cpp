@@ -22,7 +22,7 @@ int append(Surface& surface, const Vertices& points) {
 
 void append(Surface& surface, const SphereShape& sphere) {
   constexpr int rings = from_pole_to_pole - 1;
-  constexpr Eigen::Index poles = rings * around;  // where they are
+  constexpr Eigen::Index poles = Eigen::Index{rings} * around;  // where they are
   Vertices points(poles + 2, 3);
   for (int i = 0; i < rings; ++i) {
     const double polar = std::numbers::pi * (i + 1) / from_pole_to_pole;
