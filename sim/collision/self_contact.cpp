@@ -21,15 +21,29 @@ constexpr double clearly = 1.001;
 // After so many rounds all zones are joined: then it ends in as many rounds as there are vertices left outside.
 constexpr int most_zone_rounds = 50;
 
+/// The largest number of x + h·v; not a number if one is not.
+double largest_after(const Threads& threads, const Vertices& x, double h, const Vertices& v) {
+  const auto largest = [&](Eigen::Index first, Eigen::Index count) {
+    const auto of = [&](const Vertices& all) { return Eigen::Map<const Eigen::ArrayXd>(all.data() + first, count); };
+    return (of(x) + h * of(v)).abs().maxCoeff<Eigen::PropagateNaN>();
+  };
+  const auto larger = [](double a, double b) { return a >= b || std::isnan(a) ? a : b; };
+  return reduce(threads, x.size(), largest, larger, numbers_worth_dividing);
+}
+
 }  // namespace
 
 SelfContact::SelfContact(const SelfCollision& values, const Cloth& cloth, const Threads& threads)
-    : ImpulseFilter(cloth, 0, threads), values_(values), cloth_(cloth), candidates_(cloth, threads), sheet_(cloth) {}
+    : ImpulseFilter(cloth, 0, threads),
+      values_(values),
+      cloth_(cloth),
+      candidates_(cloth, threads),
+      sheet_(cloth, threads) {}
 
 void SelfContact::apply(const Vertices& x, double, double h, Vertices& v) {
   converged_ = true;
-  const double largest = (x + h * v).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();  // [m]
-  if (!std::isfinite(largest) && (!x.allFinite() || !v.allFinite())) return;      // diverged: nothing to keep apart
+  const double largest = largest_after(threads_, x, h, v);                    // [m]
+  if (!std::isfinite(largest) && (!x.allFinite() || !v.allFinite())) return;  // diverged: nothing to keep apart
   const double rounding = largest * std::numeric_limits<double>::epsilon();
   if (rounding > values_.thickness) {  // far from the origin layers cannot be told apart, and everything would touch
     converged_ = false;

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <utility>
+
+#include "sim/parallel/loops.hpp"
+#include "sim/parallel/vectors.hpp"
 
 namespace drape {
 namespace {
@@ -18,22 +22,19 @@ constexpr double lost_in_rows = 1.0 / (1 << 19);
 // What is too small for its square, and what is too large, of lengths [m] and of F.
 constexpr double too_small = 1e-18, too_large = 1e15;
 
-/// `scale` times vectors in single precision, less the first of them; returns the largest number.
-double round_to_rows(const Vertices& vectors, double scale, std::vector<SheetRow>& rows) {
-  const auto count = static_cast<Index>(vectors.rows());
-  rows.resize(count, SheetRow::Zero());
-  const auto factor = static_cast<float>(scale);
+/// `scale` times some of these vectors in single precision, less the first of all; returns the largest number.
+float round_some(const Vertices& vectors, Index begin, Index end, float scale, std::vector<SheetRow>& rows) {
   SheetRow most = SheetRow::Zero();
-  for (Index first = 0; first < count; first += at_once) {
+  for (Index first = begin; first < end; first += at_once) {
     Eigen::Matrix4f four = Eigen::Matrix4f::Zero();
-    const Index present = std::min(at_once, count - first);
+    const Index present = std::min(at_once, end - first);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const double* from = vectors.col(axis).data();
       float* to = four.col(axis).data();
       if (present == at_once) {  // a loop of this length is one of vectors
-        for (Index k = 0; k < at_once; ++k) to[k] = factor * static_cast<float>(from[first + k] - from[0]);
+        for (Index k = 0; k < at_once; ++k) to[k] = scale * static_cast<float>(from[first + k] - from[0]);
       } else {
-        for (Index k = 0; k < present; ++k) to[k] = factor * static_cast<float>(from[first + k] - from[0]);
+        for (Index k = 0; k < present; ++k) to[k] = scale * static_cast<float>(from[first + k] - from[0]);
       }
     }
     most = most.max(four.col(0).array().abs().max(four.col(1).array().abs()).max(four.col(2).array().abs()));
@@ -41,6 +42,17 @@ double round_to_rows(const Vertices& vectors, double scale, std::vector<SheetRow
     for (Index k = 0; k < present; ++k) rows[first + k] = four.col(static_cast<Eigen::Index>(k)).array();
   }
   return most.maxCoeff();
+}
+
+/// Likewise, of all.
+double round_to_rows(const Threads& threads, const Vertices& vectors, double scale, std::vector<SheetRow>& rows) {
+  rows.resize(static_cast<Index>(vectors.rows()), SheetRow::Zero());
+  return reduce(
+      threads, vectors.rows(),
+      [&](Eigen::Index first, Eigen::Index count) {
+        return round_some(vectors, Index(first), Index(first + count), static_cast<float>(scale), rows);
+      },
+      [](float a, float b) { return std::max(a, b); });
 }
 
 /// The x, y and z of four vectors.
@@ -59,7 +71,7 @@ struct ColumnsOfFour {
 
 }  // namespace
 
-SheetMotion::SheetMotion(SheetBlocks sheet) : sheet_(std::move(sheet)) {
+SheetMotion::SheetMotion(SheetBlocks sheet, const Threads& threads) : sheet_(std::move(sheet)), threads_(threads) {
   for (const auto& [vertices, inverse] : sheet_.pieces()) {
     steepest_ = std::max(steepest_, inverse.norm());
     const Eigen::Matrix2f rounded = inverse.cast<float>();
@@ -90,21 +102,24 @@ void SheetMotion::gather_edges() {
 bool SheetMotion::measure(const Vertices& x, double h, const Vertices& v) {
   const bool first = ++calls_ == 1;
   // Mostly it has gone as it was about to: then how F has changed is known.
-  const bool expected =
-      !first && std::memcmp(x.data(), ends_.data(), static_cast<Index>(x.size()) * sizeof(double)) == 0;
+  const auto went_there = [&](Eigen::Index begin, Eigen::Index count) {
+    return std::memcmp(x.data() + begin, ends_.data() + begin, Index(count) * sizeof(double)) == 0;
+  };
+  const bool expected = !first && reduce(threads_, x.size(), went_there, std::logical_and<>(), numbers_worth_dividing);
   for (Change& change : changes_) change.since = expected ? change.next : 0;
   double before = 0;
   if (!first && !expected) {
     before = largest_place_;
     ways_ = places_;
   }
-  largest_place_ = round_to_rows(x, 1, places_);
+  largest_place_ = round_to_rows(threads_, x, 1, places_);
   if (!first && !expected) {
-    for (Index i = 0; i < ways_.size(); ++i) ways_[i] = places_[i] - ways_[i];
+    for_all(threads_, x.rows(), [&](Eigen::Index i) { ways_[Index(i)] = places_[Index(i)] - ways_[Index(i)]; });
     find_changes(ways_, before + largest_place_, &Change::since);
   }
-  ends_ = x + h * v;
-  const double way = round_to_rows(v, h, ways_);
+  ends_.resize(x.rows(), 3);
+  sum(threads_, x, h, v, ends_);
+  const double way = round_to_rows(threads_, v, h, ways_);
   find_changes(ways_, way, &Change::next);
   rounding_ = lost_in_rows * (largest_place_ + way) + too_small;
   return std::max({before, largest_place_, way}) * std::max(1.0, steepest_) < too_large;
@@ -112,7 +127,8 @@ bool SheetMotion::measure(const Vertices& x, double h, const Vertices& v) {
 
 void SheetMotion::find_changes(const std::vector<Row>& moves, double largest, double Change::*which) {
   const double rounding = (lost_in_rows * largest + too_small) * steepest_;
-  for (Index block = 0; block < changes_.size(); ++block) {
+  const auto find = [&](Eigen::Index number) {
+    const auto block = static_cast<Index>(number);
     Row most = Row::Zero();
     for (Index k = first_edges_[block]; k < first_edges_[block + 1]; ++k) {
       const FourEdges& edges = edges_[k];
@@ -121,7 +137,8 @@ void SheetMotion::find_changes(const std::vector<Row>& moves, double largest, do
       most = most.max(edges.weights * (d.x * d.x + d.y * d.y + d.z * d.z));
     }
     changes_[block].*which = std::sqrt(double(most.maxCoeff())) + rounding;
-  }
+  };
+  for_all(for_so_many(threads_, std::ssize(moves)), std::ssize(changes_), find, 0);
 }
 
 SheetMotion::Change SheetMotion::change_in(Index l, const SheetBlocks::Part& part) const {

@@ -7,6 +7,7 @@
 
 #include "sim/collision/sheet_blocks.hpp"
 #include "sim/mesh.hpp"
+#include "sim/parallel/threads.hpp"
 
 namespace drape {
 
@@ -34,7 +35,8 @@ class SheetMotion {
     double since = 0, next = 0;
   };
 
-  explicit SheetMotion(SheetBlocks sheet);
+  /// @param threads that share a measurement, of a large cloth
+  explicit SheetMotion(SheetBlocks sheet, const Threads& threads = one_thread());
 
   [[nodiscard]] const SheetBlocks& sheet() const { return sheet_; }
   /// Takes where vertices are (n×3), and that they are about to go h·v. Whether numbers are of a size for this.
@@ -68,6 +70,7 @@ class SheetMotion {
   void find_changes(const std::vector<Row>& moves, double largest, double Change::*which);
 
   SheetBlocks sheet_;
+  const Threads& threads_;
   std::vector<Piece> pieces_;
   std::vector<FourEdges> edges_;  // of the blocks that are measured
   std::vector<Index> first_edges_;

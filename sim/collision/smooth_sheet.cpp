@@ -29,7 +29,7 @@ Range around(const Range& a, const Range& b) { return {std::min(a.first, b.first
 
 }  // namespace
 
-SmoothSheet::SmoothSheet(const Cloth& cloth) {
+SmoothSheet::SmoothSheet(const Cloth& cloth, const Threads& threads) {
   auto sheet = SheetBlocks::of(cloth);
   if (!sheet) return;
   for (const SheetBlocks::Level& level : sheet->levels()) {
@@ -38,7 +38,7 @@ SmoothSheet::SmoothSheet(const Cloth& cloth) {
     state.windows.resize(state.columns * std::max<Index>(level.rows() - 1, 1));
     levels_.push_back(std::move(state));
   }
-  motion_.emplace(std::move(*sheet));
+  motion_.emplace(std::move(*sheet), threads);
 }
 
 bool SmoothSheet::stays_apart(const Vertices& x, double h, const Vertices& v, double distance) {

@@ -38,7 +38,8 @@ namespace drape {
 /// windows are looked at in one step of several, and in all others only how much F has changed.
 class SmoothSheet {
  public:
-  explicit SmoothSheet(const Cloth& cloth);
+  /// @param threads that share what is done for each vertex, of a large cloth
+  explicit SmoothSheet(const Cloth& cloth, const Threads& threads = one_thread());
 
   /// Whether it is certain that any two features that share no vertex stay `distance` apart, and never come nearer than
   /// a fifth of the distance that they begin with, while vertices go from x (n×3) on straight lines by h·v, all finite.

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <memory>
 #include <utility>
+#include <vector>
 
+#include "sim/collision/sheet_motion.hpp"
 #include "sim/effects/body.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/effects/self_collision.hpp"
@@ -73,6 +75,32 @@ TEST(ContactByThreads, OfAClothWithItselfHasTheSameBits) {
   SimulationSettings settings = setup(folded_cloth(), Method::liu13, 0.01);
   settings.effects = {Gravity{}, SelfCollision{.thickness = 0.006}};
   expect_the_same_bits(settings);
+}
+
+// By which is known that nothing can touch: of a cloth that went as it was about to, and of one that did not.
+TEST(ContactByThreads, WhatIsMeasuredOfASheetHasTheSameBits) {
+  const Cloth cloth = flat_cloth();
+  const auto measured = [&](int count) {
+    const Threads threads(count);
+    SheetMotion motion(SheetBlocks::of(cloth).value(), threads);
+    const SheetBlocks::Level& finest = motion.sheet().levels().back();
+    Vertices x = cloth.positions;
+    std::vector<double> numbers;
+    for (int call = 0; call < 4; ++call) {
+      const Vertices v = test::random_vertices(x.rows(), call);
+      EXPECT_TRUE(motion.measure(x, 0.01, v));
+      numbers.push_back(motion.rounding());
+      for (int i = 0; i < x.rows(); ++i) numbers.push_back(motion.place(i)[call % 3] + motion.way(i)[call % 2]);
+      for (std::size_t block = 0; block < finest.columns() * finest.rows(); ++block) {
+        const auto [since, next] = motion.change_in(motion.sheet().levels().size() - 1, finest.part_of(block));
+        numbers.insert(numbers.end(), {since, next});
+      }
+      x += (call % 2 == 0 ? 0.01 : 0.02) * v;
+    }
+    return numbers;
+  };
+  const std::vector<double> alone = measured(1);
+  for (const int count : counts) EXPECT_EQ(measured(count), alone) << count << " threads";
 }
 
 /// Under most of the cloth, and through it where it is highest in the first step.
