@@ -1,12 +1,27 @@
 #include "sim/collision/candidates.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
+#include <numeric>
 
 #include "sim/collision/impact.hpp"
 
 namespace drape {
 namespace {
+
+using Index = std::size_t;
+
+// Boxes hold the ways of so many more steps in which no vertex goes further than a part of an edge, but at most some.
+// Further ways bring more pairs into the list than searches that they save: where there are few, no list is made.
+constexpr double furthest = 0.5, most_ahead = 8, least_ahead = 2;
+// They are so much larger, in edges, on all sides: for what is not foreseen of these ways.
+constexpr double skin = 0.06;
+// Memory is taken for so many of a vertex at once: cloth that is not crumpled has fewer.
+constexpr Eigen::Index usual_pairs = 16;
+// What shifting places may lose, as a part of the reach: less than that the boxes around kept pairs are not relied on.
+constexpr double lost = 1e-6;
 
 Box around(const Box& a, const Box& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
 
@@ -29,31 +44,47 @@ CollisionCandidates::CollisionCandidates(const Cloth& cloth, const Threads& thre
   for (const Edge& edge : edges_) corners_.insert(corners_.end(), edge.begin(), edge.end());
   std::sort(corners_.begin(), corners_.end());
   corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+  for (const Edge& edge : edges_) {
+    edge_length_ += (cloth.rest.row(edge[0]) - cloth.rest.row(edge[1])).norm() / static_cast<double>(edges_.size());
+  }
+  const Eigen::Index most = usual_pairs * std::ssize(corners_);
+  kept_.reserve(static_cast<Index>(most));
+  pairs_.reserve(static_cast<Index>(most));
+  found_.reserve(most, usual_pairs * worth_dividing);
   for (const int pin : cloth.pins) pinned_[static_cast<std::size_t>(pin)] = 1;
 }
 
 void CollisionCandidates::surround(const std::vector<Point>& from, const std::vector<Point>& to, double margin) {
-  const auto box = [&](int i) -> const Box& { return vertex_boxes_[static_cast<std::size_t>(i)]; };
   const Eigen::Vector3d all_around = Eigen::Vector3d::Constant(margin);
   vertex_boxes_.resize(from.size());
   for_all(threads_, std::ssize(from), [&](Eigen::Index index) {
-    const auto i = static_cast<std::size_t>(index);
+    const auto i = static_cast<Index>(index);
     vertex_boxes_[i] = {from[i].cwiseMin(to[i]) - all_around, from[i].cwiseMax(to[i]) + all_around};
-  });
-  triangle_boxes_.resize(triangles_.size());
-  for_all(threads_, std::ssize(triangles_), [&](Eigen::Index t) {
-    const auto& [a, b, c] = triangles_[static_cast<std::size_t>(t)];
-    triangle_boxes_[static_cast<std::size_t>(t)] = around(around(box(a), box(b)), box(c));
-  });
-  edge_boxes_.resize(edges_.size());
-  for_all(threads_, std::ssize(edges_), [&](Eigen::Index e) {
-    const auto& [a, b] = edges_[static_cast<std::size_t>(e)];
-    edge_boxes_[static_cast<std::size_t>(e)] = around(box(a), box(b));
   });
 }
 
-void CollisionCandidates::find(const std::vector<Point>& from, const std::vector<Point>& to, double reach) {
-  surround(from, to, reach / 2);
+Box CollisionCandidates::box(const Edge& edge) const {
+  return around(vertex_boxes_[static_cast<Index>(edge[0])], vertex_boxes_[static_cast<Index>(edge[1])]);
+}
+
+Box CollisionCandidates::box(const Triangle& t) const {
+  return around(box(Edge{t[0], t[1]}), vertex_boxes_[static_cast<Index>(t[2])]);
+}
+
+bool CollisionCandidates::overlap(const FeaturePair& pair) const {
+  const auto& [a, b, c, d] = pair.vertices;
+  if (pair.feature == Feature::edge_edge) return box(Edge{a, b}).overlaps(box(Edge{c, d}));
+  return vertex_boxes_[static_cast<Index>(a)].overlaps(box(Triangle{b, c, d}));
+}
+
+template <class Accept>
+void CollisionCandidates::search(Accept&& accept, std::vector<FeaturePair>& pairs) {
+  triangle_boxes_.resize(triangles_.size());
+  for_all(threads_, std::ssize(triangles_),
+          [&](Eigen::Index t) { triangle_boxes_[static_cast<Index>(t)] = box(triangles_[static_cast<Index>(t)]); });
+  edge_boxes_.resize(edges_.size());
+  for_all(threads_, std::ssize(edges_),
+          [&](Eigen::Index e) { edge_boxes_[static_cast<Index>(e)] = box(edges_[static_cast<Index>(e)]); });
   threads_.for_each(2, [&](int part) {
     if (part == 0) {
       edge_hash_.build(edge_boxes_);
@@ -63,34 +94,85 @@ void CollisionCandidates::find(const std::vector<Point>& from, const std::vector
   });
   const auto add = [&](const FeaturePair& pair, std::vector<FeaturePair>& found) {
     const auto& v = pair.vertices;
-    if (std::all_of(v.begin(), v.end(), [&](int i) { return pinned_[static_cast<std::size_t>(i)] != 0; })) return;
-    if (may_come_near(pair.feature, gather(from, v), gather(to, v), reach)) found.push_back(pair);
+    if (std::all_of(v.begin(), v.end(), [&](int i) { return pinned_[static_cast<Index>(i)] != 0; })) return;
+    if (accept(pair)) found.push_back(pair);
   };
   // Features are gone through in their order, so only the pairs of each have to be sorted.
-  const auto find_all = [&](std::size_t count, auto&& find_of) {
+  const auto find_all = [&](Index count, auto&& find_of) {
     found_.fill(threads_, static_cast<Eigen::Index>(count), [&](Eigen::Index k, std::vector<FeaturePair>& found) {
       const auto before = static_cast<std::ptrdiff_t>(found.size());
-      find_of(static_cast<std::size_t>(k), found);
+      find_of(static_cast<Index>(k), found);
       std::sort(found.begin() + before, found.end());
     });
-    found_.append_to(pairs_);
+    found_.append_to(pairs);
   };
-  pairs_.clear();
-  find_all(corners_.size(), [&](std::size_t k, std::vector<FeaturePair>& found) {
+  pairs.clear();
+  find_all(corners_.size(), [&](Index k, std::vector<FeaturePair>& found) {
     const int i = corners_[k];
-    triangle_hash_.for_overlapping(vertex_boxes_[static_cast<std::size_t>(i)], [&](int t) {
-      const auto& [a, b, c] = triangles_[static_cast<std::size_t>(t)];
+    triangle_hash_.for_overlapping(vertex_boxes_[static_cast<Index>(i)], [&](int t) {
+      const auto& [a, b, c] = triangles_[static_cast<Index>(t)];
       if (i != a && i != b && i != c) add({Feature::vertex_triangle, {i, a, b, c}}, found);
     });
   });
-  find_all(edges_.size(), [&](std::size_t k, std::vector<FeaturePair>& found) {
+  find_all(edges_.size(), [&](Index k, std::vector<FeaturePair>& found) {
     const Edge& edge = edges_[k];
     edge_hash_.for_later(static_cast<int>(k), [&](int l) {
       const auto& [a, b] = edge;
-      const auto& [c, d] = edges_[static_cast<std::size_t>(l)];
+      const auto& [c, d] = edges_[static_cast<Index>(l)];
       if (a != c && a != d && b != c && b != d) add({Feature::edge_edge, {a, b, c, d}}, found);
     });
   });
+}
+
+void CollisionCandidates::find(const std::vector<Point>& from, const std::vector<Point>& to, double reach) {
+  const auto comes_near = [&](const FeaturePair& pair) {
+    return may_come_near(pair.feature, gather(from, pair.vertices), gather(to, pair.vertices), reach);
+  };
+  surround(from, to, reach / 2);
+  const Point middle = std::accumulate(from.begin(), from.end(), Point(0, 0, 0)) / static_cast<double>(from.size());
+  if (!kept_cover(middle - kept_middle_, lost * reach)) {
+    const double ahead = steps_ahead(from, to);
+    if (ahead < least_ahead) {
+      kept_boxes_.clear();
+      search(comes_near, pairs_);
+      return;
+    }
+    further_.resize(to.size());
+    for (Index i = 0; i < to.size(); ++i) further_[i] = to[i] + ahead * (to[i] - from[i]);
+    surround(from, further_, reach / 2 + skin * edge_length_);
+    search([](const FeaturePair&) { return true; }, kept_);
+    kept_boxes_.swap(vertex_boxes_);
+    kept_middle_ = middle;
+    surround(from, to, reach / 2);
+  }
+  found_.fill(threads_, std::ssize(kept_), [&](Eigen::Index k, std::vector<FeaturePair>& found) {
+    const FeaturePair& pair = kept_[static_cast<Index>(k)];
+    if (overlap(pair) && comes_near(pair)) found.push_back(pair);
+  });
+  pairs_.clear();
+  found_.append_to(pairs_);
+}
+
+bool CollisionCandidates::kept_cover(const Point& shift, double rounding) const {
+  if (kept_boxes_.size() != vertex_boxes_.size()) return false;
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(rounding);
+  double largest = 0;
+  for (Index i = 0; i < kept_boxes_.size(); ++i) {
+    const Box &box = vertex_boxes_[i], &kept = kept_boxes_[i];
+    if (!((box.low - shift - margin).array() >= kept.low.array()).all() ||
+        !((box.high - shift + margin).array() <= kept.high.array()).all()) {
+      return false;
+    }
+    largest = std::max({largest, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff(),
+                        kept.low.cwiseAbs().maxCoeff(), kept.high.cwiseAbs().maxCoeff()});
+  }
+  return 8 * std::numeric_limits<double>::epsilon() * largest < rounding;
+}
+
+double CollisionCandidates::steps_ahead(const std::vector<Point>& from, const std::vector<Point>& to) const {
+  double longest = lost * edge_length_;
+  for (Index i = 0; i < from.size(); ++i) longest = std::max(longest, (to[i] - from[i]).cwiseAbs().maxCoeff());
+  return std::min(most_ahead, furthest * edge_length_ / longest);
 }
 
 }  // namespace drape
