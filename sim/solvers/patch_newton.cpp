@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/memory.hpp"
+#include "sim/linear/sparse_cholesky.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/solvers/newton.hpp"
 
