@@ -20,10 +20,22 @@ constexpr double furthest = 0.5, most_ahead = 8, least_ahead = 2;
 constexpr double skin = 0.06;
 // Memory is taken for so many of a vertex at once: cloth that is not crumpled has fewer.
 constexpr Eigen::Index usual_pairs = 16;
-// What shifting places may lose, as a part of the reach: less than that the boxes around kept pairs are not relied on.
+// What shifting places may lose, as a part of the reach: where it is more, the boxes around kept pairs are not relied
+// on.
 constexpr double lost = 1e-6;
 
 Box around(const Box& a, const Box& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
+
+/// Around all places of a box on its way, and so much larger on all sides.
+Box extended(const Box& box, const Point& way, double margin) {
+  const Eigen::Vector3d all_around = Eigen::Vector3d::Constant(margin);
+  return {box.low + way.cwiseMin(0.0) - all_around, box.high + way.cwiseMax(0.0) + all_around};
+}
+
+/// The largest of all part(first, count), for ranges of indices which together are all below `count`.
+double largest_part(const Threads& threads, Eigen::Index count, const auto& part) {
+  return reduce(threads, count, part, [](double a, double b) { return std::max(a, b); });
+}
 
 }  // namespace
 
@@ -54,12 +66,14 @@ CollisionCandidates::CollisionCandidates(const Cloth& cloth, const Threads& thre
   for (const int pin : cloth.pins) pinned_[static_cast<std::size_t>(pin)] = 1;
 }
 
-void CollisionCandidates::surround(const std::vector<Point>& from, const std::vector<Point>& to, double margin) {
+void CollisionCandidates::surround(const std::vector<Point>& from, const std::vector<Point>& to, const Point& together,
+                                   double margin) {
   const Eigen::Vector3d all_around = Eigen::Vector3d::Constant(margin);
   vertex_boxes_.resize(from.size());
   for_all(threads_, std::ssize(from), [&](Eigen::Index index) {
     const auto i = static_cast<Index>(index);
-    vertex_boxes_[i] = {from[i].cwiseMin(to[i]) - all_around, from[i].cwiseMax(to[i]) + all_around};
+    const Point end = to[i] - together;
+    vertex_boxes_[i] = {from[i].cwiseMin(end) - all_around, from[i].cwiseMax(end) + all_around};
   });
 }
 
@@ -128,22 +142,24 @@ void CollisionCandidates::find(const std::vector<Point>& from, const std::vector
   const auto comes_near = [&](const FeaturePair& pair) {
     return may_come_near(pair.feature, gather(from, pair.vertices), gather(to, pair.vertices), reach);
   };
-  surround(from, to, reach / 2);
-  const Point middle = std::accumulate(from.begin(), from.end(), Point(0, 0, 0)) / static_cast<double>(from.size());
+  const Point middle = mean(from), together = mean(to) - middle;
+  surround(from, to, together, (0.5 + lost) * reach);
   if (!kept_cover(middle - kept_middle_, lost * reach)) {
-    const double ahead = steps_ahead(from, to);
+    const double ahead = steps_ahead(from, to, together);
     if (ahead < least_ahead) {
       kept_boxes_.clear();
       search(comes_near, pairs_);
       return;
     }
-    further_.resize(to.size());
-    for (Index i = 0; i < to.size(); ++i) further_[i] = to[i] + ahead * (to[i] - from[i]);
-    surround(from, further_, reach / 2 + skin * edge_length_);
+    kept_boxes_.swap(vertex_boxes_);
+    vertex_boxes_.resize(from.size());
+    for_all(threads_, std::ssize(from), [&](Eigen::Index index) {
+      const auto i = static_cast<Index>(index);
+      vertex_boxes_[i] = extended(kept_boxes_[i], ahead * (to[i] - from[i] - together), skin * edge_length_);
+    });
     search([](const FeaturePair&) { return true; }, kept_);
     kept_boxes_.swap(vertex_boxes_);
     kept_middle_ = middle;
-    surround(from, to, reach / 2);
   }
   found_.fill(threads_, std::ssize(kept_), [&](Eigen::Index k, std::vector<FeaturePair>& found) {
     const FeaturePair& pair = kept_[static_cast<Index>(k)];
@@ -153,26 +169,44 @@ void CollisionCandidates::find(const std::vector<Point>& from, const std::vector
   found_.append_to(pairs_);
 }
 
+Point CollisionCandidates::mean(const std::vector<Point>& points) const {
+  const auto part = [&](Eigen::Index first, Eigen::Index count) {
+    const auto begin = points.begin() + first;
+    return std::accumulate(begin, begin + count, Point(0, 0, 0));
+  };
+  return sum_of(threads_, std::ssize(points), part) / static_cast<double>(points.size());
+}
+
 bool CollisionCandidates::kept_cover(const Point& shift, double rounding) const {
   if (kept_boxes_.size() != vertex_boxes_.size()) return false;
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(rounding);
-  double largest = 0;
-  for (Index i = 0; i < kept_boxes_.size(); ++i) {
-    const Box &box = vertex_boxes_[i], &kept = kept_boxes_[i];
-    if (!((box.low - shift - margin).array() >= kept.low.array()).all() ||
-        !((box.high - shift + margin).array() <= kept.high.array()).all()) {
-      return false;
+  const auto largest_of = [&](Eigen::Index first, Eigen::Index count) {
+    double largest = 0;
+    for (auto i = static_cast<Index>(first); i < static_cast<Index>(first + count); ++i) {
+      const Box &box = vertex_boxes_[i], &kept = kept_boxes_[i];
+      if (!((box.low - shift - margin).array() >= kept.low.array()).all() ||
+          !((box.high - shift + margin).array() <= kept.high.array()).all()) {
+        return std::numeric_limits<double>::infinity();
+      }
+      largest = std::max({largest, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff(),
+                          kept.low.cwiseAbs().maxCoeff(), kept.high.cwiseAbs().maxCoeff()});
     }
-    largest = std::max({largest, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff(),
-                        kept.low.cwiseAbs().maxCoeff(), kept.high.cwiseAbs().maxCoeff()});
-  }
-  return 8 * std::numeric_limits<double>::epsilon() * largest < rounding;
+    return largest;
+  };
+  return 8 * std::numeric_limits<double>::epsilon() * largest_part(threads_, std::ssize(kept_boxes_), largest_of) <
+         rounding;
 }
 
-double CollisionCandidates::steps_ahead(const std::vector<Point>& from, const std::vector<Point>& to) const {
-  double longest = lost * edge_length_;
-  for (Index i = 0; i < from.size(); ++i) longest = std::max(longest, (to[i] - from[i]).cwiseAbs().maxCoeff());
-  return std::min(most_ahead, furthest * edge_length_ / longest);
+double CollisionCandidates::steps_ahead(const std::vector<Point>& from, const std::vector<Point>& to,
+                                        const Point& together) const {
+  const auto longest_of = [&](Eigen::Index first, Eigen::Index count) {
+    double longest = lost * edge_length_;
+    for (auto i = static_cast<Index>(first); i < static_cast<Index>(first + count); ++i) {
+      longest = std::max(longest, (to[i] - from[i] - together).cwiseAbs().maxCoeff());
+    }
+    return longest;
+  };
+  return std::min(most_ahead, furthest * edge_length_ / largest_part(threads_, std::ssize(from), longest_of));
 }
 
 }  // namespace drape

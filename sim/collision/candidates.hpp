@@ -28,11 +28,13 @@ inline FourPoints gather(const std::vector<Point>& points, const std::array<int,
 /// do.
 bool may_come_near(Feature feature, const FourPoints& from, FourPoints to, double reach);
 
-/// Finds the pairs of features of a cloth that may come near each other while its vertices move on straight lines.
+/// Finds the pairs of features of a cloth that may come near each other while its vertices move on straight lines. What
+/// the whole cloth does together is left out, as it does not bring any nearer to each other.
+///
 /// As a list of neighbours with a skin (Verlet 1967), a search finds more than is asked for: all pairs whose boxes
 /// overlap that hold the ways of some steps as this one, and a little on all sides. While the boxes around what is
-/// asked for are inside these, but for what the whole cloth does together, only that list is gone through, which gives
-/// the same pairs in the same order as a new search.
+/// asked for are inside these, only that list is gone through, which gives the same pairs in the same order as a new
+/// search.
 class CollisionCandidates {
  public:
   /// @param threads that share a search, in a large cloth
@@ -47,7 +49,9 @@ class CollisionCandidates {
 
  private:
   /// The boxes around all vertices on their ways.
-  void surround(const std::vector<Point>& from, const std::vector<Point>& to, double margin);
+  /// @param together how far the whole cloth goes
+  void surround(const std::vector<Point>& from, const std::vector<Point>& to, const Point& together, double margin);
+  [[nodiscard]] Point mean(const std::vector<Point>& points) const;
   /// Around the boxes of vertices.
   [[nodiscard]] Box box(const Edge& edge) const;
   [[nodiscard]] Box box(const Triangle& t) const;
@@ -55,7 +59,8 @@ class CollisionCandidates {
   /// Whether every vertex's box, shifted back, is inside its kept one, for certain if places lose less than `rounding`.
   [[nodiscard]] bool kept_cover(const Point& shift, double rounding) const;
   /// For how many more steps as this one it is worth to make boxes.
-  [[nodiscard]] double steps_ahead(const std::vector<Point>& from, const std::vector<Point>& to) const;
+  [[nodiscard]] double steps_ahead(const std::vector<Point>& from, const std::vector<Point>& to,
+                                   const Point& together) const;
   /// Replaces some pairs by those that are accepted of all whose boxes overlap, sorted.
   template <class Accept>
   void search(Accept&& accept, std::vector<FeaturePair>& pairs);
@@ -73,7 +78,6 @@ class CollisionCandidates {
   std::vector<FeaturePair> kept_;  // of which the boxes overlap that are kept
   std::vector<Box> kept_boxes_;    // of vertices
   Point kept_middle_{0, 0, 0};     // of the vertices when these were made
-  std::vector<Point> further_;     // where vertices would go in some steps
 };
 
 }  // namespace drape

@@ -76,17 +76,7 @@ void SelfContact::load(const Vertices& x, double h, const Vertices& v) {
 void SelfContact::find_candidates() {
   look_at_stop();
   // Reaches as far as two targets can move towards each other before the candidates are found anew.
-  // What the whole cloth does together would only make them search in larger boxes.
-  const auto vertices = static_cast<Eigen::Index>(x_.size());
-  const Point together = sum_of(threads_, vertices,
-                                [&](Eigen::Index first, Eigen::Index count) {
-                                  Point sum = Point::Zero();
-                                  for (Index i = Index(first); i < Index(first + count); ++i) sum += target_[i] - x_[i];
-                                  return sum;
-                                }) /
-                         static_cast<double>(vertices);
-  for_all(threads_, vertices, [&](Eigen::Index i) { found_for_[Index(i)] = target_[Index(i)] - together; });
-  candidates_.find(x_, found_for_, (1 + 2 * slack) * values_.thickness);
+  candidates_.find(x_, target_, (1 + 2 * slack) * values_.thickness);
   found_for_ = target_;
   std::fill(changed_.begin(), changed_.end(), 1);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 
 namespace drape::test {
@@ -32,5 +33,10 @@ class Random {
  private:
   std::uint64_t seed_;
 };
+
+/// Uniform in [−1, 1)³.
+inline Eigen::Vector3d random_point(Random& random) {
+  return {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
+}
 
 }  // namespace drape::test

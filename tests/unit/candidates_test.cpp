@@ -14,8 +14,6 @@
 namespace drape::test {
 namespace {
 
-Point point(Random& random) { return {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)}; }
-
 // What was found before says nothing about what is found: while the cloth goes on its way, slowly or fast, as a whole
 // or not, or one of its vertices alone, and jumps, or is searched for another reach.
 TEST(CollisionCandidates, AreThoseOfANewSearchWhateverWasSearchedForBefore) {
@@ -27,25 +25,26 @@ TEST(CollisionCandidates, AreThoseOfANewSearchWhateverWasSearchedForBefore) {
   std::size_t found = 0;
   for (int motion = 0; motion < tries(100); ++motion) {
     std::vector<Point> from, way, to;
-    const Point shift = 100 * random.between(-1, 1) * point(random), together = 0.1 * point(random);
+    const Point shift = 100 * random.between(-1, 1) * random_point(random);
+    const Point together = random_point(random), jump = 0.1 * random_point(random);
     const double speed = std::pow(10, random.between(-5, -0.5)), reach = random.between(0.02, 0.1);
     for (std::size_t i = 0; i < count; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       from.emplace_back((cloth.positions.row(row) + 0.2 * crumple.row(row)).transpose() + shift);
       const bool stays = motion % 2 == 1 && i != static_cast<std::size_t>(motion) % count;
-      way.emplace_back((stays ? 0 : speed) * point(random));
+      way.emplace_back((stays ? 0 : speed) * random_point(random));
     }
     for (int step = 0; step < 6; ++step) {
       to = from;
-      for (std::size_t i = 0; i < count; ++i) to[i] += way[i];
+      for (std::size_t i = 0; i < count; ++i) to[i] += way[i] + together;
       candidates.find(from, to, reach);
       CollisionCandidates anew(cloth);
       anew.find(from, to, reach);
       ASSERT_TRUE(candidates.pairs() == anew.pairs()) << "motion " << motion << ", step " << step;
       found += anew.pairs().size();
       for (std::size_t i = 0; i < count; ++i) {
-        from[i] = to[i] + together;
-        way[i] += 0.1 * way[i].norm() * point(random);
+        from[i] = to[i] + jump;
+        way[i] += 0.1 * way[i].norm() * random_point(random);
       }
     }
   }

@@ -20,7 +20,6 @@ namespace {
 
 constexpr Feature both[] = {Feature::vertex_triangle, Feature::edge_edge};
 
-Point random_point(Random& random) { return {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)}; }
 FourPoints random_points(Random& random) {
   return {random_point(random), random_point(random), random_point(random), random_point(random)};
 }

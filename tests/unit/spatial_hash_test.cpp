@@ -17,17 +17,13 @@ void for_pairs(const SpatialHash& hash, int boxes, auto&& visit) {
   for (int k = 0; k < boxes; ++k) hash.for_later(k, [&](int l) { visit(k, l); });
 }
 
-Point random_point(test::Random& random) {
-  return {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
-}
-
 TEST(SpatialHash, FindsEveryOverlapOnce) {
   test::Random random;
   for (const double huge : {0.0, 50.0}) {
     std::vector<Box> boxes;
     for (int i = 0; i < 300; ++i) {
-      const Point low = random_point(random);
-      const Point size = 0.15 * (random_point(random) + Point::Ones());
+      const Point low = test::random_point(random);
+      const Point size = 0.15 * (test::random_point(random) + Point::Ones());
       boxes.push_back({low, low + size});
       if (i % 100 == 0) boxes.back().high += huge * Point(1, 0.5, 1);  // one that reaches far beyond the others
     }
