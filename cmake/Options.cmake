@@ -18,3 +18,10 @@ if(DRAPE_SANITIZE)
   target_link_options(drape_options INTERFACE -fsanitize=${DRAPE_SANITIZE})
   target_compile_definitions(drape_options INTERFACE DRAPE_SANITIZED)  # every compiler has another name for it
 endif()
+
+# For what runs about once for every build of it, or only reads a command line and puts words together: optimising it takes
+# half of the time of compiling it. Not for what a benchmark links: of an inline function that several objects have, the
+# linker keeps one. With GCC a precompiled header brings its own optimisation, so none of another target can be reused.
+function(drape_optimise_less target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
