@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
 #include <mutex>
 #include <stop_token>
@@ -29,6 +30,8 @@ using Clock = std::chrono::steady_clock;
 
 // Frames in flight between two stages: enough to ride out an uneven step or frame, little enough to hold in memory.
 constexpr std::size_t queue_capacity = 8;
+// Whoever interrupts a run waits no longer for what there is to be drawn [s].
+constexpr double longest_wait = 5;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -118,11 +121,8 @@ class Pipeline {
     if (recorder_) observers.push_back(&*recorder_);
     for (StepObserver* record : records_.observers()) observers.push_back(record);
     if (options_.observer != nullptr) observers.push_back(options_.observer);
-    if (drawn_ && ((annotations_ && annotations_->needs_motion()) || needs_motion(scene_.camera))) {
-      simulate_then_draw(std::move(observers));
-    } else {
-      simulate_and_draw(std::move(observers));
-    }
+    const bool first = drawn_ && ((annotations_ && annotations_->needs_motion()) || needs_motion(scene_.camera));
+    first ? simulate_then_draw(std::move(observers)) : simulate_and_draw(std::move(observers));
     close_queues();
   }
 
@@ -143,7 +143,7 @@ class Pipeline {
   }
 
   /// For a camera or annotations that have to know the motion: all of it, so that a frame looks the same whichever
-  /// range of frames is drawn. Interrupted before that is known nothing is drawn, unless somebody looks at every step.
+  /// range of frames is drawn. Interrupted before that is known, what there is is drawn as the motion up to there asks.
   void simulate_then_draw(std::vector<StepObserver*> observers) {
     FrameTape tape;
     const FilmExtent whole = whole_extent(scene_, options_);
@@ -157,17 +157,16 @@ class Pipeline {
     progress_.begin("simulating", "steps", whole.steps);
     take_steps(observers);
     if (whole_) run_on(scene_.simulation, simulation_->state(), whole.steps, {&sampler, &counter}, stop_.get_token());
-    const bool until_here = options_.observer != nullptr;
-    if (stop_.stop_requested() && !until_here) return;
+    cut_ = stop_.stop_requested();
+    if (tape.count() == 0) return;
     place_camera(tape.count(), [&tape](const auto& visit) { tape.for_each(visit); });
-    progress_.begin("drawing", "frames", extent_.frames.count());
+    progress_.begin("drawing", "frames", std::min(extent_.frames.count(), tape.count()));
+    const auto begin = Clock::now();
+    const bool until_here = cut_;
     tape.for_each([&](const Frame& frame) {
       if (frame.index < extent_.frames.first || frame.index > extent_.frames.last) return;
-      if (until_here || !stop_.stop_requested()) {
-        frames_.push(frame);
-      } else {
-        cut_ = true;
-      }
+      cut_ = cut_ || stop_.stop_requested();
+      if (!cut_ || (until_here && seconds_since(begin) < longest_wait)) frames_.push(frame);
     });
   }
 
@@ -251,7 +250,8 @@ class Pipeline {
     if (const std::scoped_lock lock(mutex_); error_) return;
     if (options_.drawn) options_.drawn();
     const auto begin = Clock::now();
-    result_.outputs = outputs_.finish(result_.frames == result_.frames_wanted ? Ending::complete : Ending::early);
+    const bool complete = result_.frames == result_.frames_wanted && !cut_;
+    result_.outputs = outputs_.finish(complete ? Ending::complete : Ending::early);
     result_.write_seconds += seconds_since(begin);
     if (outputs_.none()) stop_writing();
   }
@@ -283,7 +283,7 @@ class Pipeline {
   std::mutex mutex_;
   std::exception_ptr error_;
   bool whole_ = false;  // every step was taken
-  bool cut_ = false;    // not every frame was drawn
+  bool cut_ = false;    // not every frame was drawn, or not as the whole motion asks
   RunResult result_;
 };
 
