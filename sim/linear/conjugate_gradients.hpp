@@ -24,7 +24,7 @@ class ConjugateGradients final : public NewtonSolver {
   static constexpr int most_iterations = 1000;
 
   /// @param preconditioner A of the same system, which must outlive this. Without it one is made, and the equations are
-  ///                       solved for Newton's method; with it for estimates, of a large cloth to a tenth
+  ///                       solved for Newton's method; with it for estimates, of a large cloth to about a tenth
   ConjugateGradients(const System& system, const StepObjective& objective, ConstantFactor* preconditioner = nullptr);
   void solve(const Vertices& x, const Vertices& gradient, double concavity, Vertices& direction) override {
     static_cast<void>(solve_within(most_iterations, x, gradient, concavity, direction));
@@ -39,6 +39,8 @@ class ConjugateGradients final : public NewtonSolver {
 
  private:
   void linearise(const Vertices& x, double concavity);
+  /// Whether an estimate is about as long as it will be, after another iteration.
+  [[nodiscard]] bool hardly_grows(const Vertices& direction);
   /// preconditioned = that of the residual.
   void precondition();
   void apply(const Vertices& vector, Vertices& product) const;
@@ -51,7 +53,9 @@ class ConjugateGradients final : public NewtonSolver {
   SpringNetwork::Blocks blocks_;
   std::vector<std::unique_ptr<EnergyHessian>> hessians_;  // of the system's energies
   std::optional<HessianDiagonal> diagonal_;               // of a large cloth
+  bool estimates_ = false;                                // of a large cloth, for a preconditioner's owner
   double tolerance_;                                      // of the residual, of the gradient
+  std::vector<double> lengths_;                           // of an estimate, after each iteration
   Vertices residual_, preconditioned_, search_, product_;
 };
 

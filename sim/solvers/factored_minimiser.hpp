@@ -16,10 +16,9 @@ class FactoredMinimiser : public Minimiser {
 
  protected:
   ConstantFactor& factor() { return factor_; }
-
- private:
   void find_newton_step(const Iterate& point, Vertices& direction) override;
 
+ private:
   const System& system_;
   ConstantFactor factor_;
   std::unique_ptr<ConjugateGradients> newton_;  // once it is asked for

@@ -13,6 +13,7 @@ namespace {
 constexpr double sufficient_decrease = 1e-4;  // Armijo's constant, as usual (Nocedal and Wright 2006, section 3.1)
 constexpr double shortest_move = 1e-10;       // of a direction
 constexpr int patience = 20;                  // iterations that gain nothing where rounding hides the error
+constexpr double doubt = 2;                   // how much further the minimum may be than Newton's step leads
 
 }  // namespace
 
@@ -29,7 +30,7 @@ StepReport Minimiser::minimise(Iterate& point, const std::function<bool()>& may_
   start();
   StepReport report;
   double change = std::numeric_limits<double>::infinity();
-  least_error_ = change;
+  least_error_ = newton_error_ = change;
   in_vain_ = 0;
   for (; report.iterations < max_iterations_; ++report.iterations) {
     if (balanced(point, change)) return report;
@@ -62,7 +63,7 @@ bool Minimiser::balanced(const Iterate& point, double change) {
       break;
   }
   const double error = objective_.error_bound(point.gradient);
-  if (error <= accuracy_.tolerance) return true;
+  if (std::min(error, newton_error_) <= accuracy_.tolerance) return true;
   // Where rounding hides the error, small iterations, or no progress, are all that can be had.
   in_vain_ = error < least_error_ ? 0 : in_vain_ + 1;
   least_error_ = std::min(least_error_, error);
@@ -70,10 +71,14 @@ bool Minimiser::balanced(const Iterate& point, double change) {
 }
 
 double Minimiser::error(const Iterate& point) {
-  const double bound = objective_.error_bound(point.gradient);
-  if (accuracy_.rule == StoppingRule::error && bound <= accuracy_.tolerance) return bound;
+  const double bound = objective_.error_bound(point.gradient), known = std::min(bound, newton_error_);
+  if (accuracy_.rule == StoppingRule::error && known <= accuracy_.tolerance) return known;
   find_newton_step(point, trial_.x);
   return std::min(bound, trial_.x.rowwise().norm().maxCoeff());
+}
+
+void Minimiser::went_along(const Vertices& newton_step) {
+  newton_error_ = doubt * newton_step.rowwise().norm().maxCoeff();
 }
 
 double Minimiser::descend(Iterate& point, const Vertices& direction, double slope) {

@@ -52,6 +52,10 @@ class Minimiser {
   /// @return the length, or 0 where none was found: the point is as low as it can be computed
   double descend(Iterate& point, const Vertices& direction, double slope);
 
+  /// Tells that an iteration went along Newton's step from where it began: so far was the minimum from there, by the
+  /// Hessian without its negative eigenvalues. Where it was within a part of the tolerance, the point will do.
+  void went_along(const Vertices& newton_step);
+
   /// direction = H(x)⁻¹∇g, see NewtonSolver.
   virtual void find_newton_step(const Iterate& point, Vertices& direction) = 0;
 
@@ -67,8 +71,9 @@ class Minimiser {
   Accuracy accuracy_;
   int max_iterations_;
   Iterate trial_;
-  double least_error_ = 0;  // that a point of this minimisation had, where it stops at an error…
-  int in_vain_ = 0;         // …and how many points had none that was less since
+  double least_error_ = 0;   // that a point of this minimisation had, where it stops at an error…
+  int in_vain_ = 0;          // …and how many points had none that was less since
+  double newton_error_ = 0;  // by the last of Newton's steps that an iteration went along
 };
 
 }  // namespace drape

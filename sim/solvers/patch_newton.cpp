@@ -15,14 +15,14 @@ namespace {
 
 // Around a vertex above the tolerance the patch has rings of neighbours, at least and at most, and as many as make it
 // worth the passes over the whole cloth that it takes: this share of all vertices. Wide ones move their rims less.
-constexpr int least_rings = 4, most_rings = 16;
+constexpr int least_rings = 2, most_rings = 16;
 constexpr double worthwhile = 0.02;
 // What the first iterations leave is mostly at the rims, which more of them do not move.
-constexpr int patch_iterations = 6;
+constexpr int patch_iterations = 2;
 constexpr double margin = 0.5;  // that the tolerance leaves for the rims
 // So many vertices may be in patches, whatever memory the machine has, as the motion depends on it. Each takes up to
 // 5 kB: a factor's numbers, with what is needed to make it.
-constexpr double most_vertices = 250'000, bytes_per_vertex = 5e3;
+constexpr double most_vertices = 200'000, bytes_per_vertex = 5e3;
 
 std::size_t at(int number) { return static_cast<std::size_t>(number); }
 

@@ -27,7 +27,7 @@ class PatchNewton {
 
   /// Lowers g by moving the vertices of the patches, which have vertices above the tolerance and those around them. A
   /// function of the point and the objective alone.
-  /// @param share of all vertices that may be in patches, and never more than 250 000 of them; where there are more
+  /// @param share of all vertices that may be in patches, and never more than 200 000 of them; where there are more
   ///              nothing is done
   /// @return how far they were moved [m], the 2-norm over all unknowns
   double settle(Iterate& point, double share);

@@ -1,5 +1,7 @@
 #include "sim/solvers/quasi_newton.hpp"
 
+#include <algorithm>
+
 #include "sim/parallel/vectors.hpp"
 
 namespace drape {
@@ -12,6 +14,9 @@ constexpr int quasi_newton_iterations = 500;
 constexpr int between_patches = 5;
 constexpr int most_rounds = 4;
 constexpr double next_share = 0.03;
+// One of Newton's on the whole cloth costs as much as some thirty others: the first where the minimum may be near, and
+// then ever fewer, as those say that it is still far.
+constexpr int before_look = 12, between_looks = 6, most_between_looks = 96;
 
 }  // namespace
 
@@ -20,8 +25,8 @@ QuasiNewton::QuasiNewton(const System& system, const StepObjective& objective, c
       history_(system.cloth.vertex_count(), system.threads),
       preconditioned_(Vertices::Zero(system.cloth.vertex_count(), 3)),
       direction_(preconditioned_) {
-  const bool large = FreeVertices(system.cloth).count() >= large_cloth;
-  if (large && system.energies.empty() && accuracy().rule == StoppingRule::error) {
+  looks_ = FreeVertices(system.cloth).count() >= large_cloth && accuracy().rule == StoppingRule::error;
+  if (looks_ && system.energies.empty()) {
     patches_.emplace(system, objective, accuracy().tolerance);
   }
 }
@@ -30,6 +35,8 @@ void QuasiNewton::start() {
   history_.clear();
   wait_ = between_patches;
   round_ = 0;
+  until_look_ = before_look;
+  gap_ = between_looks;
 }
 
 double QuasiNewton::settle_patches(Iterate& point) {
@@ -42,8 +49,21 @@ double QuasiNewton::settle_patches(Iterate& point) {
   return change;
 }
 
+double QuasiNewton::take_newton_step(Iterate& point) {
+  if (!looks_ || until_look_-- > 0) return 0;
+  until_look_ = gap_;
+  gap_ = std::min(2 * gap_, most_between_looks);
+  find_newton_step(point, direction_);
+  const double length = descend(point, direction_, dot(objective().threads(), point.gradient, direction_));
+  if (length == 0) return 0;
+  went_along(direction_);
+  history_.clear();
+  return length * norm(objective().threads(), direction_);
+}
+
 double QuasiNewton::iterate(Iterate& point) {
   if (const double change = settle_patches(point); change > 0) return change;
+  if (const double change = take_newton_step(point); change > 0) return change;
   const Threads& threads = objective().threads();
   factor().solve(point.gradient, preconditioned_);
   history_.observe(point.gradient, preconditioned_);
