@@ -9,13 +9,15 @@
 
 namespace drape::test {
 
-/// Opens pages in a headless Chromium; skipped where there is none. A picture of each is kept in the folder that
-/// DRAPE_SCREENSHOTS names, for people to look at.
+/// Opens pages in a headless Chromium, which all tests of a process share; skipped where there is none. A picture of
+/// each is kept in the folder that DRAPE_SCREENSHOTS names, for people to look at.
 class InBrowser : public InScratchFolder {
  protected:
   void SetUp() override {
     if (const std::string why = Browser::missing(); !why.empty()) GTEST_SKIP() << why;
-    browser_ = std::make_unique<Browser>();
+    static Browser browser;
+    browser.open_tab();
+    browser_ = &browser;
   }
 
   void open(const std::string& content, const std::string& name = "page.html") {
@@ -65,7 +67,7 @@ class InBrowser : public InScratchFolder {
 
   static constexpr int paper_width = 688;  // between the margins of A4 [CSS pixels]
 
-  std::unique_ptr<Browser> browser_;
+  Browser* browser_ = nullptr;
 };
 
 }  // namespace drape::test

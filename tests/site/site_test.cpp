@@ -17,7 +17,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Builds the site as script/docs does; skipped where mkdocs or its theme is not installed.
+/// The site as script/docs builds it.
+struct BuiltSite : test::ScratchFolder {
+  BuiltSite() : ScratchFolder("-built") {
+    const std::string command = std::string(DRAPE_SOURCE_DIR "/site/collect.py '") + path("site-pages") +
+                                "' && /usr/bin/mkdocs build --quiet --strict --config-file '" +
+                                path("site-mkdocs.yml") + "' >'" + path("log") + "' 2>&1";
+    if (std::system(command.c_str()) != 0) {
+      problem = "it is not built: " + test::content(path("log"));
+      return;
+    }
+    for (const auto& entry : fs::recursive_directory_iterator(path("site"))) {
+      if (entry.path().extension() == ".html" && entry.path().filename() != "404.html") pages.push_back(entry.path());
+    }
+  }
+
+  std::string problem;
+  std::vector<fs::path> pages;
+};
+
+/// Looks at the site, which is built once for all tests of a process; skipped where mkdocs or its theme is not
+/// installed.
 class Site : public test::InBrowser {
  protected:
   void SetUp() override {
@@ -25,14 +45,10 @@ class Site : public test::InBrowser {
       GTEST_SKIP() << "no mkdocs: apt-get install --no-install-recommends mkdocs mkdocs-material";
     }
     InBrowser::SetUp();
-    const std::string command = std::string(DRAPE_SOURCE_DIR "/site/collect.py '") + path("site-pages") +
-                                "' && /usr/bin/mkdocs build --quiet --strict --config-file '" +
-                                path("site-mkdocs.yml") + "' >'" + path("log") + "' 2>&1";
-    ASSERT_EQ(std::system(command.c_str()), 0) << test::content(path("log"));
-    for (const auto& entry : fs::recursive_directory_iterator(path("site"))) {
-      if (entry.path().extension() == ".html" && entry.path().filename() != "404.html") pages_.push_back(entry.path());
-    }
-    ASSERT_GT(pages_.size(), 25U);
+    static const BuiltSite site;
+    ASSERT_EQ(site.problem, "");
+    ASSERT_GT(site.pages.size(), 25U);
+    site_ = &site;
   }
 
   void keep_screenshot(const std::string& name) {
@@ -41,7 +57,7 @@ class Site : public test::InBrowser {
     }
   }
 
-  std::vector<fs::path> pages_;
+  const BuiltSite* site_ = nullptr;
 };
 
 std::string unescaped(std::string text) {
@@ -65,8 +81,9 @@ std::set<std::string> attributes(const std::string& page, const std::string& nam
 
 TEST_F(Site, HasNoLinkThatLeadsNowhere) {
   std::map<fs::path, std::set<std::string>> anchors;
-  for (const fs::path& page : pages_) anchors[page.lexically_normal()] = attributes(test::content(page), "id|name");
-  for (const fs::path& page : pages_) {
+  for (const fs::path& page : site_->pages)
+    anchors[page.lexically_normal()] = attributes(test::content(page), "id|name");
+  for (const fs::path& page : site_->pages) {
     for (const std::string& link : attributes(test::content(page), "href|src")) {
       if (link.find("://") != std::string::npos || link.starts_with("data:") || link == "." || link == "..") continue;
       const std::size_t hash = std::min(link.find('#'), link.size());
@@ -80,14 +97,14 @@ TEST_F(Site, HasNoLinkThatLeadsNowhere) {
 }
 
 TEST_F(Site, ShowsEverySceneWithItsFile) {
-  const std::string gallery = test::content(path("site/gallery.html"));
+  const std::string gallery = test::content(site_->path("site/gallery.html"));
   int scenes = 0;
   for (const char* group : {"homework", "showcase"}) {
     for (const auto& entry : fs::directory_iterator(fs::path(DRAPE_SOURCE_DIR "/scenes") / group)) {
       if (entry.path().extension() != ".toml") continue;
       const std::string page = std::string("scenes/") + group + "/" + entry.path().stem().string();
       EXPECT_NE(gallery.find("href=\"" + page + ".html\""), std::string::npos) << page;
-      EXPECT_EQ(test::content(path("site/" + page + ".toml")), test::content(entry.path()));
+      EXPECT_EQ(test::content(site_->path("site/" + page + ".toml")), test::content(entry.path()));
       ++scenes;
     }
   }
@@ -116,7 +133,7 @@ TEST_F(Site, FitsItsWindowWithoutTheNetwork) {
       // Of another theme that a page has kept there, from one which keeps none: a page of the site may still do so.
       browser_->open(path("blank.html"));
       browser_->run("localStorage.clear()");
-      browser_->open(path(std::string("site/") + name + ".html"));
+      browser_->open(site_->path(std::string("site/") + name + ".html"));
       for (const int width : {390, 1200}) {
         browser_->set_width(width);
         EXPECT_LE(browser_->run("return document.documentElement.scrollWidth").get<int>(), width) << name;

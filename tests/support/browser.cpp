@@ -115,6 +115,12 @@ Json Browser::command(const std::string& name, const Json& parameters) {
   return post("/goog/cdp/execute", {{"cmd", name}, {"params", parameters}});
 }
 
+void Browser::open_tab() {
+  const Json tab = post("/window/new", {{"type", "tab"}});
+  client_->Delete(session_ + "/window");  // the one before
+  post("/window", {{"handle", tab.at("handle")}});
+}
+
 void Browser::open(const std::filesystem::path& file) {
   log("browser");
   log("performance");

@@ -26,6 +26,9 @@ class Browser {
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
 
+  /// Goes on in a new tab, as if the browser had just been started, which takes far longer.
+  void open_tab();
+
   /// Opens a file by its file:// address and forgets what was reported of earlier pages.
   void open(const std::filesystem::path& file);
 

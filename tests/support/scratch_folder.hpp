@@ -13,9 +13,11 @@ namespace drape::test {
 /// An empty folder of the running test's own, removed with the object.
 class ScratchFolder {
  public:
-  ScratchFolder() {
+  /// @param suffix  of another one that the same test makes
+  explicit ScratchFolder(const std::string& suffix = "") {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(test->test_suite_name()) + "-" + test->name() + "-" + std::to_string(::getpid());
+    std::string name =
+        std::string(test->test_suite_name()) + "-" + test->name() + "-" + std::to_string(::getpid()) + suffix;
     std::replace(name.begin(), name.end(), '/', '-');  // of tests with parameters
     folder_ = std::filesystem::temp_directory_path() / ("drape-" + name);
     std::filesystem::remove_all(folder_);
