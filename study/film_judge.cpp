@@ -11,10 +11,10 @@ namespace drape {
 namespace {
 
 constexpr double frames_per_second = 10;
-constexpr int picture_width = 160;  // [pixels]
+constexpr int judged_width = 160;  // [pixels]
 
 Eigen::Vector2i picture_size(const Scene& scene) {
-  return {picture_width, std::max(1, picture_width * scene.video.size.y() / scene.video.size.x())};
+  return {judged_width, std::max(1, judged_width * scene.video.size.y() / scene.video.size.x())};
 }
 
 double mean(const ErrorMap& map) {

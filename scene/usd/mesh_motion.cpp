@@ -17,7 +17,7 @@ constexpr double most_between = 10'000;
 /// Whole numbers up to it have their neighbours.
 constexpr double last_time_code = 1e12;
 /// A gigabyte.
-constexpr double most_numbers = 1 << 27;
+constexpr double most_motion_numbers = 1 << 27;
 
 /// A mesh whose points, transform or skeleton move it.
 class MovingMesh {
@@ -31,7 +31,7 @@ class MovingMesh {
     MeshMotion motion{.mesh = read_mesh_prim(prim_, to_world)};
     check_points(motion.mesh.positions.rows());
     const std::vector<double> codes = time_codes();
-    if (static_cast<double>(codes.size()) * static_cast<double>(motion.mesh.positions.size()) > most_numbers) {
+    if (static_cast<double>(codes.size()) * static_cast<double>(motion.mesh.positions.size()) > most_motion_numbers) {
       prim_.place.fail(fmt::format("{} samples of {} points take too much memory: export fewer of either", codes.size(),
                                    motion.mesh.positions.rows()));
     }

@@ -14,7 +14,7 @@ namespace {
 using Index = std::size_t;
 
 // What a triangle's area is at least beside the square of its longest edge, both twice: else it is its edges.
-constexpr double least_area = 1e-8;
+constexpr double least_placed_area = 1e-8;
 // The sum of the two unit normals at an edge is shorter than this where it turns by more than 150°.
 constexpr double sharpest_fold = 0.5;
 
@@ -100,7 +100,7 @@ void PlacedMesh::update(const Vertices& x) {
     const double length = area.norm(), inverse = length > 0 ? 1 / length : 0;
     normals_[t] = inverse * area;
     const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
-    const bool flat = length <= least_area * longest;
+    const bool flat = length <= least_placed_area * longest;
     const double scale = flat ? std::numeric_limits<double>::quiet_NaN() : inverse * inverse;
     const Point second = scale * ac.cross(area), third = scale * area.cross(ab);
     facets_[t] = {a,

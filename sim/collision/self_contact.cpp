@@ -17,7 +17,7 @@ using Index = std::size_t;
 // more pairs that never touch, less searches more often.
 constexpr double slack = 0.25;
 // How much further apart than the thickness everything has to be for a search to be left out: far more than rounding.
-constexpr double clearly = 1.001;
+constexpr double clearly_apart = 1.001;
 // After so many rounds all zones are joined: then it ends in as many rounds as there are vertices left outside.
 constexpr int most_zone_rounds = 50;
 
@@ -50,7 +50,8 @@ void SelfContact::apply(const Vertices& x, double, double h, Vertices& v) {
     return;
   }
   // Then there would be pairs to look at, perhaps, but no contact and no impact among them.
-  if (rounding < (clearly - 1) / 100 * values_.thickness && sheet_.stays_apart(x, h, v, clearly * values_.thickness)) {
+  if (rounding < (clearly_apart - 1) / 100 * values_.thickness &&
+      sheet_.stays_apart(x, h, v, clearly_apart * values_.thickness)) {
     return;
   }
   load(x, h, v);

@@ -98,7 +98,7 @@ TEST_P(SecondOrder, HoldsForAClothThatSwingsAsAPendulum) {
 TEST_P(SecondOrder, HoldsForAir) {
   constexpr double duration = 0.8;
   SimulationSettings settings = pendulum(GetParam());
-  settings.effects.add(Air{.velocity = {0.3, -4, 0}, .gusts = {.speed = 0.5}});
+  settings.effects.add(drape::Air{.velocity = {0.3, -4, 0}, .gusts = {.speed = 0.5}});
   SimulationSettings fine = settings;
   fine.integrator.method = Method::verlet;
   const State exact = run(fine, duration, 10'000);

@@ -10,7 +10,7 @@
 #include "sim/simulation.hpp"
 #include "tests/physics/contact_cases.hpp"
 
-namespace drape::test {
+namespace drape::test::restitution {
 namespace {
 
 using Eigen::RowVector3d;
@@ -241,4 +241,4 @@ TEST_P(Restitution, DependsOnTheStateOnly) {
 }
 
 }  // namespace
-}  // namespace drape::test
+}  // namespace drape::test::restitution
