@@ -143,7 +143,7 @@ struct FirstSteps {
 TEST(QuasiNewton, EndsStepsOfALargeClothWithinTheToleranceOfTheirMinima) {
   const FirstSteps in_patches, as_a_whole(std::make_unique<Nothing>());
   // Of the first step, which is all that a sanitized build takes, the gradient may show it as well.
-  if (tries(4) > 1) EXPECT_GT(as_a_whole.by_newton, 0);
+  EXPECT_GE(as_a_whole.by_newton, tries(4) > 1 ? 1 : 0);
   EXPECT_LT(in_patches.iterations, as_a_whole.iterations);
 }
 
