@@ -21,7 +21,7 @@ struct ClothMatrix {
 
   explicit ClothMatrix(int cells) : cloth(make_resting_cloth(cells)) {
     cloth.pins.clear();
-    pattern = spring_pattern(cloth.springs, FreeVertices(cloth));
+    pattern = spring_pattern({.springs = cloth.springs}, FreeVertices(cloth));
     values.assign(pattern.rows.size(), -cloth.springs.front().stiffness);
     std::vector<double> diagonal(static_cast<std::size_t>(cloth.vertex_count()), cloth.masses[0] / 4e-4);
     for (const Spring& s : cloth.springs) {

@@ -20,7 +20,9 @@ Cloth make_cloth(const Mesh& start, const Mesh& rest, double mass, double stiffn
   cloth.triangles = start.triangles;
   cloth.masses.setConstant(start.positions.rows(), mass / static_cast<double>(start.positions.rows()));
 
-  for (const auto& [i, j] : unique_edges(rest.triangles)) {
+  const std::vector<Edge> edges = unique_edges(rest.triangles);
+  cloth.springs.reserve(edges.size());
+  for (const auto& [i, j] : edges) {
     const double length = (rest.positions.row(i) - rest.positions.row(j)).norm();
     cloth.springs.push_back({.i = i, .j = j, .rest_length = length, .stiffness = stiffness});
   }

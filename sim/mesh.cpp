@@ -42,16 +42,32 @@ Mesh make_grid(int columns, int rows) {
 }
 
 std::vector<Edge> unique_edges(const std::vector<Triangle>& triangles) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * triangles.size());
-  for (const Triangle& t : triangles) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const int p = t[c], q = t[(c + 1) % 3];
-      if (p != q) edges.push_back({std::min(p, q), std::max(p, q)});
+  const auto each = [&](const auto& visit) {
+    for (const Triangle& t : triangles) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto [low, high] = std::minmax({t[c], t[(c + 1) % 3]});
+        if (low != high) visit(static_cast<std::size_t>(low), high);
+      }
     }
+  };
+  // By the smaller vertex first, after which there are few to sort.
+  std::size_t vertex_count = 0;
+  each([&](std::size_t, int high) { vertex_count = std::max(vertex_count, static_cast<std::size_t>(high) + 1); });
+  std::vector<std::size_t> next(vertex_count + 1, 0);
+  each([&](std::size_t low, int) { ++next[low + 1]; });
+  for (std::size_t v = 0; v < vertex_count; ++v) next[v + 1] += next[v];
+  std::vector<int> others(next.back());
+  each([&](std::size_t low, int high) { others[next[low]++] = high; });
+
+  std::vector<Edge> edges;
+  edges.reserve(others.size());
+  auto begin = others.begin();
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    const auto end = others.begin() + static_cast<std::ptrdiff_t>(next[v]);
+    std::sort(begin, end);
+    std::for_each(begin, std::unique(begin, end), [&](int other) { edges.push_back({static_cast<int>(v), other}); });
+    begin = end;
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 

@@ -171,7 +171,8 @@ double safe_step(const System& system) {
   }
   // In units of about the largest stiffness and the least mass, so that no product leaves the range of a double. They
   // are powers of four, which change no bit of the result.
-  std::vector<Spring> bound = system.stiffness_bound().pairs;
+  std::vector<Spring> bound;
+  system.stiffness_bound().for_each_pair([&](const Spring& pair) { bound.push_back(pair); });
   double stiffest = 0;
   for (const Spring& s : bound) stiffest = std::max(stiffest, std::abs(s.stiffness));
   const int unit_of_stiffness = even_exponent(stiffest);
@@ -196,10 +197,10 @@ double condition_bound(const System& system) {
   const Eigen::VectorXd& masses = system.cloth.masses;
   StiffnessBound bound = system.stiffness_bound();
   Eigen::VectorXd& stiffness = bound.vertices;
-  for (const Spring& s : bound.pairs) {
+  bound.for_each_pair([&](const Spring& s) {
     stiffness[s.i] += 2 * std::abs(s.stiffness);
     stiffness[s.j] += 2 * std::abs(s.stiffness);
-  }
+  });
   for (const int pin : system.cloth.pins) stiffness[pin] = 0;
   const double h = system.step;
   return 1 + (h * h * stiffness.array() / masses.array()).maxCoeff();

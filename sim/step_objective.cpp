@@ -25,17 +25,16 @@ StepObjective::StepObjective(const System& system, double duration)
   for (const int pin : system.cloth.pins) free_inertia_[pin] = push_[pin] = 0;
   for (const Spring& s : system.springs) elastic_scale_ += s.stiffness * s.rest_length * s.rest_length;
   const StiffnessBound bound = system.stiffness_bound();
-  for (std::size_t p = system.springs.size(); p < bound.pairs.size(); ++p) {
-    const Spring& s = bound.pairs[p];
+  for (const Spring& s : bound.pairs) {
     const auto d = system.cloth.positions.row(s.i) - system.cloth.positions.row(s.j);
     elastic_scale_ += std::abs(s.stiffness) * d.squaredNorm();
     cancelling_ += std::abs(s.stiffness) * d.squaredNorm() / 2;
   }
   Eigen::VectorXd stiffness = inertia_ + bound.vertices;
-  for (const Spring& s : bound.pairs) {
+  bound.for_each_pair([&](const Spring& s) {
     stiffness[s.i] += 2 * std::abs(s.stiffness);
     stiffness[s.j] += 2 * std::abs(s.stiffness);
-  }
+  });
   stiffness_ratio_ = stiffness.cwiseProduct(push_).maxCoeff();
 }
 

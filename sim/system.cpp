@@ -7,7 +7,7 @@
 namespace drape {
 
 StiffnessBound System::stiffness_bound() const {
-  StiffnessBound bound{.pairs = springs, .vertices = Eigen::VectorXd::Zero(cloth.vertex_count())};
+  StiffnessBound bound{.springs = springs, .vertices = Eigen::VectorXd::Zero(cloth.vertex_count())};
   for (const auto& energy : energies) energy->add_bound(bound);
   return bound;
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sim/cloth.hpp"
@@ -30,10 +31,20 @@ struct Force {
 /// An upper bound of Hessians that holds in every shape and at every time,
 ///   B = Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ I₃ + diag(d) ⊗ I₃.
 struct StiffnessBound {
-  /// The pairs i < j of vertices that are coupled, each once for every energy: springs of the stiffness k, which may be
-  /// negative, and of no length.
-  std::vector<Spring> pairs;
-  Eigen::VectorXd vertices;  ///< d, of vertices by themselves, n [N/m]
+  std::span<const Spring> springs = {};  ///< those of the system, which this refers to
+  /// The pairs i < j of vertices that energies couple, each once for every energy: springs of the stiffness k, which
+  /// may be negative, and of no length.
+  std::vector<Spring> pairs = {};
+  Eigen::VectorXd vertices = {};  ///< d, of vertices by themselves, n [N/m]
+
+  /// How many there are of both.
+  [[nodiscard]] std::size_t pair_count() const { return springs.size() + pairs.size(); }
+  /// Visits the springs, and then the pairs.
+  template <class Visit>
+  void for_each_pair(const Visit& visit) const {
+    for (const Spring& spring : springs) visit(spring);
+    for (const Spring& pair : pairs) visit(pair);
+  }
 };
 
 /// A Hessian as its symmetric blocks K,

@@ -34,10 +34,10 @@ SimulationSettings to_rounding(SimulationSettings settings, Method method) {
   const Cloth& cloth = settings.cloth;
   const StiffnessBound bound = system.stiffness_bound();
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(cloth.vertex_count());
-  for (const Spring& spring : bound.pairs) {
+  bound.for_each_pair([&](const Spring& spring) {
     stiffness[spring.i] += std::abs(spring.stiffness);
     stiffness[spring.j] += std::abs(spring.stiffness);
-  }
+  });
   stiffness += bound.vertices;
   const double h = settings.step;
   const double amplified = 1 + h * h * (stiffness.array() / cloth.masses.array()).maxCoeff();

@@ -83,27 +83,30 @@ inline void forward(const Panel& panel, const int* rows, const T* values, T* x) 
 }
 
 /// x := L⁻ᵀx for the columns of one panel.
-template <class Row, int width, class T>
+template <class Row, int width, bool from_last, class T>
 inline void backward(const Panel& panel, const int* rows, const T* values, T* x) {
   using Pair = typename PairOf<Row>::Type;
   // Narrow panels sum in several chains, so that an addition waits for fewer others.
   constexpr int chains = width >= 4 ? 1 : width == 1 ? 4 : 2;
   constexpr int pairs = width / 2;
-  const T* below = values + width * (width + 1) / 2;
+  const T* below = from_last ? values + stored(panel) - width : values + width * (width + 1) / 2;
+  const int* row = from_last ? rows + panel.row_count - 1 : rows;
+  constexpr int next = from_last ? -1 : 1;
   Pair sums[chains][pairs > 0 ? pairs : 1] = {};
   Row last[chains] = {};
-  const auto add = [&](int chain, const T* row) {
-    const Row value = load<Row>(row);
+  const auto add = [&](int chain) {
+    const Row value = load<Row>(x + 4 * *row);
     const Pair twice = join(value, value);
     for (int c = 0; c < pairs; ++c) sums[chain][c] += spread(below + 2 * c) * twice;
     if constexpr (width % 2 == 1) last[chain] += below[width - 1] * value;
-    below += width;
+    below += next * width;
+    row += next;
   };
-  int p = 0;
-  for (; p + chains <= panel.row_count; p += chains) {
-    for (int chain = 0; chain < chains; ++chain) add(chain, x + 4 * rows[p + chain]);
+  int left = panel.row_count;
+  for (; left >= chains; left -= chains) {
+    for (int chain = 0; chain < chains; ++chain) add(chain);
   }
-  for (int chain = 0; p < panel.row_count; ++p, ++chain) add(chain, x + 4 * rows[p]);
+  for (int chain = 0; chain < left; ++chain) add(chain);
 
   T* own = x + 4 * panel.first;
   Row rest[width];
@@ -127,10 +130,11 @@ using Substitution = void (*)(const Panel&, const int*, const T*, T*);
 template <class Row, class T>
 constexpr Substitution<T> forwards[] = {forward<Row, 1, T>, forward<Row, 2, T>, forward<Row, 3, T>, forward<Row, 4, T>,
                                         forward<Row, 5, T>, forward<Row, 6, T>, forward<Row, 7, T>, forward<Row, 8, T>};
-template <class Row, class T>
-constexpr Substitution<T> backwards[] = {backward<Row, 1, T>, backward<Row, 2, T>, backward<Row, 3, T>,
-                                         backward<Row, 4, T>, backward<Row, 5, T>, backward<Row, 6, T>,
-                                         backward<Row, 7, T>, backward<Row, 8, T>};
+template <class Row, bool from_last, class T>
+constexpr Substitution<T> backwards[] = {backward<Row, 1, from_last, T>, backward<Row, 2, from_last, T>,
+                                         backward<Row, 3, from_last, T>, backward<Row, 4, from_last, T>,
+                                         backward<Row, 5, from_last, T>, backward<Row, 6, from_last, T>,
+                                         backward<Row, 7, from_last, T>, backward<Row, 8, from_last, T>};
 static_assert(panel_width == 8);
 
 /// x := L⁻¹x, panel by panel.
@@ -147,13 +151,13 @@ inline void go_forward(const PackedTriangle<T>& triangle, const int*& rows, cons
 
 /// x := L⁻ᵀx, from the last panel to the first.
 /// @param rows, values where those of the last panel end
-template <class Row, class T>
+template <class Row, bool from_last, class T>
 inline void go_back(const PackedTriangle<T>& triangle, const int* rows, const T* values, T* x) {
   for (int p = triangle.panel_count - 1; p >= 0; --p) {
     const Panel& panel = triangle.panels[p];
     rows -= panel.row_count;
     values -= stored(panel);
-    backwards<Row, T>[panel.width - 1](panel, rows, values, x);
+    backwards<Row, from_last, T>[panel.width - 1](panel, rows, values, x);
   }
 }
 
@@ -164,9 +168,13 @@ void solve_forward(const PackedTriangle<T>& triangle, T* x) {
   go_forward<Row>(triangle, rows, values, x);
 }
 
+// Parts of a large triangle, which come from memory, are read from end to beginning, and of each panel the last rows
+// first: those that the panel before it has just solved for are then the last to be waited for. That takes half as
+// long. A small triangle, which is in a cache, would gain little from it, and keeps the order of its sums and so its
+// bits.
 template <class Row, class T>
 void solve_backward(const PackedTriangle<T>& triangle, T* x) {
-  go_back<Row>(triangle, triangle.rows + triangle.row_total, triangle.values + triangle.value_total, x);
+  go_back<Row, true>(triangle, triangle.rows + triangle.row_total, triangle.values + triangle.value_total, x);
 }
 
 template <class Row, class T>
@@ -174,7 +182,7 @@ void solve_packed(const PackedTriangle<T>& triangle, T* x) {
   const int* rows = triangle.rows;
   const T* values = triangle.values;
   go_forward<Row>(triangle, rows, values, x);
-  go_back<Row>(triangle, rows, values, x);
+  go_back<Row, false>(triangle, rows, values, x);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ ConjugateGradients::ConjugateGradients(const System& system, const StepObjective
       preconditioned_(residual_),
       search_(residual_),
       product_(residual_) {
-  pair_count_ = system.stiffness_bound().pairs.size();
+  pair_count_ = system.stiffness_bound().pair_count();
   for (const auto& energy : system.energies) hessians_.push_back(energy->make_hessian());
   if (FreeVertices(system.cloth).count() < large_cloth) return;
   diagonal_.emplace(system, objective);

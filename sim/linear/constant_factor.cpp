@@ -25,8 +25,8 @@ struct Matrix {
 };
 
 Matrix assemble(const System& system, double duration, const FreeVertices& free) {
-  const auto [springs, vertices] = system.stiffness_bound();
-  Matrix matrix{.pattern = spring_pattern(springs, free), .values = {}};
+  const StiffnessBound bound = system.stiffness_bound();
+  Matrix matrix{.pattern = spring_pattern(bound, free), .values = {}};
   matrix.values.assign(static_cast<std::size_t>(matrix.pattern.entries()), 0.0);
   const std::vector<int>&starts = matrix.pattern.starts, &rows = matrix.pattern.rows;
   const auto at = [&](int row, int column) -> double& {
@@ -34,14 +34,14 @@ Matrix assemble(const System& system, double duration, const FreeVertices& free)
     const auto end = rows.begin() + starts[static_cast<std::size_t>(column) + 1];
     return matrix.values[static_cast<std::size_t>(std::lower_bound(begin, end, row) - rows.begin())];
   };
-  const Eigen::VectorXd diagonal = system.inertia(duration) + vertices;
+  const Eigen::VectorXd diagonal = system.inertia(duration) + bound.vertices;
   for (int f = 0; f < free.count(); ++f) at(f, f) = diagonal[free.vertex(f)];
-  for (const Spring& spring : springs) {
+  bound.for_each_pair([&](const Spring& spring) {
     const int i = free.number(spring.i), j = free.number(spring.j);
     if (i >= 0) at(i, i) += spring.stiffness;
     if (j >= 0) at(j, j) += spring.stiffness;
     if (i >= 0 && j >= 0) at(std::max(i, j), std::min(i, j)) -= spring.stiffness;
-  }
+  });
   return matrix;
 }
 

@@ -22,14 +22,14 @@ Vertices FreeVertices::rest_places(const Cloth& cloth) const {
   return places;
 }
 
-LowerPattern spring_pattern(const std::vector<Spring>& springs, const FreeVertices& free) {
+LowerPattern spring_pattern(const StiffnessBound& bound, const FreeVertices& free) {
   using Index = std::size_t;
   const auto n = static_cast<Index>(free.count());
   const auto each = [&](const auto& visit) {
-    for (const Spring& spring : springs) {
+    bound.for_each_pair([&](const Spring& spring) {
       const auto [low, high] = std::minmax({free.number(spring.i), free.number(spring.j)});
       if (low >= 0) visit(static_cast<Index>(low), high);
-    }
+    });
   };
   std::vector<int> next(n + 1, 0);  // where the next row of a column goes; with one place for the diagonal
   each([&](Index low, int) { ++next[low + 1]; });

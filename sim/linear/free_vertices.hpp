@@ -4,6 +4,7 @@
 
 #include "sim/cloth.hpp"
 #include "sim/linear/sparse_cholesky.hpp"
+#include "sim/system.hpp"
 
 namespace drape {
 
@@ -31,7 +32,7 @@ class FreeVertices {
   std::vector<int> vertices_, numbers_;
 };
 
-/// The lower triangle of a matrix that couples the two free ends of every spring, and has its whole diagonal.
-LowerPattern spring_pattern(const std::vector<Spring>& springs, const FreeVertices& free);
+/// The lower triangle of a matrix that couples the two free ends of every pair, and has its whole diagonal.
+LowerPattern spring_pattern(const StiffnessBound& bound, const FreeVertices& free);
 
 }  // namespace drape

@@ -11,8 +11,7 @@ HessianDiagonal::HessianDiagonal(const System& system, const StepObjective& obje
     : objective_(objective), scalar_(objective.inertia()), factor_(system.cloth.vertex_count(), 6) {
   const StiffnessBound bound = system.stiffness_bound();
   scalar_ += bound.vertices;
-  for (std::size_t p = system.springs.size(); p < bound.pairs.size(); ++p) {
-    const Spring& pair = bound.pairs[p];
+  for (const Spring& pair : bound.pairs) {
     scalar_[pair.i] += 2 * std::abs(pair.stiffness);
     scalar_[pair.j] += 2 * std::abs(pair.stiffness);
   }

@@ -62,16 +62,16 @@ NewtonCholesky::NewtonCholesky(const System& system, const StepObjective& object
     vertices_.push_back(free.vertex(row));
     inertia_.push_back(objective.inertia()[vertices_.back()]);
   }
-  const std::vector<Spring> springs = system.stiffness_bound().pairs;
-  const LowerPattern blocks = spring_pattern(springs, free);
-  for (const Spring& spring : springs) {
+  const StiffnessBound bound = system.stiffness_bound();
+  const LowerPattern blocks = spring_pattern(bound, free);
+  bound.for_each_pair([&](const Spring& spring) {
     const auto [low, high] = std::minmax({free.number(spring.i), free.number(spring.j)});
     places_.push_back({low, high, 0});
-    if (low < 0) continue;
+    if (low < 0) return;
     const auto begin = blocks.rows.begin() + blocks.starts[Index(low)];
     const auto end = blocks.rows.begin() + blocks.starts[Index(low) + 1];
     places_.back().rank = static_cast<int>(std::lower_bound(begin, end, high) - begin) - 1;
-  }
+  });
   for (const auto& energy : system.energies) hessians_.push_back(energy->make_hessian());
 
   const LowerPattern pattern = expanded(blocks);

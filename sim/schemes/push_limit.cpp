@@ -11,7 +11,7 @@ PushLimit::PushLimit(const System& system) : weight_(system.cloth.masses.cwiseIn
   for (const int pin : system.cloth.pins) weight_[pin] = 0;
   for (const auto& energy : system.energies) {
     if (energy->internal()) continue;
-    StiffnessBound bound{.pairs = {}, .vertices = Eigen::VectorXd::Zero(count)};
+    StiffnessBound bound{.vertices = Eigen::VectorXd::Zero(count)};
     energy->add_bound(bound);
     pushes_.push_back({energy.get(), std::move(bound.vertices), Vertices::Zero(count, 3), Vertices::Zero(count, 3)});
   }

@@ -85,7 +85,7 @@ class Term {
   }
   /// vᵀ B v of the constant bound B.
   double bounded(const Vertices& v) const {
-    StiffnessBound bound{.pairs = {}, .vertices = Eigen::VectorXd::Zero(v.rows())};
+    StiffnessBound bound{.vertices = Eigen::VectorXd::Zero(v.rows())};
     for (const auto& energy : system_.energies) energy->add_bound(bound);
     double sum = bound.vertices.dot(v.rowwise().squaredNorm());
     for (const Spring& s : bound.pairs) sum += s.stiffness * (v.row(s.i) - v.row(s.j)).squaredNorm();

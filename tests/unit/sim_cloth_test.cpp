@@ -73,7 +73,7 @@ TEST(FreeVertices, NumbersWhatIsNotPinnedInTheOrderOfTheCloth) {
 TEST(SpringPattern, HasTheDiagonalAndEverySpringBetweenFreeVerticesOnce) {
   Cloth cloth = cloth_of(make_grid(1, 1), 1, 1, {0});  // 0–1, 0–2, 1–2, 1–3, 2–3
   cloth.springs.push_back(cloth.springs.back());
-  const LowerPattern pattern = spring_pattern(cloth.springs, FreeVertices(cloth));
+  const LowerPattern pattern = spring_pattern({.springs = cloth.springs}, FreeVertices(cloth));
   EXPECT_EQ(pattern.starts, (std::vector{0, 3, 5, 6}));
   EXPECT_EQ(pattern.rows, (std::vector{0, 1, 2, 1, 2, 2}));
 }
