@@ -23,7 +23,10 @@ StepObjective::StepObjective(const System& system, double duration)
       push_(inertia_.cwiseInverse()),
       y_(system.cloth.vertex_count(), 3) {
   for (const int pin : system.cloth.pins) free_inertia_[pin] = push_[pin] = 0;
-  for (const Spring& s : system.springs) elastic_scale_ += s.stiffness * s.rest_length * s.rest_length;
+  for (const Spring& s : system.springs) {
+    stiffness_ += s.stiffness;
+    elastic_scale_ += s.stiffness * s.rest_length * s.rest_length;
+  }
   const StiffnessBound bound = system.stiffness_bound();
   for (const Spring& s : bound.pairs) {
     const auto d = system.cloth.positions.row(s.i) - system.cloth.positions.row(s.j);
@@ -76,6 +79,11 @@ double StepObjective::inertial_value(const Vertices& x) const {
 
 double StepObjective::rounding(double value) const {
   return units * unit * (value + std::sqrt(2 * value * scale_)) + unit * cancelling_;
+}
+
+double StepObjective::least_elastic(double energy, double distance) const {
+  const double root = std::max(0.0, std::sqrt(energy) - 2 * distance * std::sqrt(stiffness_ / 2));
+  return root * root;
 }
 
 double StepObjective::error_bound(const Vertices& gradient) const {

@@ -38,6 +38,11 @@ class StepObjective {
   /// flat: it is known to ε ½ Σ |k| d².
   [[nodiscard]] double rounding(double value) const;
 
+  /// The least energy [J] that the springs have where no vertex is further than `distance` [m] from where they had this
+  /// energy [J] or more. With s the stretches, √(2E) = √(Σ k s²) is a norm, and none changes by more than two distances:
+  /// √(2E') ≥ √(2E) − 2 distance √(Σ k).
+  [[nodiscard]] double least_elastic(double energy, double distance) const;
+
   /// How far the worst vertex is from the minimum at most, where g is convex and has this gradient [m]: no Hessian is
   /// below the inertia, so ‖x − x*‖_M ≤ ‖M⁻¹∇g‖_M h². Taken for each vertex by itself, h²‖∇gᵢ‖/mᵢ, it is an estimate:
   /// how good, docs/accuracy.md says.
@@ -67,6 +72,7 @@ class StepObjective {
   Eigen::VectorXd push_;  // τ²/m, 0 on pins [m/N]
   Vertices y_;
   double time_ = 0;
+  double stiffness_ = 0;                  // Σ k [N/m]
   double elastic_scale_ = 0, scale_ = 0;  // Σ k L², and that with Σ m/τ² ‖y‖² [J]
   double cancelling_ = 0;                 // ½ Σ |k| d² of pairs that are no springs [J]
   double stiffness_ratio_ = 1;            // the most that inertia and springs hold a vertex with, of inertia alone

@@ -25,6 +25,18 @@ double inner(const Threads& threads, const Eigen::VectorXd& m, const auto& a, co
   });
 }
 
+/// How far a vertex may be at one of these places from where it is at the other, at least.
+double largest_distance(const Threads& threads, const Vertices& a, const Vertices& b) {
+  const double component = reduce(
+      threads, a.size(),
+      [&](Eigen::Index first, Eigen::Index count) {
+        const auto part = [&](const Vertices& v) { return Eigen::Map<const Eigen::ArrayXd>(v.data() + first, count); };
+        return (part(a) - part(b)).abs().maxCoeff();
+      },
+      [](double most, double next) { return std::max(most, next); }, numbers_worth_dividing);
+  return std::sqrt(3.0) * component;
+}
+
 }  // namespace
 
 Eigen::RowVector3d mean(const Cloth& cloth, const Vertices& v) {
@@ -46,7 +58,8 @@ EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, c
       objective_(objective),
       accuracy_(accuracy),
       start_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
-      steady_(system.filters.empty() && system.pin_motions.empty() && system.all_internal()),
+      steady_(system.pin_motions.empty() && system.all_internal()),
+      springs_(system.energies.empty()),
       trial_(start_) {}
 
 void EnergyBooks::begin(const State& state, const Vertices& last_end) {
@@ -54,10 +67,17 @@ void EnergyBooks::begin(const State& state, const Vertices& last_end) {
   state_ = &state;
   start_kinetic_ = 0.5 * h * h * inner(system_.threads, objective_.free_inertia(), state.v, state.v);
   start_.value = objective_.inertial_value(state.x);
-  // Where the last step ended, the energy is known, and nowhere is it below zero.
-  const auto bytes = static_cast<std::size_t>(state.x.size()) * sizeof(double);
-  if (steady_ && std::memcmp(state.x.data(), last_end.data(), bytes) == 0) start_.value += end_energy_;
   start_exact_ = false;
+  if (!steady_) return;
+  // Where the last step ended, if it came to its end, the energy is known, and nowhere is it below zero. A filter moves
+  // what it leaves alone there, too, but for rounding.
+  const double known = std::exchange(end_energy_, 0);
+  const auto bytes = static_cast<std::size_t>(state.x.size()) * sizeof(double);
+  if (std::memcmp(state.x.data(), last_end.data(), bytes) == 0) {
+    start_.value += known;
+  } else if (springs_) {
+    start_.value += objective_.least_elastic(known, largest_distance(system_.threads, state.x, last_end));
+  }
 }
 
 bool EnergyBooks::gains(const Iterate& point, bool tolerant) {

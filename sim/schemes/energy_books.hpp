@@ -55,7 +55,8 @@ class EnergyBooks {
   bool start_exact_ = false;      // …or, where it has not been needed, a lower bound of g and nothing else
   double start_kinetic_ = 0;      // ½‖v‖²_M [J]
   double end_energy_ = 0;         // a lower bound of E where the last step ended [J]
-  bool steady_;                   // a step starts where the last one ended, and E there is what it was
+  bool steady_;                   // E is at the start of a step what it was there when the last one ended…
+  bool springs_;                  // …and nothing but that of springs
   Iterate trial_;
 };
 

@@ -90,6 +90,44 @@ TEST(ObjectiveRounding, IsAsLargeAsItHasToBe) {
   EXPECT_GT(largest, 1e-3);
 }
 
+/// What the springs have there.
+double elastic(const StepObjective& objective, const Vertices& x) {
+  Vertices gradient = Vertices::Zero(x.rows(), 3);
+  return objective.evaluate(x, gradient) - objective.inertial_value(x);
+}
+
+TEST(LeastElastic, IsBelowWhatTheSpringsHaveAnywhereNear) {
+  for (const Cloth& original : {grid_cloth(12), irregular_cloth()}) {
+    const Cloth cloth = disturbed(original);
+    const System system(cloth, 0.02);
+    StepObjective objective(system, system.step);
+    const Vertices& x = cloth.positions;
+    objective.begin(x, cloth.velocities, Vertices::Zero(x.rows(), 3), system.step);
+    const double energy = elastic(objective, x);
+    for (int seed = 1; seed <= 10; ++seed) {
+      const double distance = std::pow(10.0, -seed);
+      const Vertices moved = x + distance * random_vertices(x.rows(), seed).rowwise().normalized();
+      EXPECT_LE(objective.least_elastic(energy, distance), elastic(objective, moved)) << distance << " m";
+    }
+    EXPECT_GE(objective.least_elastic(energy, 1e-14), (1 - 1e-9) * energy);
+    EXPECT_EQ(objective.least_elastic(energy, 100), 0);
+  }
+}
+
+TEST(LeastElastic, IsReachedByASpringWhoseEndsMoveTowardsEachOther) {
+  constexpr double stiffness = 180, rest_length = 0.5, stretch = 0.1, distance = 0.02;
+  Cloth cloth;
+  cloth.positions = Vertices::Zero(2, 3);
+  cloth.positions(1, 0) = rest_length + stretch;
+  cloth.velocities = Vertices::Zero(2, 3);
+  cloth.masses = Eigen::VectorXd::Ones(2);
+  cloth.springs = {{.i = 0, .j = 1, .rest_length = rest_length, .stiffness = stiffness}};
+  const System system(cloth, 0.02);
+  const StepObjective objective(system, system.step);
+  const double energy = stiffness / 2 * stretch * stretch, left = stretch - 2 * distance;
+  EXPECT_NEAR(objective.least_elastic(energy, distance), stiffness / 2 * left * left, 1e-12);
+}
+
 /// A change of the unknowns and that of the gradient with it.
 struct CurvaturePair {
   Eigen::VectorXd step, change;
