@@ -57,10 +57,8 @@ EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, c
     : system_(system),
       objective_(objective),
       accuracy_(accuracy),
-      start_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
       steady_(system.pin_motions.empty() && system.all_internal()),
-      springs_(system.energies.empty()),
-      trial_(start_) {}
+      springs_(system.energies.empty()) {}
 
 void EnergyBooks::begin(const State& state, const Vertices& last_end) {
   const double h = system_.step;
@@ -90,6 +88,7 @@ bool EnergyBooks::gains(const Iterate& point, bool tolerant) {
   if (!too_much()) return false;
   if (start_exact_) return true;
   start_.x = state_->x;
+  start_.gradient.resize(start_.x.rows(), 3);
   system_.place_pins(system_.time(state_->step + 1), start_.x);
   start_.value = objective_.evaluate(start_.x, start_.gradient);
   start_exact_ = true;
@@ -140,11 +139,12 @@ double EnergyBooks::shed(Iterate& point) {
   Vertices back = start_.x;
   if (is_free(system_)) back.rowwise() += mean(system_.cloth, objective_.y()) - mean(system_.cloth, start_.x);
   const Vertices way = point.x - back;
+  Iterate trial{.x = point.x, .gradient = point.gradient};
   const auto gains_at = [&](double length) {
     system_.stop.look();
-    trial_.x = back + length * way;
-    trial_.value = objective_.evaluate(trial_.x, trial_.gradient);
-    return !(gain(trial_) <= 0);
+    trial.x = back + length * way;
+    trial.value = objective_.evaluate(trial.x, trial.gradient);
+    return !(gain(trial) <= 0);
   };
   double length = 0.5;
   while (length > least_kept && gains_at(length)) length /= 2;
@@ -155,7 +155,7 @@ double EnergyBooks::shed(Iterate& point) {
     if (!gains_at(length + more)) length += more;
   }
   gains_at(length);
-  std::swap(point, trial_);
+  std::swap(point, trial);
   return length;
 }
 

@@ -57,7 +57,6 @@ class EnergyBooks {
   double end_energy_ = 0;         // a lower bound of E where the last step ended [J]
   bool steady_;                   // E is at the start of a step what it was there when the last one ended…
   bool springs_;                  // …and nothing but that of springs
-  Iterate trial_;
 };
 
 /// The mean of n×3 numbers, weighted by mass.
