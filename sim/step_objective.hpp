@@ -39,8 +39,8 @@ class StepObjective {
   [[nodiscard]] double rounding(double value) const;
 
   /// The least energy [J] that the springs have where no vertex is further than `distance` [m] from where they had this
-  /// energy [J] or more. With s the stretches, √(2E) = √(Σ k s²) is a norm, and none changes by more than two distances:
-  /// √(2E') ≥ √(2E) − 2 distance √(Σ k).
+  /// energy [J] or more. With s the stretches, √(2E) = √(Σ k s²) is a norm, and none changes by more than two
+  /// distances: √(2E') ≥ √(2E) − 2 distance √(Σ k).
   [[nodiscard]] double least_elastic(double energy, double distance) const;
 
   /// How far the worst vertex is from the minimum at most, where g is convex and has this gradient [m]: no Hessian is
