@@ -15,13 +15,13 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   books_.begin(state, point_.x);
   begin_point(state, expected.late);
   StepReport report = solver_->minimise(point_, [this] { return !books_.gains(point_, true); });
-  // A step that a small change ended has been looked at.
-  const bool looked = report.converged && solver_->accuracy().rule == StoppingRule::change;
+  if (free_) balance_momentum(system_.cloth, objective_, point_);
+  // A step that a small change ended has been looked at, unless it has just been moved.
+  const bool looked = !free_ && report.converged && solver_->accuracy().rule == StoppingRule::change;
   if (!looked && books_.gains(point_, report.converged)) {
     report.kept = books_.shed(point_);
     report.converged = false;
   }
-  if (free_) balance_momentum(system_.cloth, objective_, point_);
   books_.end(point_);
   divided_difference(system_.threads, point_.x, state.x, system_.step, state.v);
   system_.move(state, &point_.x);

@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
 #include "sim/make_system.hpp"
+#include "sim/schemes/backward_euler.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/schemes/substeps.hpp"
 #include "sim/simulation.hpp"
+#include "sim/spring_network.hpp"
+#include "tests/support/cloths.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {
@@ -55,6 +58,49 @@ TEST_P(UnaskedAccuracy, GivesTheBitsOfTheScheme) {
   }
   EXPECT_TRUE(same_bits(simulation.state().x, state.x));
   EXPECT_TRUE(same_bits(simulation.state().v, state.v));
+}
+
+/// Solves for nothing: stretches the cloth, and holds it back as a whole by so much that it has less energy for it.
+class SlowingStretcher final : public Minimiser {
+ public:
+  SlowingStretcher(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
+      : Minimiser(system, objective, settings, 1) {}
+
+ private:
+  double iterate(Iterate& point) override {
+    point.x.col(0) *= 1.01;
+    point.x.col(2).array() -= 0.01;
+    point.value = objective().evaluate(point.x, point.gradient);
+    return 1;
+  }
+  void find_newton_step(const Iterate&, Vertices& direction) override { direction.setZero(); }
+};
+
+// What a solver does to a free cloth as a whole is taken out again, so that its momentum is kept; it must not pay for
+// energy that the cloth is given.
+TEST(BackwardEuler, GivesNoEnergyToAFreeClothThatItsSolverHasSlowedDown) {
+  Cloth cloth = test::grid_cloth(4);
+  cloth.pins.clear();
+  cloth.velocities.col(2).setOnes();
+  const System system(cloth, 0.1);
+  IntegratorSettings settings;
+  settings.stop = StoppingRule::change;  // after which no point will do as it is
+  settings.max_iterations = 1;
+  State state{.x = cloth.positions, .v = cloth.velocities, .step = 0};
+  StepForces forces(system, state);
+  BackwardEuler scheme(system, [&](const StepObjective& objective) {
+    return std::make_unique<SlowingStretcher>(system, objective, settings);
+  });
+  const auto energy = [&] {
+    Vertices ignored = Vertices::Zero(state.x.rows(), 3);
+    const SpringNetwork springs(system.springs, cloth.vertex_count(), one_thread());
+    return cloth.masses.dot(state.v.rowwise().squaredNorm()) / 2 + springs.add_value_gradient(state.x, ignored);
+  };
+  const double before = energy();
+  const StepReport report = scheme.advance(state, forces);
+  EXPECT_LT(report.kept, 1);
+  EXPECT_LE(energy(), before * (1 + 1e-12));
+  EXPECT_NEAR(cloth.masses.dot(state.v.col(2)), 1, 1e-12);  // momentum
 }
 
 }  // namespace
