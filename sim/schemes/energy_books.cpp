@@ -25,7 +25,8 @@ double inner(const Threads& threads, const Eigen::VectorXd& m, const auto& a, co
   });
 }
 
-/// How far a vertex may be at one of these places from where it is at the other, at least.
+/// What no vertex is further than at one of these places from where it is at the other: √3 times the largest difference
+/// of a coordinate.
 double largest_distance(const Threads& threads, const Vertices& a, const Vertices& b) {
   const double component = reduce(
       threads, a.size(),
