@@ -197,10 +197,7 @@ double condition_bound(const System& system) {
   const Eigen::VectorXd& masses = system.cloth.masses;
   StiffnessBound bound = system.stiffness_bound();
   Eigen::VectorXd& stiffness = bound.vertices;
-  bound.for_each_pair([&](const Spring& s) {
-    stiffness[s.i] += 2 * std::abs(s.stiffness);
-    stiffness[s.j] += 2 * std::abs(s.stiffness);
-  });
+  bound.for_each_pair([&](const Spring& pair) { add_row_sums(pair, stiffness); });
   for (const int pin : system.cloth.pins) stiffness[pin] = 0;
   const double h = system.step;
   return 1 + (h * h * stiffness.array() / masses.array()).maxCoeff();

@@ -34,10 +34,7 @@ StepObjective::StepObjective(const System& system, double duration)
     cancelling_ += std::abs(s.stiffness) * d.squaredNorm() / 2;
   }
   Eigen::VectorXd stiffness = inertia_ + bound.vertices;
-  bound.for_each_pair([&](const Spring& s) {
-    stiffness[s.i] += 2 * std::abs(s.stiffness);
-    stiffness[s.j] += 2 * std::abs(s.stiffness);
-  });
+  bound.for_each_pair([&](const Spring& pair) { add_row_sums(pair, stiffness); });
   stiffness_ratio_ = stiffness.cwiseProduct(push_).maxCoeff();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -46,6 +47,13 @@ struct StiffnessBound {
     for (const Spring& pair : pairs) visit(pair);
   }
 };
+
+/// Adds to both ends of a pair the sum of its row there, |k| + |−k|: where these are added up for all pairs, no
+/// eigenvalue exceeds the largest sum (Gershgorin's theorem) [N/m].
+inline void add_row_sums(const Spring& pair, Eigen::VectorXd& sums) {
+  sums[pair.i] += 2 * std::abs(pair.stiffness);
+  sums[pair.j] += 2 * std::abs(pair.stiffness);
+}
 
 /// A Hessian as its symmetric blocks K,
 ///   H = Σ (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ K + Σ eᵢ eᵢᵀ ⊗ K.

@@ -1,7 +1,6 @@
 #include "sim/linear/hessian_diagonal.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim/parallel/loops.hpp"
 
@@ -11,10 +10,7 @@ HessianDiagonal::HessianDiagonal(const System& system, const StepObjective& obje
     : objective_(objective), scalar_(objective.inertia()), factor_(system.cloth.vertex_count(), 6) {
   const StiffnessBound bound = system.stiffness_bound();
   scalar_ += bound.vertices;
-  for (const Spring& pair : bound.pairs) {
-    scalar_[pair.i] += 2 * std::abs(pair.stiffness);
-    scalar_[pair.j] += 2 * std::abs(pair.stiffness);
-  }
+  for (const Spring& pair : bound.pairs) add_row_sums(pair, scalar_);
 }
 
 void HessianDiagonal::linearise(const SpringNetwork::Blocks& springs) {
