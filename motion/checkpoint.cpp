@@ -21,11 +21,13 @@ constexpr const char* checkpoint_magic = "drape checkpoint 1\n";
 constexpr const char* length_tag = "SIZE";
 constexpr const char* books_tag = "BOOK";
 constexpr const char* held_tag = "HELD";
+constexpr const char* tensions_tag = "PULL";
 constexpr const char* times_tag = "TIME";
 
 std::string block(std::string_view tag, const std::string& payload) { return block_head(tag, payload) + payload; }
 
-std::string_view bytes_of(const Vertices& v) {
+template <class Numbers>
+std::string_view bytes_of(const Numbers& v) {
   return {reinterpret_cast<const char*>(v.data()), static_cast<std::size_t>(v.size()) * sizeof(double)};
 }
 
@@ -46,6 +48,13 @@ EnergyMemory unpack_books(std::string_view payload, Eigen::Index vertices) {
   return books;
 }
 
+Eigen::VectorXd unpack_tensions(std::string_view payload) {
+  const std::string bytes = unpack(payload);
+  Eigen::VectorXd tensions(static_cast<Eigen::Index>(bytes.size() / sizeof(double)));
+  std::memcpy(tensions.data(), bytes.data(), bytes_of(tensions).size());
+  return tensions;
+}
+
 std::vector<float> unpack_times(std::string_view payload) {
   const std::string bytes = unpack(payload);
   std::vector<float> times(bytes.size() / sizeof(float));
@@ -56,7 +65,7 @@ std::vector<float> unpack_times(std::string_view payload) {
 /// What is in the blocks after the first.
 void read_blocks(const BlockReader& blocks, std::uint64_t begin, Resumption& found) {
   const MotionHeader& header = found.partial->header();
-  Vertices held;
+  Restraint restraint;
   while (begin < blocks.size()) {
     const Block block = blocks.block(begin);
     if (block.tag == state_tag) {
@@ -64,7 +73,9 @@ void read_blocks(const BlockReader& blocks, std::uint64_t begin, Resumption& fou
     } else if (block.tag == books_tag) {
       found.checkpoint.books = unpack_books(block.payload, header.vertices);
     } else if (block.tag == held_tag) {
-      held = vertices_of(unpack(block.payload), header.vertices);
+      restraint.acceleration = vertices_of(unpack(block.payload), header.vertices);
+    } else if (block.tag == tensions_tag) {
+      restraint.tensions = unpack_tensions(block.payload);
     } else if (block.tag == rows_tag) {
       found.rows = unpack_rows(block.payload, header);
     } else if (block.tag == times_tag) {
@@ -72,7 +83,7 @@ void read_blocks(const BlockReader& blocks, std::uint64_t begin, Resumption& fou
     }
     begin = block.end;
   }
-  found.checkpoint.state.held = std::move(held);
+  found.checkpoint.state.restraint = std::move(restraint);
   // The steps from 0 on, in the blocks and in the rest.
   const std::int64_t step = found.checkpoint.state.step, in_blocks = found.partial->rows();
   const bool whole = found.checkpoint.state.x.rows() == header.vertices &&
@@ -94,8 +105,9 @@ std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double ste
   std::string bytes = checkpoint_magic;
   bytes += block(length_tag, ByteWriter().whole(length).text());
   bytes += block(state_tag, StateCodec(checkpoint.state.x.rows(), step).encode(checkpoint.state));
-  if (const Vertices& held = checkpoint.state.held; held.size() > 0) {
-    bytes += block(held_tag, pack(bytes_of(held)));
+  if (const Restraint& restraint = checkpoint.state.restraint; restraint.tensions.size() > 0) {
+    bytes += block(held_tag, pack(bytes_of(restraint.acceleration)));
+    bytes += block(tensions_tag, pack(bytes_of(restraint.tensions)));
   }
   if (const auto& books = checkpoint.books) {
     bytes +=

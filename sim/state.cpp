@@ -7,9 +7,11 @@ namespace drape {
 std::uint64_t hash_of(const State& state) {
   Hash hash;
   hash.add(&state.step, sizeof state.step);
-  for (const Vertices* vertices : {&state.x, &state.v, &state.held}) {
-    hash.add(vertices->data(), static_cast<std::size_t>(vertices->size()) * sizeof(double));
-  }
+  const auto add = [&hash](const auto& numbers) {
+    hash.add(numbers.data(), static_cast<std::size_t>(numbers.size()) * sizeof(double));
+  };
+  for (const Vertices* vertices : {&state.x, &state.v, &state.restraint.acceleration}) add(*vertices);
+  add(state.restraint.tensions);
   return hash.value();
 }
 

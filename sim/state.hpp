@@ -12,15 +12,21 @@
 
 namespace drape {
 
+/// How limits of strain held a cloth back in a step; both empty where none did.
+struct Restraint {
+  Vertices acceleration = {};     ///< that they took from the vertices, n×3 [m/s²]
+  Eigen::VectorXd tensions = {};  ///< by which they pulled the cloth's springs together, negative where apart [N]
+};
+
 /// Where the cloth is and how it moves after `step` steps. Time is step·h, never accumulated.
 struct State {
   Vertices x = {};  ///< n×3 [m]
   Vertices v = {};  ///< n×3 [m/s]
   std::int64_t step = 0;
-  /// By which acceleration limits of strain held the vertices back in the last step, n×3 [m/s²]; empty where none did.
-  /// They will again: what solves for where the cloth goes begins there. Not where it is, but a part of the rest of its
-  /// motion, to the solver's tolerance.
-  Vertices held = {};
+  /// In the last step. It will be about the same in the next: what solves for where the cloth goes begins where it
+  /// would go without it, and the limits begin with it. Not where the cloth is, but a part of the rest of its motion, to
+  /// the tolerances of both.
+  Restraint restraint = {};
 };
 
 /// A hash of a state to the bit: of all that it holds. Two runs with the same hash agree from

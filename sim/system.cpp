@@ -25,7 +25,7 @@ std::vector<Collider> System::colliders_at(double at) const {
 void System::filter(State& state, Vertices& way) const {
   for (const auto& filter : filters) {
     filter->apply(state.x, time(state.step), step, way);
-    if (const Vertices* held = filter->held()) state.held = *held;
+    if (const Restraint* restraint = filter->restraint()) state.restraint = *restraint;
   }
 }
 

@@ -115,8 +115,8 @@ struct MotionFilter {
   /// Makes of the velocities with which the vertices have moved those that they have where they are now: what bounces
   /// on its way ends it with another velocity than it went with on average.
   virtual void finish(Vertices& /*v*/) {}
-  /// By which acceleration the last call held the vertices back, n×3 [m/s²], if the next step's will do so, too.
-  [[nodiscard]] virtual const Vertices* held() const { return nullptr; }
+  /// How the last call held the cloth back, if the next step's will do so, too.
+  [[nodiscard]] virtual const Restraint* restraint() const { return nullptr; }
   /// Whether the last call did all that the filter is for, rather than stop at its cap.
   [[nodiscard]] virtual bool converged() const { return true; }
 

@@ -92,7 +92,7 @@ struct TimedFilter final : Timed<MotionFilter> {
     const Stopwatch watch(seconds);
     inner->finish(v);
   }
-  [[nodiscard]] const Vertices* held() const override { return inner->held(); }
+  [[nodiscard]] const Restraint* restraint() const override { return inner->restraint(); }
   [[nodiscard]] bool converged() const override { return inner->converged(); }
 };
 

@@ -1,7 +1,6 @@
 #include "sim/effects/strain_filter.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace drape {
@@ -13,18 +12,17 @@ constexpr int sweeps_between_looks = 2;
 // Where no more than this part of the springs is beyond the limits, a sweep ends with some over these and what is so
 // many springs around them alone.
 constexpr double few = 0.01;
-constexpr int rings = 3, most_passes = 8;
-// A spring that turns in one step by more than 25°, by the cosine of this, is pulled along where it ends.
-constexpr double least_cosine = 0.9;
 
 }  // namespace
 
 StrainFilter::StrainFilter(const StrainLimit& limits, const Cloth& cloth)
     : limits_(limits),
+      free_(cloth.pins.empty()),
       weight_(cloth.masses.cwiseInverse()),
       change_(static_cast<Index>(cloth.vertex_count()), Eigen::Vector3d::Zero()),
       last_change_(change_),
-      held_(Vertices::Zero(cloth.vertex_count(), 3)),
+      restraint_{.acceleration = Vertices::Zero(cloth.vertex_count(), 3),
+                 .tensions = Eigen::VectorXd::Zero(std::ssize(cloth.springs))},
       is_moved_(change_.size(), 0),
       springs_at_(change_.size()) {
   for (const int pin : cloth.pins) weight_[pin] = 0;
@@ -36,6 +34,7 @@ StrainFilter::StrainFilter(const StrainLimit& limits, const Cloth& cloth)
   for (const StringLink& link : lay_out_strings(cloth, springs)) {
     const double rest_length = cloth.springs[link.spring].rest_length;
     for (const int end : {link.from, link.to}) springs_at_[Index(end)].push_back(limited_.size());
+    spring_.push_back(static_cast<Eigen::Index>(link.spring));
     limited_.push_back({.i = link.from,
                         .j = link.to,
                         .weight = weight_[link.from] + weight_[link.to],
@@ -47,13 +46,26 @@ StrainFilter::StrainFilter(const StrainLimit& limits, const Cloth& cloth)
   }
   moved_.reserve(change_.size());
   for (auto* list : {&active_, &watched_, &merged_, &restless_}) list->reserve(limited_.size());
+  expected_.reserve(limited_.size());
   string_.reserve(limited_.size());
 }
 
+void StrainFilter::begin(const State& state, double /*time*/) {
+  expected_.clear();
+  const Eigen::VectorXd& tensions = state.restraint.tensions;
+  if (tensions.size() != restraint_.tensions.size()) return;
+  for (Index k = 0; k < spring_.size(); ++k) {
+    if (const double tension = tensions[spring_[k]]; tension != 0) expected_.push_back({k, tension});
+  }
+}
+
 void StrainFilter::apply(const Vertices& x, double /*time*/, double h, Vertices& v) {
+  forget();
   find_beyond(x, h, v);
+  for (const Pull& pull : expected_) give(limited_[pull.limited], -h * h * pull.tension);
   converged_ = active_.empty();
   pace_ = 1;
+  ahead_ = 0;
   last_value_ = std::numeric_limits<double>::infinity();
   double value = 0;
   int next_look = 0;
@@ -75,29 +87,38 @@ void StrainFilter::apply(const Vertices& x, double /*time*/, double h, Vertices&
   for (const int i : moved_) {
     const Eigen::RowVector3d more = change_[Index(i)].transpose() / h;
     v.row(i) += more;
-    held_.row(i) = -more / h;
+    restraint_.acceleration.row(i) = -more / h;
   }
+  for (const Index k : active_) restraint_.tensions[spring_[k]] = -limited_[k].push / (h * h);
 }
 
-/// Finds the springs that would end beyond their limits.
-void StrainFilter::find_beyond(const Vertices& x, double h, const Vertices& v) {
+/// Undoes what the last step has left.
+void StrainFilter::forget() {
   for (const int i : moved_) {
     change_[Index(i)].setZero();
     last_change_[Index(i)].setZero();
-    held_.row(i).setZero();
+    restraint_.acceleration.row(i).setZero();
     is_moved_[Index(i)] = 0;
   }
+  for (const Index k : active_) restraint_.tensions[spring_[k]] = 0;
   for (const auto* list : {&active_, &watched_}) {
     for (const Index k : *list) limited_[k].stage = Stage::still;
   }
   moved_.clear();
   active_.clear();
   watched_.clear();
+}
+
+/// Finds the springs that would end beyond their limits, and those that begin with an impulse.
+void StrainFilter::find_beyond(const Vertices& x, double h, const Vertices& v) {
   target_ = x + h * v;
+  auto expected = expected_.begin();
   for (Index k = 0; k < ranges_.size(); ++k) {
     const Range& range = ranges_[k];
     const double squared = (target_.row(range.i) - target_.row(range.j)).squaredNorm();
-    if (squared > range.most || squared < range.least) active_.push_back(k);
+    const bool pulls = expected != expected_.end() && expected->limited == k;
+    if (pulls) ++expected;
+    if (pulls || squared > range.most || squared < range.least) active_.push_back(k);
   }
   const Index found = active_.size();
   for (Index k = 0; k < found; ++k) activate(active_[k], x);
@@ -156,135 +177,6 @@ bool StrainFilter::look_around(const Vertices& x, bool early) {
     active_.swap(merged_);
   }
   return all_hold;
-}
-
-/// Gives every active spring the impulse it needs, every other one first: two that follow one another in a string do
-/// not then wait for one another in the processor.
-void StrainFilter::relax_all(bool early) {
-  for (const Index parity : {0U, 1U}) {
-    for (const Index k : active_) {
-      if (k % 2 == parity) relax(limited_[k], early);
-    }
-  }
-}
-
-/// Gives a spring the impulse it needs now.
-void StrainFilter::relax(Limited& s, bool early) {
-  const Eigen::Vector3d end = end_of(s);
-  const double squared = end.squaredNorm(), along = end.dot(s.direction);
-  s.straight = s.straight && early && along >= 0 && along * along >= least_cosine * least_cosine * squared;
-  if (s.straight) {
-    const double across = std::max(0.0, squared - along * along);
-    const double most = std::sqrt(std::max(0.0, s.longest * s.longest - across));
-    const double least = s.shortest > 0 ? std::sqrt(std::max(0.0, s.shortest * s.shortest - across)) : 0;
-    const double length = along - s.weight * s.impulse.dot(s.direction);  // without it
-    give(s, (std::clamp(length, least, most) - length) / s.weight);
-    return;
-  }
-  const Eigen::Vector3d free = end - s.weight * s.impulse;
-  const double length = free.norm();
-  if (length > 0) s.direction = free / length;
-  give(s, (std::clamp(length, s.shortest, s.longest) - length) / s.weight);
-}
-
-/// Sweeps over the springs that are still beyond the tolerance, and those around them, until they hold.
-void StrainFilter::settle(bool early) {
-  for (const Index k : restless_) limited_[k].stage = Stage::restless;
-  for (Index ring = 0, inner = 0; ring < rings; ++ring) {
-    for (const Index outer = restless_.size(); inner < outer; ++inner) {
-      for (const int end : {limited_[restless_[inner]].i, limited_[restless_[inner]].j}) {
-        for (const Index other : springs_at_[Index(end)]) {
-          if (limited_[other].stage != Stage::active) continue;
-          limited_[other].stage = Stage::restless;
-          restless_.push_back(other);
-        }
-      }
-    }
-  }
-  const auto hold = [this](Index k) { return holds(limited_[k], end_of(limited_[k])); };
-  for (int pass = 0; pass < most_passes; ++pass) {
-    for (const Index k : restless_) relax(limited_[k], early);
-    if (std::ranges::all_of(restless_, hold)) break;
-  }
-  for (const Index k : restless_) limited_[k].stage = Stage::active;
-}
-
-/// Balances each string of active springs that pull.
-void StrainFilter::pull_strings() {
-  Index first = 0;
-  for (Index k = 1; k <= active_.size(); ++k) {
-    const bool goes_on = k < active_.size() && active_[k] == active_[k - 1] + 1 && limited_[active_[k]].joined;
-    if (goes_on) continue;
-    if (k - first > 1) pull_string(first, k - first);
-    first = k;
-  }
-}
-
-/// @param first, count of active_
-void StrainFilter::pull_string(Index first, Index count) {
-  string_.clear();
-  for (Index k = first; k < first + count; ++k) {
-    const Limited& s = limited_[active_[k]];
-    const Eigen::Vector3d end = end_of(s);
-    const double along = s.direction.dot(end);
-    // One that is kept straight has the part of its length that is left beside what is across.
-    const double most =
-        !s.straight ? s.longest : std::sqrt(std::max(0.0, s.longest * s.longest - end.squaredNorm() + along * along));
-    const double coupling = string_.empty() ? 0 : weight_[s.i] * s.direction.dot(string_.back().along);
-    string_.push_back({.along = s.direction,
-                       .weight = s.weight,
-                       .coupling = coupling,
-                       .excess = along - most,
-                       .pull = std::max(0.0, -s.push)});
-  }
-  balance(string_);
-  for (Index k = 0; k < count; ++k) {
-    const Tension& t = string_[k];
-    if (t.more != 0) give(limited_[active_[first + k]], -(t.pull + t.more));
-  }
-}
-
-/// Whether a spring with this end is within its limits, to the tolerance.
-bool StrainFilter::holds(const Limited& s, const Eigen::Vector3d& end) const {
-  const double longest = (1 + limits_.tolerance) * s.longest, shortest = (1 - limits_.tolerance) * s.shortest;
-  const double squared = end.squaredNorm();
-  return squared <= longest * longest && squared >= shortest * shortest;
-}
-
-/// Returns φ, and finds what is beyond the tolerance.
-double StrainFilter::assess() {
-  double value = 0;
-  restless_.clear();
-  for (const Index k : active_) {
-    const Limited& s = limited_[k];
-    const Eigen::Vector3d way = change_[Index(s.i)] - change_[Index(s.j)];
-    if (!holds(s, s.end + way)) restless_.push_back(k);
-    // ‖δ‖²_M is the work of the impulses along δ.
-    value += s.impulse.dot(s.end + 0.5 * way) - s.push * (s.push > 0 ? s.shortest : s.longest);
-  }
-  return value;
-}
-
-/// Goes on from the impulses of a sweep in the direction of what it has changed, or, where that has raised φ to this
-/// value, back to those a sweep ago.
-void StrainFilter::go_on(double value) {
-  if (value > last_value_ && pace_ > 1) return go_back();
-  last_value_ = value;
-  const double next = (1 + std::sqrt(1 + 4 * pace_ * pace_)) / 2, part = (pace_ - 1) / next;
-  pace_ = next;
-  const auto extrapolate = [part](Eigen::Vector3d& now, Eigen::Vector3d& last) {
-    const Eigen::Vector3d further = now + part * (now - last);
-    last = now;
-    now = further;
-  };
-  for (const Index k : active_) extrapolate(limited_[k].impulse, limited_[k].last);
-  for (const int i : moved_) extrapolate(change_[Index(i)], last_change_[Index(i)]);
-}
-
-void StrainFilter::go_back() {
-  pace_ = 1;
-  for (const Index k : active_) limited_[k].impulse = limited_[k].last;
-  for (const int i : moved_) change_[Index(i)] = last_change_[Index(i)];
 }
 
 }  // namespace drape

@@ -21,8 +21,14 @@ namespace drape {
 ///
 /// Impulses that point along the springs as they end the step, as the nearest point has them, change the angular
 /// momentum Σ m x × v. So at first they are kept along the springs as they are when the step starts, which keeps both
-/// momenta to rounding; a spring for which that does not do, since it turns by more than 25° in the step or the others
-/// have not settled after the early sweeps, gives up this restriction, and nothing else, for the rest of the step.
+/// momenta to rounding; a spring for which that does not do, since it turns by more than 25° in the step, bears a load
+/// on pins that would swing up by it, or the others have not settled after the early sweeps, gives up this restriction,
+/// and nothing else, for the rest of the step.
+///
+/// It begins with the impulses that the last step ended with, as State::restraint has them: φ is convex in them, and
+/// has its least value where they lead to the nearest point, wherever they begin. So that they do not hold more than
+/// that, the sweeps end only where every spring that pulls is at its upper limit, to the tolerance, and every one that
+/// pushes at its lower.
 ///
 /// Only springs that have had an impulse are swept over. Those that have an end in common with one of these are looked
 /// at after every second sweep, and before the limits are said to hold; the ends of all others are not moved. Where the
@@ -32,8 +38,9 @@ class StrainFilter final : public MotionFilter {
  public:
   StrainFilter(const StrainLimit& limits, const Cloth& cloth);
 
+  void begin(const State& state, double time) override;
   void apply(const Vertices& x, double time, double h, Vertices& v) override;
-  [[nodiscard]] const Vertices* held() const override { return &held_; }
+  [[nodiscard]] const Restraint* restraint() const override { return &restraint_; }
   [[nodiscard]] bool converged() const override { return converged_; }
 
  private:
@@ -43,6 +50,10 @@ class StrainFilter final : public MotionFilter {
     int i, j;
     double least, most;  // squared lengths [m²]
   };
+  struct Pull {
+    Index limited;
+    double tension;  // [N]
+  };
   enum class Stage : unsigned char { still, watched, active, restless };
   struct Limited {
     int i, j;
@@ -50,7 +61,7 @@ class StrainFilter final : public MotionFilter {
     double longest, shortest;  // [m]
     bool joined;               // its i is the j of the one before it
     Stage stage = Stage::still;
-    bool straight = true;  // impulses are along its direction at the start
+    bool straight = false;  // impulses are along its direction at the start
     // From j to i at the end of the step as it would be without any impulse [m], and, of length 1, where the impulse
     // that it was last given is along: at its start while straight, and then at its end.
     Eigen::Vector3d end = Eigen::Vector3d::Zero(), direction = end;
@@ -58,6 +69,7 @@ class StrainFilter final : public MotionFilter {
     double push = 0;  // that it was last given, along that: negative where it pulls
   };
 
+  void forget();
   void find_beyond(const Vertices& x, double h, const Vertices& v);
   [[nodiscard]] Eigen::Vector3d end_of(const Limited& s) const {
     return s.end + (change_[Index(s.i)] - change_[Index(s.j)]);
@@ -82,18 +94,22 @@ class StrainFilter final : public MotionFilter {
   void go_back();
 
   StrainLimit limits_;
+  bool free_;                                          // without pins: has its angular momentum to keep
   Eigen::VectorXd weight_;                             // 1/m, 0 for a pin [1/kg]
   std::vector<Limited> limited_;                       // in strings
   std::vector<Range> ranges_;                          // of each of these
   Vertices target_;                                    // where the step would end without any impulse [m]
   std::vector<Eigen::Vector3d> change_, last_change_;  // by how much the impulses change that, as Limited has them [m]
   std::vector<int> moved_;                             // the vertices for which they do
-  Vertices held_;                                      // the acceleration that they are against [m/s²]
+  std::vector<Eigen::Index> spring_;                   // of each of limited_, its number in the cloth
+  std::vector<Pull> expected_;                         // by the last step, in the order of limited_
+  Restraint restraint_;
   std::vector<char> is_moved_;
   std::vector<Index> active_, watched_, merged_, restless_;
   std::vector<std::vector<Index>> springs_at_;  // of each vertex
   std::vector<Tension> string_;
-  double pace_ = 1, last_value_ = 0;  // Nesterov's t, and φ a sweep ago
+  double pace_ = 1, ahead_ = 0;  // Nesterov's t, and what part of the last change a sweep has gone on by
+  double last_value_ = 0;        // φ a sweep ago
   bool converged_ = true;
 };
 

@@ -43,10 +43,11 @@ class MinimisingScheme : public Scheme {
   /// objective's y, and from there to where the vertices go that nothing holds back.
   void begin_point(const State& from, const Vertices* expected) {
     const double t = objective_.duration();
-    const bool held = expected == nullptr && from.held.rows() == from.x.rows();
+    const Vertices& held_back = from.restraint.acceleration;
+    const bool held = expected == nullptr && held_back.rows() == from.x.rows();
     if (expected != nullptr || held) {
       if (held) {
-        point_.x = objective_.y() + t * t * from.held;
+        point_.x = objective_.y() + t * t * held_back;
       } else {
         point_.x = from.x + t * from.v + t * t * *expected;
       }

@@ -156,7 +156,7 @@ class SubstepScheme::Attempt {
   void end(State& state) {
     state.x = place();
     state.v = shorter_.state.v;
-    state.held = shorter_.state.held;
+    state.restraint = shorter_.state.restraint;
     if (taken_ == 0) return;
     state.x += taken_ * (longer_.state.x - shorter_.state.x);
     state.v += taken_ * (longer_.state.v - shorter_.state.v);
