@@ -24,8 +24,8 @@ struct State {
   Vertices v = {};  ///< n×3 [m/s]
   std::int64_t step = 0;
   /// In the last step. It will be about the same in the next: what solves for where the cloth goes begins where it
-  /// would go without it, and the limits begin with it. Not where the cloth is, but a part of the rest of its motion, to
-  /// the tolerances of both.
+  /// would go without it, and the limits begin with it. Not where the cloth is, but a part of the rest of its motion,
+  /// to the tolerances of both.
   Restraint restraint = {};
 };
 
