@@ -28,7 +28,7 @@ std::string block(std::string_view tag, const std::string& payload) { return blo
 
 template <class Numbers>
 std::string_view bytes_of(const Numbers& v) {
-  return {reinterpret_cast<const char*>(v.data()), static_cast<std::size_t>(v.size()) * sizeof(double)};
+  return {reinterpret_cast<const char*>(v.data()), static_cast<std::size_t>(v.size()) * sizeof(*v.data())};
 }
 
 Vertices vertices_of(std::string_view bytes, Eigen::Index count) {
@@ -48,18 +48,13 @@ EnergyMemory unpack_books(std::string_view payload, Eigen::Index vertices) {
   return books;
 }
 
-Eigen::VectorXd unpack_tensions(std::string_view payload) {
+/// As many as there are.
+template <class Numbers>
+Numbers unpack_numbers(std::string_view payload) {
   const std::string bytes = unpack(payload);
-  Eigen::VectorXd tensions(static_cast<Eigen::Index>(bytes.size() / sizeof(double)));
-  std::memcpy(tensions.data(), bytes.data(), bytes_of(tensions).size());
-  return tensions;
-}
-
-std::vector<float> unpack_times(std::string_view payload) {
-  const std::string bytes = unpack(payload);
-  std::vector<float> times(bytes.size() / sizeof(float));
-  std::memcpy(times.data(), bytes.data(), times.size() * sizeof(float));
-  return times;
+  Numbers numbers(bytes.size() / sizeof(typename Numbers::value_type));
+  std::memcpy(numbers.data(), bytes.data(), bytes_of(numbers).size());
+  return numbers;
 }
 
 /// What is in the blocks after the first.
@@ -75,11 +70,11 @@ void read_blocks(const BlockReader& blocks, std::uint64_t begin, Resumption& fou
     } else if (block.tag == held_tag) {
       restraint.acceleration = vertices_of(unpack(block.payload), header.vertices);
     } else if (block.tag == tensions_tag) {
-      restraint.tensions = unpack_tensions(block.payload);
+      restraint.tensions = unpack_numbers<Eigen::VectorXd>(block.payload);
     } else if (block.tag == rows_tag) {
       found.rows = unpack_rows(block.payload, header);
     } else if (block.tag == times_tag) {
-      found.microseconds = unpack_times(block.payload);
+      found.microseconds = unpack_numbers<std::vector<float>>(block.payload);
     }
     begin = block.end;
   }
@@ -115,8 +110,7 @@ std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double ste
               pack(ByteWriter().number(books->explained).number(books->work).bytes(bytes_of(books->looked_at)).text()));
   }
   if (!rows.empty()) bytes += block(rows_tag, pack_rows(rows));
-  return bytes +
-         block(times_tag, pack({reinterpret_cast<const char*>(microseconds.data()), microseconds.size_bytes()}));
+  return bytes + block(times_tag, pack(bytes_of(microseconds)));
 }
 
 Resumption read_resumption(const fs::path& file) {

@@ -12,7 +12,7 @@
 
 namespace drape {
 
-/// How limits of strain held a cloth back in a step; both empty where none did.
+/// How limits of strain held a cloth back in a step; both empty where it has none.
 struct Restraint {
   Vertices acceleration = {};     ///< that they took from the vertices, n×3 [m/s²]
   Eigen::VectorXd tensions = {};  ///< by which they pulled the cloth's springs together, negative where apart [N]

@@ -61,7 +61,7 @@ class StrainFilter final : public MotionFilter {
     double longest, shortest;  // [m]
     bool joined;               // its i is the j of the one before it
     Stage stage = Stage::still;
-    bool straight = false;  // impulses are along its direction at the start
+    bool straight = true;  // impulses are along its direction at the start
     // From j to i at the end of the step as it would be without any impulse [m], and, of length 1, where the impulse
     // that it was last given is along: at its start while straight, and then at its end.
     Eigen::Vector3d end = Eigen::Vector3d::Zero(), direction = end;
