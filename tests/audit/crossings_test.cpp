@@ -1,0 +1,161 @@
+// What goes through what at one moment, and which vertices are inside.
+
+#include "audit/crossings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "audit/inside.hpp"
+#include "tests/audit/motions.hpp"
+#include "tests/support/intersections.hpp"
+
+namespace drape::audit {
+namespace {
+
+using Eigen::Vector3d;
+
+TEST(Crossings, OfRandomMeshesAreThoseOfAllPairs) {
+  const Mesh grid = make_grid(8, 8);
+  const Topology topology = make_topology(grid.triangles);
+  test::Random random;
+  std::size_t found = 0;
+  for (int i = 0; i < test::tries(20); ++i) {
+    const Vertices x = shaken_grid(grid, 0.3, random);
+    std::vector<Crossing> expected;
+    for (const Edge& edge : topology.edges) {
+      for (const Triangle& t : topology.triangles) {
+        const auto has = [&](int v) { return v == t[0] || v == t[1] || v == t[2]; };
+        const auto at = [&](int v) -> Vector3d { return x.row(v).transpose(); };
+        if (has(edge[0]) || has(edge[1])) continue;
+        if (goes_through({at(edge[0]), at(edge[1])}, {at(t[0]), at(t[1]), at(t[2])})) {
+          expected.push_back({Owner::cloth, edge, Owner::cloth, t});
+        }
+      }
+    }
+    std::ranges::sort(expected);
+    ASSERT_EQ(find_crossings({topology, x}), expected);
+    ASSERT_EQ(test::self_intersections(topology.triangles, x), static_cast<int>(expected.size()));
+    found += expected.size();
+  }
+  EXPECT_GT(found, 1000U);
+}
+
+TEST(Crossings, AreNotInAClothThatIsPlacedAnywhere) {
+  const Mesh grid = make_grid(20, 20);
+  const Topology topology = make_topology(grid.triangles);
+  for (int i = 0; i < 20; ++i) {
+    const Vertices x = moved(grid.positions, 0.3 * i, {std::pow(10, i - 6), 0.3, -std::pow(7, i - 10)});
+    EXPECT_EQ(describe_all(find_crossings({topology, i % 2 == 0 ? x : 1e-5 * x})), "") << i;
+  }
+}
+
+// A pole through the middle of a symmetric cloth goes exactly through a vertex or an edge of it: not through any
+// triangle's inner.
+TEST(Crossings, OfAPoleThroughAVertexOrAnEdgeOfTheClothAreFound) {
+  const Mesh grid = make_grid(4, 4);
+  const Topology cloth = make_topology(grid.triangles), pole = make_topology({{0, 1, 2}});
+  for (const Vector3d& at : {Vector3d(0, 0, 0), Vector3d(0.25, 0, 0), Vector3d(0.25, 0.25, 0)}) {
+    Vertices x(3, 3);
+    x << at[0], at[1], -1, at[0], at[1], 1, at[0] + 0.01, at[1] + 0.003, 1;
+    const std::vector<Crossing> found = find_crossings({cloth, grid.positions}, {pole, x});
+    EXPECT_TRUE(std::ranges::any_of(found, [](const Crossing& c) { return c.edge == Edge{0, 1}; })) << at.transpose();
+  }
+}
+
+TEST(Crossings, AreNamed) {
+  const Crossing crossing{Owner::body, {1, 2}, Owner::cloth, {3, 4, 5}};
+  EXPECT_EQ(describe(crossing), "body edge 1 2 goes through cloth triangle 3 4 5");
+}
+
+TEST(Crossings, DoNotCountTouching) {
+  const std::array triangle{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
+  EXPECT_FALSE(goes_through({Vector3d(0.2, 0.2, 0), Vector3d(0.2, 0.2, 1)}, triangle));
+  EXPECT_TRUE(goes_through({Vector3d(0.2, 0.2, -1e-60), Vector3d(0.2, 0.2, 1)}, triangle));
+  EXPECT_TRUE(goes_through({Vector3d(0.5, 0.5, -1), Vector3d(0.5, 0.5, 1)}, triangle)) << "through its border";
+  EXPECT_FALSE(goes_through({Vector3d(0.5, 0.5 + 0x1p-53, -1), Vector3d(0.5, 0.5 + 0x1p-52, 1)}, triangle));
+  EXPECT_FALSE(goes_through({Vector3d(-1, 0.2, 0), Vector3d(1, 0.2, 0)}, triangle)) << "in its plane";
+}
+
+/// A box from −1/2 to 1/2 with outward triangles, scaled and moved.
+Mesh box(const Eigen::RowVector3d& size, const Eigen::RowVector3d& center) {
+  Mesh mesh;
+  mesh.positions.resize(8, 3);
+  for (int v = 0; v < 8; ++v) {
+    const Eigen::RowVector3d corner(v % 2, v / 2 % 2, v / 4);
+    mesh.positions.row(v) = (corner.array() - 0.5) * size.array() + center.array();
+  }
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+TEST(InsideOfABox, IsFoundWithItsDepth) {
+  const Mesh crate = box({1, 1, 0.5}, {0, 0, 0.25});
+  const Topology topology = make_topology(crate.triangles);
+  Vertices x(6, 3);
+  x << 0, 0, 0.472, 0.3, 0.3, 0.25, 0, 0, 0.5, 0, 0, 0.6, 0.49, 0, 0.25, 2, 0, 0;
+  const std::vector<Inside> found = find_inside(x, {topology, crate.positions});
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found[0].vertex, 1);
+  EXPECT_NEAR(found[0].depth, 0.2, 1e-15);
+  EXPECT_EQ(describe(found[1]), "cloth vertex 0 is 28 mm deep inside");
+  EXPECT_EQ(found[2].vertex, 4);
+}
+
+// Vertices on the lattice of the box's own corners, edges and diagonals: rays meet them exactly.
+TEST(InsideOfABox, IsExactOnItsOwnLattice) {
+  const Mesh crate = box({2, 2, 2}, {0, 0, 0});
+  const Topology topology = make_topology(crate.triangles);
+  const Mesh second = box({2, 2, 2}, {1, 0, 0});  // a part that overlaps the first
+  Mesh both = crate;
+  both.positions.conservativeResize(16, Eigen::NoChange);
+  both.positions.bottomRows(8) = second.positions;
+  for (const auto& [a, b, c] : second.triangles) both.triangles.push_back({a + 8, b + 8, c + 8});
+  const Topology of_both = make_topology(both.triangles);
+  Vertices x(9 * 9 * 9, 3);
+  std::size_t inside = 0, inside_both = 0;
+  for (int i = 0; i < 729; ++i) {
+    x.row(i) << i % 9 - 4, i / 9 % 9 - 4, i / 81 - 4;
+    x.row(i) *= 0.5;
+    const Eigen::Array3d p = x.row(i).transpose().array();
+    const bool in_column = std::abs(p[1]) < 1 && std::abs(p[2]) < 1;
+    inside += static_cast<std::size_t>(in_column && std::abs(p[0]) < 1);
+    inside_both += static_cast<std::size_t>(in_column && (p[0] == -0.5 || p[0] == 0.5 || p[0] == 1.5));
+  }
+  EXPECT_EQ(find_inside(x, {topology, crate.positions}).size(), inside);
+  EXPECT_EQ(find_inside(x, {of_both, both.positions}).size(), inside_both)
+      << "none on a face, also within the other part";
+  Vertices shifted = x;
+  shifted.array() += 1e-9;
+  for (const Inside& found : find_inside(shifted, {topology, crate.positions})) {
+    const Eigen::Array3d p = shifted.row(found.vertex).transpose().array();
+    EXPECT_NEAR(found.depth, (1 - p.abs()).minCoeff(), 1e-14);
+    EXPECT_GT(found.depth, 0);
+  }
+}
+
+TEST(InsideOfABox, NeedsAClosedMesh) {
+  const Mesh grid = make_grid(2, 2);
+  const Topology topology = make_topology(grid.triangles);
+  EXPECT_FALSE(is_closed(grid.triangles));
+  EXPECT_TRUE(is_closed(box({1, 1, 1}, {0, 0, 0}).triangles));
+  EXPECT_THROW(find_inside(grid.positions, {topology, grid.positions}), std::invalid_argument);
+}
+
+TEST(InsideOfASphereAndAPlane, IsFoundWithItsDepth) {
+  Vertices x(3, 3);
+  x << 0, 0, 0.9, 0, 0.5, 0, 0, 0, -0.02;
+  const std::vector<Inside> sphere = find_inside_sphere(x, {0, 0, 0}, 0.8);
+  ASSERT_EQ(sphere.size(), 2U);
+  EXPECT_EQ(sphere[0].vertex, 2);
+  EXPECT_NEAR(sphere[0].depth, 0.78, 1e-15);
+  EXPECT_NEAR(sphere[1].depth, 0.3, 1e-15);
+  const std::vector<Inside> ground = find_behind_plane(x, {5, 5, 0.01}, {0, 0, 1});
+  ASSERT_EQ(ground.size(), 2U);
+  EXPECT_NEAR(ground[0].depth, 0.03, 1e-15);
+}
+
+}  // namespace
+}  // namespace drape::audit

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "audit/surface.hpp"
+#include "tests/support/random.hpp"
+
+namespace drape::audit {
+
+/// A grid of n×n cells in the xy plane, every vertex moved by up to `amount` in any direction.
+inline Vertices shaken_grid(const Mesh& grid, double amount, test::Random& random) {
+  Vertices x = grid.positions;
+  for (Eigen::Index v = 0; v < x.rows(); ++v) x.row(v) += amount * test::random_point(random).transpose();
+  return x;
+}
+
+/// All positions turned about (1, 2, 3) by an angle [rad] and moved.
+inline Vertices moved(const Vertices& x, double angle, const Eigen::RowVector3d& shift) {
+  const Eigen::AngleAxisd turn(angle, Eigen::Vector3d(1, 2, 3).normalized());
+  return (x * turn.toRotationMatrix().transpose()).rowwise() + shift;
+}
+
+template <class Found>
+std::string describe_all(const std::vector<Found>& found) {
+  std::string text;
+  for (const Found& one : found) text += describe(one) + '\n';
+  return text;
+}
+
+}  // namespace drape::audit
