@@ -9,20 +9,21 @@
 #include <stdexcept>
 
 #include "audit/expansion.hpp"
+#include "tests/audit/exact_roots.hpp"
 #include "tests/support/random.hpp"
 
 namespace drape::audit {
 namespace {
 
-__extension__ using Integer = __int128;
 using Whole = std::array<std::int64_t, 3>;
 
-int sign(Integer value) { return static_cast<int>(value > 0) - static_cast<int>(value < 0); }
+int sign_of_integer(Integer value) { return static_cast<int>(value > 0) - static_cast<int>(value < 0); }
 
 int integer_orientation(const std::array<Whole, 4>& p) {
   const auto d = [&](std::size_t i, std::size_t axis) { return static_cast<Integer>(p[i][axis]) - p[0][axis]; };
-  return sign((d(1, 0) * d(2, 1) - d(1, 1) * d(2, 0)) * d(3, 2) + (d(1, 1) * d(2, 2) - d(1, 2) * d(2, 1)) * d(3, 0) +
-              (d(1, 2) * d(2, 0) - d(1, 0) * d(2, 2)) * d(3, 1));
+  return sign_of_integer((d(1, 0) * d(2, 1) - d(1, 1) * d(2, 0)) * d(3, 2) +
+                         (d(1, 1) * d(2, 2) - d(1, 2) * d(2, 1)) * d(3, 0) +
+                         (d(1, 2) * d(2, 0) - d(1, 0) * d(2, 2)) * d(3, 1));
 }
 
 Eigen::Vector3d point(const Whole& p, double scale) {
@@ -89,7 +90,7 @@ TEST(Expansion, ComputesAsIntegersDo) {
     ASSERT_EQ((left - right).sign(), 0);
     ASSERT_EQ((left.half() + right.half() - left - Expansion(1)).sign(), -1);
     const auto m = static_cast<Integer>(a), n = static_cast<Integer>(b);
-    ASSERT_EQ(left.sign(), sign(m * m - n * n));
+    ASSERT_EQ(left.sign(), sign_of_integer(m * m - n * n));
     ASSERT_DOUBLE_EQ(left.estimate(), static_cast<double>(m * m - n * n));
     const Expansion rounding = left - Expansion(left.estimate());
     ASSERT_EQ(rounding.estimate(), static_cast<double>(m * m - n * n - static_cast<Integer>(left.estimate())));
