@@ -104,35 +104,45 @@ TEST(InsideOfABox, IsFoundWithItsDepth) {
   EXPECT_EQ(found[2].vertex, 4);
 }
 
-// Vertices on the lattice of the box's own corners, edges and diagonals: rays meet them exactly.
+/// Both meshes as one.
+Mesh joined(Mesh mesh, const Mesh& other) {
+  const auto count = static_cast<int>(mesh.positions.rows());
+  mesh.positions.conservativeResize(count + other.positions.rows(), Eigen::NoChange);
+  mesh.positions.bottomRows(other.positions.rows()) = other.positions;
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + count, b + count, c + count});
+  return mesh;
+}
+
+std::size_t count_inside(const Vertices& x, const Mesh& solid) {
+  const Topology topology = make_topology(solid.triangles);
+  return find_inside(x, {topology, solid.positions}).size();
+}
+
+// Vertices on the lattice of the boxes' own corners, edges and diagonals, which rays along it would meet exactly:
+// halves from −2 to 4 in x and from −1 to 1 in y and z.
 TEST(InsideOfABox, IsExactOnItsOwnLattice) {
+  Vertices x(13 * 5 * 5, 3);
+  for (int i = 0; i < x.rows(); ++i) x.row(i) << 0.5 * (i % 13) - 2, 0.5 * (i / 13 % 5) - 1, 0.5 * (i / 65) - 1;
+  const Mesh crate = box({2, 2, 2}, {0, 0, 0});
+  EXPECT_EQ(count_inside(x, crate), 27U);
+  Mesh inside_out = crate;
+  for (Triangle& t : inside_out.triangles) std::swap(t[0], t[1]);
+  EXPECT_EQ(count_inside(x, inside_out), 27U);
+  EXPECT_EQ(count_inside(x, joined(crate, box({1, 2, 2}, {2.5, 0, 0}))), 36U) << "a gap between 1 and 2";
+  EXPECT_EQ(count_inside(x, joined(crate, box({2, 2, 2}, {1, 0, 0}))), 27U)
+      << "from −1 to 2, without those on the faces at 0 and 1 within the other part";
+}
+
+TEST(InsideOfABox, IsAsDeepAsItsNearestFaceIsFar) {
   const Mesh crate = box({2, 2, 2}, {0, 0, 0});
   const Topology topology = make_topology(crate.triangles);
-  const Mesh second = box({2, 2, 2}, {1, 0, 0});  // a part that overlaps the first
-  Mesh both = crate;
-  both.positions.conservativeResize(16, Eigen::NoChange);
-  both.positions.bottomRows(8) = second.positions;
-  for (const auto& [a, b, c] : second.triangles) both.triangles.push_back({a + 8, b + 8, c + 8});
-  const Topology of_both = make_topology(both.triangles);
-  Vertices x(9 * 9 * 9, 3);
-  std::size_t inside = 0, inside_both = 0;
-  for (int i = 0; i < 729; ++i) {
-    x.row(i) << i % 9 - 4, i / 9 % 9 - 4, i / 81 - 4;
-    x.row(i) *= 0.5;
-    const Eigen::Array3d p = x.row(i).transpose().array();
-    const bool in_column = std::abs(p[1]) < 1 && std::abs(p[2]) < 1;
-    inside += static_cast<std::size_t>(in_column && std::abs(p[0]) < 1);
-    inside_both += static_cast<std::size_t>(in_column && (p[0] == -0.5 || p[0] == 0.5 || p[0] == 1.5));
-  }
-  EXPECT_EQ(find_inside(x, {topology, crate.positions}).size(), inside);
-  EXPECT_EQ(find_inside(x, {of_both, both.positions}).size(), inside_both)
-      << "none on a face, also within the other part";
-  Vertices shifted = x;
-  shifted.array() += 1e-9;
-  for (const Inside& found : find_inside(shifted, {topology, crate.positions})) {
-    const Eigen::Array3d p = shifted.row(found.vertex).transpose().array();
-    EXPECT_NEAR(found.depth, (1 - p.abs()).minCoeff(), 1e-14);
-    EXPECT_GT(found.depth, 0);
+  test::Random random;
+  Vertices x(300, 3);
+  for (int v = 0; v < x.rows(); ++v) x.row(v) = 1.2 * test::random_point(random).transpose();
+  const std::vector<Inside> found = find_inside(x, {topology, crate.positions});
+  EXPECT_EQ(static_cast<Eigen::Index>(found.size()), ((x.array().abs() < 1).rowwise().all()).count());
+  for (const Inside& inside : found) {
+    EXPECT_NEAR(inside.depth, (1 - x.row(inside.vertex).array().abs()).minCoeff(), 1e-14);
   }
 }
 

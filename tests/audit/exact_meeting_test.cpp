@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
+#include <vector>
 
 #include "audit/meeting.hpp"
 #include "tests/audit/exact_roots.hpp"
@@ -85,7 +89,28 @@ Way random_way(test::Random& random, int size) {
   return {from, {whole(), whole(), whole()}};
 }
 
-/// Compares both kinds of features; returns how many cases met by touching alone.
+/// A map of integers that rounds nothing and has an inverse, so features meet after it exactly where they met before.
+struct AffineMap {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] Way operator()(const Way& way) const { return {matrix * way.from + shift, matrix * way.to + shift}; }
+};
+
+/// Entries of 30 bits: exact areas have some 66 bits and volumes some 100, so doubles round them.
+/// @param upright whether it keeps what lies above each other above each other: an area that is zero throughout stays
+/// so
+AffineMap large_map(bool upright, test::Random& random) {
+  AffineMap map;
+  do {
+    for (double& entry : map.matrix.reshaped()) entry = std::floor(random.between(-0x1p30, 0x1p30));
+    for (double& entry : map.shift) entry = std::floor(random.between(-0x1p45, 0x1p45));
+    if (upright) map.matrix.row(2).head<2>().setZero(), map.matrix.col(2).head<2>().setZero();
+  } while (std::abs(map.matrix.determinant()) < 0x1p80);
+  return map;
+}
+
+/// Compares both kinds of features, as they are and mapped; returns how many cases met by touching alone.
 int compare(int size, int cases) {
   test::Random random(static_cast<std::uint64_t>(size));
   int undecided = 0, met = 0, touched = 0;
@@ -96,11 +121,15 @@ int compare(int size, int cases) {
     const std::optional<bool> expected = vertex ? vertex_meets(w) : edges_meet_exactly(w);
     undecided += static_cast<int>(!expected);
     if (!expected) continue;
-    const auto meeting =
-        vertex ? vertex_meets_triangle(w[0], {w[1], w[2], w[3]}) : edges_meet({w[0], w[1]}, {w[2], w[3]});
-    EXPECT_EQ(meeting.has_value(), *expected) << "case " << i << " of size " << size;
+    for (const AffineMap& map : {AffineMap{}, large_map(false, random), large_map(true, random)}) {
+      std::array<Way, 4> m;
+      std::ranges::transform(w, m.begin(), map);
+      const auto meeting =
+          vertex ? vertex_meets_triangle(m[0], {m[1], m[2], m[3]}) : edges_meet({m[0], m[1]}, {m[2], m[3]});
+      EXPECT_EQ(meeting.has_value(), *expected) << "case " << i << " of size " << size;
+      touched += static_cast<int>(meeting && meeting->touch);
+    }
     met += static_cast<int>(*expected);
-    touched += static_cast<int>(meeting && meeting->touch);
   }
   EXPECT_LT(undecided, cases / 2);
   EXPECT_GT(met, cases / 100);

@@ -64,6 +64,22 @@ TEST(Passages, OfRandomMotionsAreThoseOfAllPairs) {
   EXPECT_GT(found, 1000U);
 }
 
+// Places on a lattice of integers: most pairs that meet touch exactly, and many boxes have a side in common.
+TEST(Passages, OnALatticeAreThoseOfAllPairs) {
+  const Mesh grid = make_grid(4, 4);
+  const Topology topology = make_topology(grid.triangles);
+  test::Random random(5);
+  int touched = 0;
+  for (int i = 0; i < test::tries(100); ++i) {
+    const auto lattice = [&] { return (6 * shaken_grid(grid, 0.5, random)).array().round().matrix().eval(); };
+    const Vertices from = lattice(), to = i % 3 == 0 ? from : lattice();
+    const std::vector<Passage> passages = find_passages({topology, from, to});
+    ASSERT_EQ(names(passages), all_pairs({topology, from, to})) << i;
+    touched += static_cast<int>(std::ranges::count(passages, true, &Passage::touch));
+  }
+  EXPECT_GT(touched, test::tries(100));
+}
+
 TEST(Passages, OfAFlatClothThatIsShakenALittleAreThoseOfAllPairs) {
   const Mesh grid = make_grid(8, 8);
   const Topology topology = make_topology(grid.triangles);
