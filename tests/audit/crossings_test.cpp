@@ -139,10 +139,14 @@ TEST(InsideOfABox, IsAsDeepAsItsNearestFaceIsFar) {
   test::Random random;
   Vertices x(300, 3);
   for (int v = 0; v < x.rows(); ++v) x.row(v) = 1.2 * test::random_point(random).transpose();
-  const std::vector<Inside> found = find_inside(x, {topology, crate.positions});
-  EXPECT_EQ(static_cast<Eigen::Index>(found.size()), ((x.array().abs() < 1).rowwise().all()).count());
-  for (const Inside& inside : found) {
-    EXPECT_NEAR(inside.depth, (1 - x.row(inside.vertex).array().abs()).minCoeff(), 1e-14);
+  for (const double angle : {0.0, 0.4, 1.1, 2.5}) {
+    const Eigen::RowVector3d shift = angle * Eigen::RowVector3d(1, -2, 3);
+    const std::vector<Inside> found =
+        find_inside(moved(x, angle, shift), {topology, moved(crate.positions, angle, shift)});
+    EXPECT_EQ(static_cast<Eigen::Index>(found.size()), ((x.array().abs() < 1).rowwise().all()).count()) << angle;
+    for (const Inside& inside : found) {
+      EXPECT_NEAR(inside.depth, (1 - x.row(inside.vertex).array().abs()).minCoeff(), 1e-13);
+    }
   }
 }
 

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "audit/energy_rise.hpp"
+#include "sim/settings.hpp"
+
+namespace drape::test {
+
+/// Findings of the exact checker over all steps of a run: the cloth with itself and with every body.
+struct AuditedRun {
+  int steps = 0;
+  int with_passages = 0;           ///< steps in which something met on its straight way
+  int with_crossings = 0;          ///< steps that end with an edge through a triangle
+  double deepest = 0;              ///< of a vertex in a closed body, a sphere or a ground after any step [m]
+  audit::EnergyRise rise;          ///< of the total energy, whatever did work
+  std::vector<std::string> first;  ///< the first findings, at most ten: "step 3: cloth edge 1 2 meets …"
+};
+
+/// Simulates so many steps and audits each.
+AuditedRun audit_run(const SimulationSettings& settings, std::int64_t steps);
+
+}  // namespace drape::test
