@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "audit/boxes.hpp"
 #include "audit/orientation.hpp"
@@ -36,6 +37,11 @@ std::string describe(const Crossing& crossing) {
                      describe(crossing.triangle_owner, {crossing.triangle.begin(), crossing.triangle.end()}));
 }
 
+void sort(std::vector<Crossing>& crossings) {
+  std::ranges::sort(crossings, {},
+                    [](const Crossing& c) { return std::tuple(c.edge_owner, c.edge, c.triangle_owner, c.triangle); });
+}
+
 bool goes_through(const std::array<Eigen::Vector3d, 2>& edge, const std::array<Eigen::Vector3d, 3>& triangle) {
   const auto& [p, q] = edge;
   const auto& [a, b, c] = triangle;
@@ -50,7 +56,7 @@ std::vector<Crossing> find_crossings(const Surface& cloth) {
   const Surface exact{cloth.topology, x};
   std::vector<Crossing> found;
   add_crossings(exact, Owner::cloth, exact, Owner::cloth, found);
-  std::ranges::sort(found);
+  sort(found);
   return found;
 }
 
@@ -62,7 +68,7 @@ std::vector<Crossing> find_crossings(const Surface& cloth, const Surface& body) 
   std::vector<Crossing> found;
   add_crossings(exact_cloth, Owner::cloth, exact_body, Owner::body, found);
   add_crossings(exact_body, Owner::body, exact_cloth, Owner::cloth, found);
-  std::ranges::sort(found);
+  sort(found);
   return found;
 }
 

@@ -14,7 +14,7 @@ struct Crossing {
   Owner triangle_owner = Owner::cloth;
   Triangle triangle = {};
 
-  auto operator<=>(const Crossing&) const = default;
+  bool operator==(const Crossing&) const = default;
 };
 
 /// "cloth edge 3 4 goes through body triangle 7 8 9"
@@ -34,6 +34,9 @@ std::vector<Crossing> find_crossings(const Surface& cloth);
 
 /// Finds all edges of the cloth that go through triangles of the body, and of the body through the cloth, sorted.
 std::vector<Crossing> find_crossings(const Surface& cloth, const Surface& body);
+
+/// Sorts as find_crossings does: by owners, edge and triangle.
+void sort(std::vector<Crossing>& crossings);
 
 /// Decides whether one edge goes through one triangle, see find_crossings.
 bool goes_through(const std::array<Eigen::Vector3d, 2>& edge, const std::array<Eigen::Vector3d, 3>& triangle);
