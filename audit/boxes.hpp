@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <vector>
 
 #include "audit/box_tree.hpp"
@@ -11,18 +12,21 @@ namespace drape::audit {
 /// @throws std::invalid_argument naming the vertex if a coordinate is not finite or too large
 Vertices exact_positions(const Vertices& x);
 
-/// The box of each feature's vertices at both ends of a step.
+/// The box of each feature's vertices at all of some places.
 /// @param features of 1, 2 or 3 vertices each
 template <std::size_t count>
-std::vector<Box> swept_boxes(const std::vector<std::array<int, count>>& features, const Vertices& from,
-                             const Vertices& to) {
+std::vector<Box> boxes_around(const std::vector<std::array<int, count>>& features,
+                              std::initializer_list<const Vertices*> places) {
   std::vector<Box> boxes;
   boxes.reserve(features.size());
   for (const std::array<int, count>& feature : features) {
-    Box box{from.row(feature[0]).transpose().array(), from.row(feature[0]).transpose().array()};
+    const Eigen::Array3d first = (*places.begin())->row(feature[0]).transpose().array();
+    Box box{first, first};
     for (const int v : feature) {
-      const Eigen::Array3d a = from.row(v).transpose().array(), b = to.row(v).transpose().array();
-      box.include({a.min(b), a.max(b)});
+      for (const Vertices* place : places) {
+        const Eigen::Array3d x = place->row(v).transpose().array();
+        box.include({x, x});
+      }
     }
     boxes.push_back(box);
   }

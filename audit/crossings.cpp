@@ -16,8 +16,8 @@ Eigen::Vector3d point(const Vertices& x, int vertex) { return x.row(vertex).tran
 void add_crossings(const Surface& edges, Owner edge_owner, const Surface& triangles, Owner triangle_owner,
                    std::vector<Crossing>& found) {
   const bool one_mesh = edge_owner == triangle_owner;
-  const BoxTree edge_tree(swept_boxes(edges.topology.edges, edges.x, edges.x));
-  const BoxTree triangle_tree(swept_boxes(triangles.topology.triangles, triangles.x, triangles.x));
+  const BoxTree edge_tree(boxes_around(edges.topology.edges, {&edges.x}));
+  const BoxTree triangle_tree(boxes_around(triangles.topology.triangles, {&triangles.x}));
   edge_tree.for_pairs_with(triangle_tree, [&](int e, int t) {
     const Edge& edge = edges.topology.edges[static_cast<std::size_t>(e)];
     const Triangle& triangle = triangles.topology.triangles[static_cast<std::size_t>(t)];
@@ -45,7 +45,8 @@ void sort(std::vector<Crossing>& crossings) {
 bool goes_through(const std::array<Eigen::Vector3d, 2>& edge, const std::array<Eigen::Vector3d, 3>& triangle) {
   const auto& [p, q] = edge;
   const auto& [a, b, c] = triangle;
-  if (orientation(a, b, c, p) * orientation(a, b, c, q) >= 0) return false;
+  const int side = orientation(a, b, c, p);
+  if (side == 0 || orientation(a, b, c, q) != -side) return false;
   const int ab = orientation(p, q, a, b), bc = orientation(p, q, b, c), ca = orientation(p, q, c, a);
   return ab * bc >= 0 && bc * ca >= 0 && ca * ab >= 0;
 }

@@ -33,7 +33,7 @@ class Solid {
     for (const auto& [a, b, c] : triangles) {
       corners_.push_back({x_.row(a).transpose(), x_.row(b).transpose(), x_.row(c).transpose()});
     }
-    boxes_ = swept_boxes(triangles, x_, x_);
+    boxes_ = boxes_around(triangles, {&x_});
     bounds_ = boxes_.front();
     for (const Box& box : boxes_) bounds_.include(box);
   }

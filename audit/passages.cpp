@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <tuple>
 
@@ -22,22 +23,33 @@ struct Swept {
   [[nodiscard]] Way way(int v) const { return {from.row(v).transpose(), to.row(v).transpose()}; }
 };
 
-Swept sweep(Owner owner, const SurfaceMotion& motion) {
+/// The mean way of all vertices.
+Eigen::RowVector3d common_way(const SurfaceMotion& motion) {
+  if (motion.from.rows() == 0 || motion.from.rows() != motion.to.rows()) return Eigen::RowVector3d::Zero();
+  return motion.to.colwise().mean() - motion.from.colwise().mean();
+}
+
+/// @param common the way of the frame in which boxes are swept: what moves together does not sweep over each other. The
+///               same for features that may meet. Boxes include the rounding of places in it.
+Swept sweep(Owner owner, const SurfaceMotion& motion, const Eigen::RowVector3d& common) {
   if (motion.from.rows() != motion.to.rows()) {
     throw std::invalid_argument(fmt::format("a step needs as many vertices at its end as at its start, found {} and {}",
                                             motion.to.rows(), motion.from.rows()));
   }
   check_vertices(motion.topology.triangles, motion.from);
   const Vertices from = exact_positions(motion.from), to = exact_positions(motion.to);
+  const Vertices relative = to.rowwise() - common;
+  const Vertices below = relative.unaryExpr([](double x) { return std::nextafter(x, -HUGE_VAL); });
+  const Vertices above = relative.unaryExpr([](double x) { return std::nextafter(x, HUGE_VAL); });
   std::vector<std::array<int, 1>> vertices(static_cast<std::size_t>(from.rows()));
   for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = {static_cast<int>(v)};
   return {owner,
           motion.topology,
           from,
           to,
-          BoxTree(swept_boxes(vertices, from, to)),
-          BoxTree(swept_boxes(motion.topology.edges, from, to)),
-          BoxTree(swept_boxes(motion.topology.triangles, from, to))};
+          BoxTree(boxes_around(vertices, {&from, &below, &above})),
+          BoxTree(boxes_around(motion.topology.edges, {&from, &below, &above})),
+          BoxTree(boxes_around(motion.topology.triangles, {&from, &below, &above}))};
 }
 
 void add_vertices_in_triangles(const Swept& a, const Swept& b, std::vector<Passage>& found) {
@@ -92,7 +104,7 @@ std::string describe(const Passage& passage) {
 }
 
 std::vector<Passage> find_passages(const SurfaceMotion& cloth) {
-  const Swept swept = sweep(Owner::cloth, cloth);
+  const Swept swept = sweep(Owner::cloth, cloth, common_way(cloth));
   std::vector<Passage> found;
   add_vertices_in_triangles(swept, swept, found);
   add_edges(swept, swept, found);
@@ -101,7 +113,8 @@ std::vector<Passage> find_passages(const SurfaceMotion& cloth) {
 }
 
 std::vector<Passage> find_passages(const SurfaceMotion& cloth, const SurfaceMotion& body) {
-  const Swept swept_cloth = sweep(Owner::cloth, cloth), swept_body = sweep(Owner::body, body);
+  const Eigen::RowVector3d common = common_way(cloth);
+  const Swept swept_cloth = sweep(Owner::cloth, cloth, common), swept_body = sweep(Owner::body, body, common);
   std::vector<Passage> found;
   add_vertices_in_triangles(swept_cloth, swept_body, found);
   add_vertices_in_triangles(swept_body, swept_cloth, found);
