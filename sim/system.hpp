@@ -8,6 +8,7 @@
 
 #include "sim/cloth.hpp"
 #include "sim/collider.hpp"
+#include "sim/contact/contact.hpp"
 #include "sim/parallel/threads.hpp"
 #include "sim/pin_motion.hpp"
 #include "sim/state.hpp"
@@ -152,6 +153,7 @@ struct System {
   std::vector<std::unique_ptr<Correction>> corrections;
   std::vector<std::unique_ptr<MotionFilter>> filters;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;
+  std::vector<std::unique_ptr<ContactSource>> contacts;  ///< what the cloth can touch
   std::vector<PinMotion> pin_motions;    ///< of pins that do not stay where they are
   std::vector<PinRelease> pin_releases;  ///< a simulation makes its system anew, without these pins, when it gets there
 

@@ -10,6 +10,7 @@
 #include "core/keys.hpp"
 #include "sim/collision/body_contact.hpp"
 #include "sim/collision/foot_memory.hpp"
+#include "sim/contact/mesh_contacts.hpp"
 #include "sim/effects/contact.hpp"
 #include "sim/effects/motion_keys.hpp"
 
@@ -122,6 +123,11 @@ void Body::check(const SimulationSettings& settings, const ProblemSink& problem)
 void Body::install(System& system) const {
   const std::shared_ptr<const MovingBody> moving = body();
   system.colliders.push_back(std::make_unique<DrawnBody>(moving, thickness));
+  if (response == Response::solved) {
+    const ContactTerms terms{thickness, friction, restitution.value_or(0)};
+    system.contacts.push_back(std::make_unique<BodyContacts>(moving, terms, system.cloth, system.threads));
+    return;
+  }
   const auto feet = std::make_shared<FootMemory>(static_cast<std::size_t>(system.cloth.vertex_count()), thickness);
   install_contact(BodySurface{moving, thickness, feet}, law(), system);
   const BodyLaw limits{thickness, friction, std::sqrt(stiffness)};

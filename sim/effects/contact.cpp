@@ -10,8 +10,9 @@ namespace drape {
 void describe_contact(Keys& keys, double& stiffness, Response& response, double& friction,
                       std::optional<double>& restitution, const std::string& without_restitution) {
   keys.add("stiffness", &stiffness, "1/s²", "Outward acceleration per metre of depth within that reach.").at_least(0);
-  keys.choice("response", response, {"explicit", "implicit"},
-              "Whether the push is evaluated once per step, or solved for together with the springs.");
+  keys.choice("response", response, {"explicit", "implicit", "solved"},
+              "A push that is evaluated once per step, or is solved for together with the springs; or contact without a "
+              "push, solved for with the whole step: its total energy never rises. `stiffness` does not act then.");
   keys.add("friction", &friction, "",
            "Coulomb's coefficient µ: a vertex at rest on a slope of tan θ ≤ µ stays there; 0 is frictionless.")
       .at_least(0);
@@ -21,7 +22,26 @@ void describe_contact(Keys& keys, double& stiffness, Response& response, double&
       .at_most(1);
 }
 
+std::optional<std::string> solved_problem(const SimulationSettings& settings) {
+  if (settings.accuracy) {
+    return "contact that is \"solved\" has no estimate of its error yet: omit 'accuracy' in [time]";
+  }
+  const StepMethod how = settings.integrator.step_method();
+  if (is_explicit(how.method)) {
+    return fmt::format("{} solves for nothing, so contact cannot be \"solved\"; the implicit methods can",
+                       explicit_title(how.method));
+  }
+  if (how.scheme != TimeScheme::backward_euler) {
+    return "contact can be \"solved\" by scheme = \"backward-euler\" alone";
+  }
+  return std::nullopt;
+}
+
 void ContactLaw::check(const SimulationSettings& settings, const ProblemSink& problem) const {
+  if (response == Response::solved) {
+    if (const auto wrong = solved_problem(settings)) problem("response", *wrong);
+    return;
+  }
   if (response == Response::implicit_energy) {
     if (is_explicit(settings.integrator.method)) {
       problem("response", fmt::format("{} evaluates every force once per step and solves for nothing, so the push can "

@@ -30,6 +30,9 @@ struct ContactLaw {
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;
 };
 
+/// What keeps contact from being Response::solved in these settings.
+std::optional<std::string> solved_problem(const SimulationSettings& settings);
+
 /// Adds the keys of an effect that has these members.
 /// @param without_restitution ends the sentence about restitution: what happens without
 void describe_contact(Keys& keys, double& stiffness, Response& response, double& friction,

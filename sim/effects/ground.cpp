@@ -1,6 +1,8 @@
 #include "sim/effects/ground.hpp"
 
 #include "core/keys.hpp"
+#include "sim/contact/obstacles.hpp"
+#include "sim/contact/surface_contacts.hpp"
 #include "sim/effects/contact.hpp"
 
 namespace drape {
@@ -51,6 +53,11 @@ void Ground::check(const SimulationSettings& settings, const ProblemSink& proble
 void Ground::install(System& system) const {
   const Eigen::Vector3d up = normal.stableNormalized();
   system.colliders.push_back(std::make_unique<RestingGround>(GroundShape{up, height, thickness}));
+  if (response == Response::solved) {
+    const ContactTerms terms{thickness, friction, restitution.value_or(0)};
+    system.contacts.push_back(std::make_unique<SurfaceContacts<PlaneObstacle>>(PlaneObstacle{up, height}, terms));
+    return;
+  }
   install_contact(GroundSurface{up, height + thickness}, law(), system);
 }
 

@@ -5,7 +5,10 @@
 #include "core/keys.hpp"
 #include "sim/collision/intersection.hpp"
 #include "sim/collision/self_contact.hpp"
+#include "sim/contact/mesh_contacts.hpp"
+#include "sim/effects/contact.hpp"
 #include "sim/settings.hpp"
+#include "sim/system.hpp"
 
 namespace drape {
 
@@ -15,12 +18,18 @@ void SelfCollision::describe(Keys& keys) {
            "Rate at which layers that are too close separate, as a fraction of the missing distance per second.")
       .at_least(0);
   keys.add("friction", &friction, "", "Coefficient of Coulomb friction between layers.").at_least(0);
+  keys.choice("response", response, {"explicit", "implicit", "solved"},
+              "Impulses after the step; or \"solved\": contact is solved for with the whole step, see `ground`.");
   keys.add("iterations", &iterations, "",
            "Passes over the contacts in a step, and over the collisions before the rest becomes rigid for that step.")
       .at_least(1);
 }
 
 void SelfCollision::check(const SimulationSettings& settings, const ProblemSink& problem) const {
+  if (response == Response::implicit_energy) problem("response", "expected \"explicit\" or \"solved\"");
+  if (response == Response::solved) {
+    if (const auto wrong = solved_problem(settings)) problem("response", *wrong);
+  }
   const Vertices& x = settings.cloth.positions;
   const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
   // Everything would touch everything, in a time that grows with the square of the mesh's size.
@@ -38,6 +47,11 @@ void SelfCollision::check(const SimulationSettings& settings, const ProblemSink&
 }
 
 void SelfCollision::install(System& system) const {
+  if (response == Response::solved) {
+    const ContactTerms terms{.distance = thickness, .friction = friction};
+    system.contacts.push_back(std::make_unique<SelfContacts>(terms, system.cloth, system.threads));
+    return;
+  }
   system.filters.push_back(std::make_unique<SelfContact>(*this, system.cloth, system.threads));
 }
 

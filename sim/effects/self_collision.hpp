@@ -4,6 +4,7 @@
 //   drape::Effects effects{drape::SelfCollision{.thickness = 0.02}};
 
 #include "sim/effects/effect.hpp"
+#include "sim/effects/response.hpp"
 
 namespace drape {
 
@@ -14,6 +15,7 @@ struct SelfCollision {
   double thickness = 0.01;  ///< the distance that layers of the cloth keep [m]
   double repulsion = 20;    ///< the part of the missing distance by which they separate per second, at first [1/s]
   double friction = 0.3;    ///< Coulomb's coefficient between layers
+  Response response = Response::explicit_force;
   int iterations = 10;      ///< passes over the contacts of a step, and over its collisions before they become rigid
 
   void describe(Keys& keys);

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/keys.hpp"
+#include "sim/contact/obstacles.hpp"
+#include "sim/contact/surface_contacts.hpp"
 #include "sim/effects/contact.hpp"
 #include "sim/effects/motion_keys.hpp"
 
@@ -98,6 +100,11 @@ void Sphere::install(System& system) const {
   const std::shared_ptr<const SphereTrack> moving = motion();
   const Reach reach = thickness ? Reach{1, *thickness} : Reach{scale.value_or(usual_scale), 0};
   system.colliders.push_back(std::make_unique<TrackedSphere>(moving, reach));
+  if (response == Response::solved) {
+    const ContactTerms terms{reach.thickness, friction, restitution.value_or(0)};
+    system.contacts.push_back(std::make_unique<SurfaceContacts<BallObstacle>>(BallObstacle{moving, reach.scale}, terms));
+    return;
+  }
   install_contact(SphereSurface{moving, reach}, law(), system);
 }
 

@@ -63,7 +63,15 @@ NewtonCholesky::NewtonCholesky(const System& system, const StepObjective& object
     inertia_.push_back(objective.inertia()[vertices_.back()]);
   }
   const StiffnessBound bound = system.stiffness_bound();
-  const LowerPattern blocks = spring_pattern(bound, free);
+  pattern_ = spring_pattern(bound, free);
+  const LowerPattern& blocks = pattern_;
+  for (int i = 0; i < system.cloth.vertex_count(); ++i) numbers_.push_back(free.number(i));
+  Eigen::VectorXd sums = objective.inertia() + bound.vertices;
+  bound.for_each_pair([&](const Spring& pair) {
+    sums[pair.i] += std::max(0.0, pair.stiffness);
+    sums[pair.j] += std::max(0.0, pair.stiffness);
+  });
+  for (const int vertex : vertices_) bound_.push_back(sums[vertex]);
   bound.for_each_pair([&](const Spring& spring) {
     const auto [low, high] = std::minmax({free.number(spring.i), free.number(spring.j)});
     places_.push_back({low, high, 0});
@@ -79,6 +87,39 @@ NewtonCholesky::NewtonCholesky(const System& system, const StepObjective& object
   values_.resize(Index(pattern.entries()));
   right_hand_side_.resize(3 * Index(n));
   factor_.emplace(pattern, expanded(dissect(blocks, free.rest_places(system.cloth))));
+}
+
+int NewtonCholesky::rank_of(int low, int high) const {
+  const auto begin = pattern_.rows.begin() + pattern_.starts[Index(low)];
+  const auto end = pattern_.rows.begin() + pattern_.starts[Index(low) + 1];
+  const auto at = std::lower_bound(begin, end, high);
+  return at != end && *at == high ? static_cast<int>(at - begin) - 1 : -1;
+}
+
+bool NewtonCholesky::couples(const ContactBlock& block) const {
+  for (Index a = 0; a < Index(block.count); ++a) {
+    for (Index b = 0; b < a; ++b) {
+      const auto [low, high] = std::minmax(numbers_[Index(block.vertices[a])], numbers_[Index(block.vertices[b])]);
+      if (low >= 0 && rank_of(low, high) < 0) return false;
+    }
+  }
+  return true;
+}
+
+void NewtonCholesky::add_contacts() {
+  for (const ContactBlock& block : contacts_) {
+    for (Index a = 0; a < Index(block.count); ++a) {
+      const int i = numbers_[Index(block.vertices[a])];
+      if (i < 0) continue;
+      add_diagonal(i, block.weights[a] * block.weights[a] * block.stiffness);
+      for (Index b = 0; b < a; ++b) {
+        const int j = numbers_[Index(block.vertices[b])];
+        if (j < 0) continue;
+        add_below(std::min(i, j), rank_of(std::min(i, j), std::max(i, j)),
+                  block.weights[a] * block.weights[b] * block.stiffness);
+      }
+    }
+  }
 }
 
 void NewtonCholesky::add(const Place& place, const Eigen::Matrix3d& block) {
@@ -106,12 +147,14 @@ void NewtonCholesky::add_below(int column_block, int rank, const Eigen::Matrix3d
 void NewtonCholesky::assemble(const Vertices& x, double concavity) {
   std::fill(values_.begin(), values_.end(), 0.0);
   for (Index row = 0; row < inertia_.size(); ++row) {
-    add_diagonal(static_cast<int>(row), inertia_[row] * Eigen::Matrix3d::Identity());
+    add_diagonal(static_cast<int>(row), (inertia_[row] + damping_ * bound_[row]) * Eigen::Matrix3d::Identity());
   }
   for (Index s = 0; s < system_.springs.size(); ++s) {
     if (places_[s].high >= 0) add(places_[s], spring_hessian(system_.springs[s], x, concavity));
   }
   add_energies(x, concavity);
+  add_contacts();
+  share_ = concavity;
 }
 
 bool NewtonCholesky::factorize(const Vertices& x, double most) {
@@ -161,6 +204,11 @@ void NewtonCholesky::add_energies(const Vertices& x, double concavity) {
 void NewtonCholesky::solve(const Vertices& x, const Vertices& gradient, double concavity, Vertices& direction) {
   direction.setZero();
   if (!factor_ || !factorize(x, concavity)) return;
+  solve_again(gradient, direction);
+}
+
+void NewtonCholesky::solve_again(const Vertices& gradient, Vertices& direction) {
+  direction.setZero();
   for (Index row = 0; row < vertices_.size(); ++row) {
     for (int axis = 0; axis < 3; ++axis) right_hand_side_[3 * row + Index(axis)] = gradient(vertices_[row], axis);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,14 @@
 
 namespace drape {
 
+/// What a contact adds to a Hessian: weights[i]·weights[j]·stiffness for each pair of its vertices.
+struct ContactBlock {
+  int count = 1;
+  std::array<int, 4> vertices = {};
+  std::array<double, 4> weights = {};
+  Eigen::Matrix3d stiffness;  ///< symmetric and positive semi-definite [N/m]
+};
+
 /// Newton's equations by a Cholesky factor of H = M/h² + Σ Kₛ, with one symmetric 3×3 block per spring and per pair of
 /// vertices that an energy couples, and those of energies of single vertices on its diagonal. The sparsity is
 /// analysed once, on the n×n graph of vertices; every assembly writes the values in place.
@@ -19,10 +28,22 @@ class NewtonCholesky final : public NewtonSolver {
   void begin() override { concavity_ = 1; }
   void solve(const Vertices& x, const Vertices& gradient, double concavity, Vertices& direction) override;
 
+  /// Whether every two of these vertices that are free are coupled by springs or energies.
+  [[nodiscard]] bool couples(const ContactBlock& block) const;
+  /// Has H contain these from now on, all of which couple what H couples anyway.
+  void set_contacts(std::vector<ContactBlock> contacts) { contacts_ = std::move(contacts); }
+  /// Has H contain this times the diagonal of springs, inertia and energies' bound as well.
+  void set_damping(double damping) { damping_ = damping; }
+  /// direction = H⁻¹ vector with the factor of the last solve().
+  void solve_again(const Vertices& vector, Vertices& direction);
+  /// Share of the negative eigenvalues in that factor.
+  [[nodiscard]] double share() const { return share_; }
+
  private:
   /// Writes H.
   void assemble(const Vertices& x, double concavity);
   void add_energies(const Vertices& x, double concavity);
+  void add_contacts();
   /// Factors H with the largest share that leaves it positive definite, among a few. Returns false where it is not
   /// finite.
   [[nodiscard]] bool factorize(const Vertices& x, double most);
@@ -42,6 +63,14 @@ class NewtonCholesky final : public NewtonSolver {
 
   const System& system_;
   const StepObjective& objective_;
+  /// Place of the block of two free rows among those of the smaller one's column; −1: none.
+  [[nodiscard]] int rank_of(int low, int high) const;
+
+  std::vector<ContactBlock> contacts_;
+  double damping_ = 0, share_ = 0;
+  LowerPattern pattern_;            // of blocks
+  std::vector<int> numbers_;        // of each vertex, its block row; −1: pinned
+  std::vector<double> bound_;       // of each block row: what holds it at most [N/m]
   double concavity_ = 1;            // that is tried next
   std::vector<int> vertices_;       // of each block row
   std::vector<Place> places_;       // of each spring, then of each pair of each energy

@@ -1,5 +1,8 @@
 #include "sim/schemes/backward_euler.hpp"
 
+#include <cstdio>
+#include <cstdlib>
+
 #include "sim/parallel/vectors.hpp"
 
 namespace drape {
@@ -14,16 +17,25 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   objective_.begin(state.x, state.v, force, system_.time(state.step + 1));
   books_.begin(state, point_.x);
   begin_point(state, expected.late);
-  StepReport report = solver_->minimise(point_, [this] { return !books_.gains(point_, true); });
-  if (free_) balance_momentum(system_.cloth, objective_, point_);
+  const Vertices before = contact_ ? state.v : Vertices();
+  if (contact_) contact_->begin(state.x, system_.time(state.step), system_.time(state.step + 1));
+  StepReport report = solve_step([this] { return !books_.gains(point_, true); });
+  const bool touches = contact_ && !contact_->contacts().empty();
+  if (free_ && !touches) balance_momentum(system_.cloth, objective_, point_);
   // A step that a small change ended has been looked at, unless it has just been moved.
   const bool looked = !free_ && report.converged && solver_->accuracy().rule == StoppingRule::change;
-  if (!looked && books_.gains(point_, report.converged)) {
+  if (touches && books_.gains_in_contact(point_, contact_->work_of_obstacles())) {
+    if (std::getenv("DRAPE_CT")) std::fprintf(stderr, "BOOKS shed\n");
+    if (!contact_->carried()) report.kept = books_.shed(point_);
+    report.converged = false;
+  }
+  if (!touches && !looked && books_.gains(point_, report.converged)) {
     report.kept = books_.shed(point_);
     report.converged = false;
   }
   books_.end(point_);
   divided_difference(system_.threads, point_.x, state.x, system_.step, state.v);
+  if (touches) contact_->rebound(before, system_.step, state.v);
   system_.move(state, &point_.x);
   system_.correct(state);
   return report;

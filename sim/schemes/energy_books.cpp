@@ -88,12 +88,21 @@ bool EnergyBooks::gains(const Iterate& point, bool tolerant) {
   };
   if (!too_much()) return false;
   if (start_exact_) return true;
+  evaluate_start();
+  return too_much();
+}
+
+bool EnergyBooks::gains_in_contact(const Iterate& point, double work) {
+  if (!start_exact_) evaluate_start();
+  return gain(point) - work > rounding(point);
+}
+
+void EnergyBooks::evaluate_start() {
   start_.x = state_->x;
   start_.gradient.resize(start_.x.rows(), 3);
   system_.place_pins(system_.time(state_->step + 1), start_.x);
   start_.value = objective_.evaluate(start_.x, start_.gradient);
   start_exact_ = true;
-  return too_much();
 }
 
 double EnergyBooks::gain(const Iterate& point) const {

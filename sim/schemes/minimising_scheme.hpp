@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/parallel/vectors.hpp"
+#include "sim/contact/contact_solver.hpp"
 #include "sim/schemes/energy_books.hpp"
 #include "sim/schemes/scheme.hpp"
 #include "sim/solvers/minimiser.hpp"
@@ -31,7 +32,23 @@ class MinimisingScheme : public Scheme {
         objective_(system, duration),
         solver_(make_solver(objective_)),
         point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
-        free_(is_free(system)) {}
+        free_(is_free(system)) {
+    if (!system.contacts.empty()) contact_.emplace(system);
+  }
+
+  /// Minimises the objective from the point, under the contacts of a step that began at contact_->begin().
+  StepReport solve_step(const std::function<bool()>& may_end) {
+    if (!contact_) return solver_->minimise(point_, may_end);
+    if (!contact_->touches(point_.x)) {
+      const StepReport report = solver_->minimise(point_, may_end);
+      if (!contact_->touches(point_.x)) return report;
+    }
+    if (!problem_) {
+      problem_.emplace(system_, objective_, solver_->constant_factor(), solver_->hessian());
+    }
+    const Accuracy accuracy = solver_->accuracy();
+    return contact_->solve(*problem_, accuracy.tolerance, solver_->max_iterations(), point_);
+  }
 
   struct Expected {
     const Vertices *early = nullptr, *late = nullptr;
@@ -64,6 +81,8 @@ class MinimisingScheme : public Scheme {
   std::unique_ptr<Minimiser> solver_;
   Iterate point_;
   bool free_;  // see is_free()
+  std::optional<ContactSolver> contact_;  // where the cloth can touch something
+  std::optional<ImplicitProblem> problem_;  // of contact, once there is any
 
  private:
   Expected expected_;

@@ -14,6 +14,9 @@ class FactoredMinimiser : public Minimiser {
   FactoredMinimiser(const System& system, const StepObjective& objective, const IntegratorSettings& settings,
                     int default_max_iterations);
 
+ public:
+  ConstantFactor& constant_factor() override { return factor_; }
+
  protected:
   ConstantFactor& factor() { return factor_; }
   void find_newton_step(const Iterate& point, Vertices& direction) override;

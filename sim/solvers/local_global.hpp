@@ -11,6 +11,8 @@ class LocalGlobal final : public FactoredMinimiser {
  public:
   LocalGlobal(const System& system, const StepObjective& objective, const IntegratorSettings& settings);
 
+  [[nodiscard]] ImplicitHessian hessian() const override { return ImplicitHessian::constant; }
+
  private:
   double iterate(Iterate& point) override;
 };

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "sim/linear/constant_factor.hpp"
 #include "sim/solvers/accuracy.hpp"
 #include "sim/step_objective.hpp"
 #include "sim/step_report.hpp"
@@ -14,6 +15,9 @@ struct Iterate {
   Vertices gradient;  ///< ∇g(x), n×3, zero on pins [N]
   double value = 0;   ///< g(x) [J]
 };
+
+/// What stands for the Hessian of g in a step with contact: Newton's, or Liu13's constant matrix A.
+enum class ImplicitHessian { newton, constant };
 
 /// Minimises the g of a step, StepObjective, over the free vertices. Solvers differ in the direction of an iteration;
 /// they share the stopping rule and the line search. Nothing is carried from one minimisation to the next, so that its
@@ -39,6 +43,13 @@ class Minimiser {
   /// stopped at, or else Newton's step from there, which costs some iterations. Nothing of what comes after depends on
   /// whether it was asked for.
   double error(const Iterate& point);
+
+  /// Factor of Liu13's matrix A of this system.
+  virtual ConstantFactor& constant_factor() = 0;
+  /// Model of the Hessian that steps with contact use.
+  [[nodiscard]] virtual ImplicitHessian hessian() const { return ImplicitHessian::newton; }
+  /// Most iterations of a step.
+  [[nodiscard]] int max_iterations() const { return max_iterations_; }
 
  protected:
   /// Begins another minimisation.

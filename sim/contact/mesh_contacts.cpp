@@ -1,0 +1,245 @@
+#include "sim/contact/mesh_contacts.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/collision/impact.hpp"
+
+namespace drape {
+namespace {
+
+using Index = std::size_t;
+
+constexpr double impact_share = 0.5;  // of the distance at the end, down to which features may come on their way
+constexpr double target_slack = 0.25;       // how far a vertex may end from where pairs were searched for, in distances
+constexpr double resolved = 1e-9;    // of the distance: below, a difference has no direction
+
+Point plane_normal(Feature feature, const FourPoints& p) {
+  const bool edges = feature == Feature::edge_edge;
+  const Point first = edges ? p[1] - p[0] : p[2] - p[1], second = edges ? p[3] - p[2] : p[3] - p[1];
+  const Point normal = first.cross(second);
+  return normal.norm() > 1e-9 * first.norm() * second.norm() ? normal.normalized() : Point(Point::Zero());
+}
+
+bool inside(const std::array<double, 4>& weights, Feature feature) {
+  const auto first = feature == Feature::vertex_triangle ? weights.begin() + 1 : weights.begin();
+  return std::none_of(first, weights.end(), [](double w) { return w == 0; });
+}
+
+bool is_held(const std::vector<ContactConstraint>& held, const ContactKey& key) {
+  const auto at = std::ranges::lower_bound(held, key, {}, &ContactConstraint::key);
+  return at != held.end() && at->key == key;
+}
+
+}  // namespace
+
+std::optional<Touch> find_touch(const FeatureWays& ways, double distance, bool held) {
+  const auto& [feature, from, to, before] = ways;
+  if (!(before > 0)) return std::nullopt;
+  FourPoints move;
+  for (Index i = 0; i < 4; ++i) move[i] = to[i] - from[i];
+  if (const auto time = time_of_impact(feature, from, move, impact_share * distance)) {
+    FourPoints p = from;
+    for (Index i = 0; i < 4; ++i) p[i] += *time * move[i];
+    const Nearest near = nearest(feature, p);
+    if (near.squared > 0) return Touch{near.weights, near.difference(p).normalized(), true};
+    return std::nullopt;
+  }
+  const Nearest near = nearest(feature, to);
+  if (!held && near.squared >= 1.5 * distance * distance) return std::nullopt;
+  // The ends of edges are vertices beside triangles, too.
+  if (feature == Feature::edge_edge && !inside(near.weights, feature)) return std::nullopt;
+  const Point difference = near.difference(to);
+  Point normal = difference.normalized();
+  if (inside(near.weights, feature)) {
+    const Point plane = plane_normal(feature, to);
+    if (!plane.isZero(0)) normal = plane.dot(difference) < 0 ? Point(-plane) : plane;
+  } else if (!(std::sqrt(near.squared) > resolved * distance)) {
+    return std::nullopt;
+  }
+  return Touch{near.weights, normal, false};
+}
+
+SelfContacts::SelfContacts(const ContactTerms& terms, const Cloth& cloth, const Threads& threads)
+    : terms_(terms), cloth_(cloth), candidates_(cloth, threads) {
+  x_.resize(static_cast<Index>(cloth.vertex_count()));
+  target_ = x_;
+}
+
+void SelfContacts::begin(const Vertices& x, double start, double end) {
+  duration_ = end - start;
+  searched_ = false;
+  for (Index i = 0; i < x_.size(); ++i) x_[i] = x.row(static_cast<Eigen::Index>(i)).transpose();
+}
+
+double SelfContacts::rest_distance(const FeaturePair& pair) const {
+  FourPoints rest;
+  for (Index i = 0; i < 4; ++i) rest[i] = cloth_.rest.row(pair.vertices[i]).transpose();
+  return std::sqrt(nearest(pair.feature, rest).squared);
+}
+
+void SelfContacts::find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
+                        std::vector<ContactConstraint>& contacts) {
+  bool astray = !searched_;
+  for (Index i = 0; i < x_.size(); ++i) {
+    target_[i] = target.row(static_cast<Eigen::Index>(i)).transpose();
+    if (!astray) astray = (target_[i] - found_for_[i]).norm() > target_slack * terms_.distance;
+  }
+  if (astray) {
+    candidates_.find(x_, target_, (1 + 2 * target_slack) * terms_.distance);
+    found_for_ = target_;
+    searched_ = true;
+  }
+  for (const FeaturePair& pair : candidates_.pairs()) {
+    const ContactKey key{source, static_cast<int>(pair.feature), pair.vertices};
+    const FourPoints from = gather(x_, pair.vertices), to = gather(target_, pair.vertices);
+    const bool bears = is_held(held, key);
+    if (!bears && kept_apart(pair.feature, from, to, terms_.distance)) continue;
+    const double before = std::sqrt(nearest(pair.feature, from).squared);
+    const double kept = std::min(terms_.distance, rest_distance(pair));
+    const double distance = distance_at_end(before, kept, duration_);
+    const auto touch = find_touch({pair.feature, from, to, before}, distance, bears);
+    if (!touch) continue;
+    ContactConstraint contact;
+    contact.key = key;
+    contact.count = 4;
+    contact.vertices = pair.vertices;
+    contact.weights = touch->weights;
+    contact.normal = touch->normal;
+    contact.offset = contact.carried = Eigen::Vector3d::Zero();
+    contact.start = Eigen::Vector3d::Zero();
+    for (Index i = 0; i < 4; ++i) contact.start += touch->weights[i] * from[i];
+    contact.distance = distance;
+    contact.friction = terms_.friction;
+    contact.collides = touch->collides;
+    contacts.push_back(contact);
+  }
+}
+
+BodyContacts::BodyContacts(std::shared_ptr<const MovingBody> body, const ContactTerms& terms, const Cloth& cloth,
+                           const Threads& threads)
+    : body_(std::move(body)),
+      terms_(terms),
+      cloth_(cloth),
+      cloth_count_(cloth.vertex_count()),
+      start_(body_->at(0)),
+      end_(start_),
+      candidates_(body_->topology(), static_cast<int>(end_.mesh->points().size()), cloth, terms.distance, threads),
+      feet_(static_cast<Index>(cloth.vertex_count()), 2 * terms.distance) {
+  x_.resize(static_cast<Index>(cloth_count_) + end_.mesh->points().size());
+  target_ = x_;
+}
+
+void BodyContacts::begin(const Vertices& x, double start, double end) {
+  duration_ = end - start;
+  searched_ = false;
+  world_ = &x;
+  start_ = body_->at(start);
+  end_ = body_->at(end);
+  for (int i = 0; i < cloth_count_; ++i) x_[Index(i)] = start_.pose.in(x.row(i).transpose());
+  std::ranges::copy(start_.mesh->points(), x_.begin() + cloth_count_);
+  std::ranges::copy(end_.mesh->points(), target_.begin() + cloth_count_);
+}
+
+bool BodyContacts::is_clear(const Vertices& target) const {
+  const auto turned = [](const Vertices& all, const Pose& pose) -> Box {
+    const Point low = all.colwise().minCoeff().transpose(), high = all.colwise().maxCoeff().transpose();
+    const Point middle = pose.in((low + high) / 2), half = pose.turn.transpose().cwiseAbs() * ((high - low) / 2);
+    return {middle - half, middle + half};
+  };
+  const Box from = turned(*world_, start_.pose), to = turned(target, end_.pose);
+  const double reach = 2 * terms_.distance;
+  const Box way{from.low.cwiseMin(to.low).array() - reach, from.high.cwiseMax(to.high).array() + reach};
+  const Box &body = start_.mesh->tree().bounds(), &moved = end_.mesh->tree().bounds();
+  return !way.overlaps({body.low.cwiseMin(moved.low), body.high.cwiseMax(moved.high)});
+}
+
+void BodyContacts::find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
+                        std::vector<ContactConstraint>& contacts) {
+  if (is_clear(target)) return;
+  bool astray = !searched_;
+  for (int i = 0; i < cloth_count_; ++i) {
+    target_[Index(i)] = end_.pose.in(target.row(i).transpose());
+    if (!astray) astray = (target_[Index(i)] - found_for_[Index(i)]).norm() > target_slack * terms_.distance;
+  }
+  if (astray) {
+    candidates_.find({x_, target_, *start_.mesh, *end_.mesh}, (kept_part + 2 * target_slack) * terms_.distance);
+    found_for_ = target_;
+    searched_ = true;
+  }
+  const auto first = static_cast<std::ptrdiff_t>(contacts.size());
+  find_vertices(target, source, held, contacts);
+  find_pairs(source, held, contacts);
+  std::ranges::sort(contacts.begin() + first, contacts.end(), {}, &ContactConstraint::key);
+}
+
+void BodyContacts::find_vertices(const Vertices&, int source, const std::vector<ContactConstraint>& held,
+                                 std::vector<ContactConstraint>& contacts) {
+  for (int i = 0; i < cloth_count_; ++i) {
+    const ContactKey key{source, 2, {i, -1, -1, -1}};
+    const bool bears = is_held(held, key);
+    Foot foot;
+    if (!feet_.find(*end_.mesh, Index(i), target_[Index(i)], foot)) {
+      if (!bears) continue;
+      const auto far = end_.mesh->find(target_[Index(i)], 100 * terms_.distance);
+      if (!far) continue;
+      foot = *far;
+    }
+    if (!bears && foot.distance >= 2 * terms_.distance) continue;
+    const auto before = start_.mesh->find(x_[Index(i)], 2 * terms_.distance, foot.triangle);
+    const Triangle& t = body_->topology().triangles[Index(foot.triangle)];
+    ContactConstraint contact = make({i, cloth_count_ + t[0], cloth_count_ + t[1], cloth_count_ + t[2]},
+                           {1, -foot.weights[0], -foot.weights[1], -foot.weights[2]}, foot.normal);
+    contact.key = key;
+    contact.distance = before ? distance_at_end(before->distance, terms_.distance, duration_) : terms_.distance;
+    contacts.push_back(contact);
+  }
+}
+
+void BodyContacts::find_pairs(int source, const std::vector<ContactConstraint>& held, std::vector<ContactConstraint>& contacts) {
+  const double kept = kept_part * terms_.distance;
+  for (const BodyPair& met : candidates_.pairs()) {
+    const FeaturePair& pair = met.pair;
+    const ContactKey key{source, static_cast<int>(pair.feature), pair.vertices};
+    const FourPoints from = gather(x_, pair.vertices), to = gather(target_, pair.vertices);
+    const double before = std::sqrt(met.before.squared);
+    const double distance = distance_at_end(before, kept, duration_);
+    const bool bears = is_held(held, key);
+    if (!bears && kept_apart(pair.feature, from, to, distance)) continue;
+    const auto touch = find_touch({pair.feature, from, to, before}, distance, bears);
+    if (!touch) continue;
+    ContactConstraint contact = make(pair.vertices, touch->weights, touch->normal);
+    contact.key = key;
+    contact.distance = distance;
+    contact.collides = touch->collides;
+    contacts.push_back(contact);
+  }
+}
+
+ContactConstraint BodyContacts::make(const std::array<int, 4>& vertices, const std::array<double, 4>& weights,
+                           const Point& normal) const {
+  ContactConstraint contact;
+  contact.count = 0;
+  contact.normal = end_.pose.turn * normal;
+  contact.offset = contact.carried = contact.start = Eigen::Vector3d::Zero();
+  for (Index i = 0; i < 4; ++i) {
+    const int vertex = vertices[i];
+    if (vertex < cloth_count_) {
+      contact.vertices[Index(contact.count)] = vertex;
+      contact.weights[Index(contact.count++)] = weights[i];
+      contact.start += weights[i] * world_->row(vertex).transpose();
+      continue;
+    }
+    const Eigen::Vector3d from = start_.pose.out(x_[Index(vertex)]), to = end_.pose.out(target_[Index(vertex)]);
+    contact.offset += weights[i] * to;
+    contact.carried += weights[i] * (to - from);
+    contact.start += weights[i] * from;
+  }
+  contact.friction = terms_.friction;
+  contact.restitution = terms_.restitution;
+  return contact;
+}
+
+}  // namespace drape

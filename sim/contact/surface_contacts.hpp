@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "sim/contact/contact.hpp"
+
+namespace drape {
+
+/// What a contact is like.
+struct ContactTerms {
+  double distance = 0;     ///< that the features keep [m]
+  double friction = 0;     ///< Coulomb's coefficient
+  double restitution = 0;  ///< of impacts, 0 to 1
+};
+
+/// Rate at which features separate that are nearer than their distance when a step begins, as a fraction of what is
+/// missing [1/s].
+inline constexpr double separation_rate = 20;
+
+/// Distance that features have to end a step at, which began it so far apart: those that are too near separate slowly,
+/// as a jump would stretch the cloth [m].
+inline double distance_at_end(double before, double kept, double duration) {
+  return before >= kept ? kept : before + (kept - before) * std::min(1.0, separation_rate * duration);
+}
+
+/// Contacts of vertices with a smooth surface S that moves as a whole: S.center(time) is its place [m], and of a place
+/// relative to that S.gap(place) is the distance [m] and S.normal(place) the direction outwards, and
+/// S.normal_on_way(from, to) that in which what goes straight has to be stopped.
+template <class Surface>
+class SurfaceContacts final : public ContactSource {
+ public:
+  SurfaceContacts(Surface surface, const ContactTerms& terms) : surface_(std::move(surface)), terms_(terms) {}
+
+  void begin(const Vertices& x, double start, double end) override {
+    x_ = &x;
+    duration_ = end - start;
+    from_ = surface_.at(start);
+    to_ = surface_.at(end);
+    near_ = 2 * terms_.distance + to_.margin();
+  }
+
+  void find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
+            std::vector<ContactConstraint>& contacts) override {
+    auto known = held.begin();
+    for (int i = 0; i < static_cast<int>(target.rows()); ++i) {
+      const Eigen::Vector3d to = target.row(i).transpose() - to_.center;
+      while (known != held.end() && known->key.features[0] < i) ++known;
+      const bool bears = known != held.end() && known->key.features[0] == i;
+      const Eigen::Vector3d from = x_->row(i).transpose() - from_.center;
+      if (!bears && to_.gap(to) >= near_ && !to_.crosses(from, to, terms_.distance)) continue;
+      contacts.push_back(make(i, from, to, source));
+    }
+  }
+
+ private:
+  ContactConstraint make(int i, const Eigen::Vector3d& from, const Eigen::Vector3d& to, int source) const {
+    ContactConstraint contact;
+    contact.key = {.source = source, .features = {i, -1, -1, -1}};
+    contact.vertices[0] = i;
+    contact.weights[0] = 1;
+    contact.normal = to_.normal_on_way(from, to, terms_.distance);
+    contact.offset = -to_.center - to_.surface_point(contact.normal);
+    contact.carried = -(to_.center - from_.center);
+    contact.start = from - to_.surface_point(contact.normal);
+    contact.distance = distance_at_end(from_.gap(from), terms_.distance, duration_);
+    contact.friction = terms_.friction;
+    contact.restitution = terms_.restitution;
+    return contact;
+  }
+
+  Surface surface_;
+  ContactTerms terms_;
+  const Vertices* x_ = nullptr;
+  double duration_ = 0;
+  double near_ = 0;  // what ends nearer is a contact, which may bear a force after the next iteration [m]
+  typename Surface::Placed from_, to_;
+};
+
+}  // namespace drape
