@@ -11,8 +11,8 @@ namespace drape {
 
 /// Identifies a contact within a step: what made it, and the features that meet. Contacts are sorted by it.
 struct ContactKey {
-  int source = 0;                            ///< number of the ContactSource
-  int kind = 0;                              ///< of features, as the source numbers them
+  int source = 0;  ///< number of the ContactSource
+  int kind = 0;    ///< of features, as the source numbers them
   std::array<int, 4> features = {-1, -1, -1, -1};
 
   auto operator<=>(const ContactKey&) const = default;  // NOLINT(modernize-use-nullptr): it takes <=> for a 0
@@ -23,25 +23,34 @@ struct ContactKey {
 /// the contact is the constraint n·d(x) ≥ distance, linear in x, and its force acts on the cloth as weights[i]·force.
 struct ContactConstraint {
   ContactKey key;
-  int count = 1;                            ///< vertices of the cloth that take part, 1 to 4
-  std::array<int, 4> vertices = {};         ///< of the cloth
-  std::array<double, 4> weights = {};       ///< theirs
-  Eigen::Vector3d normal;                   ///< unit vector from the second feature to the first
-  Eigen::Vector3d offset;                   ///< the obstacle's part of d at the end of the step [m]
-  Eigen::Vector3d carried;                  ///< how far the obstacle moves that part in the step [m]
-  Eigen::Vector3d start;                    ///< d at the start of the step, with the same weights [m]
-  double distance = 0;                      ///< the least n·d at the end of the step [m]
-  double friction = 0;                      ///< Coulomb's coefficient µ
-  double restitution = 0;                   ///< fraction of the speed of an impact with which the features part
-  bool collides = false;                    ///< whether the features pass through each other on the straight way
-  double radius = -1;                       ///< largest friction force, µ times a normal one; negative: not known yet [N]
-  double stiffness = 0;                     ///< κ of the augmented Lagrangian [N/m]
+  int count = 1;                       ///< vertices of the cloth that take part, 1 to 4
+  std::array<int, 4> vertices = {};    ///< of the cloth
+  std::array<double, 4> weights = {};  ///< theirs
+  Eigen::Vector3d normal;              ///< unit vector from the second feature to the first
+  Eigen::Vector3d offset;              ///< the obstacle's part of d at the end of the step [m]
+  Eigen::Vector3d carried;             ///< how far the obstacle moves that part in the step [m]
+  Eigen::Vector3d start;               ///< d at the start of the step, with the same weights [m]
+  double distance = 0;                 ///< the least n·d at the end of the step [m]
+  double friction = 0;                 ///< Coulomb's coefficient µ
+  double restitution = 0;              ///< fraction of the speed of an impact with which the features part
+  bool collides = false;               ///< whether the features pass through each other on the straight way
+  double radius = -1;                  ///< largest friction force, µ times a normal one; negative: not known yet [N]
+  double stiffness = 0;                ///< κ of the augmented Lagrangian [N/m]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< multiplier: the force on d [N]
 
   /// Σ weights·x of the cloth's vertices [m].
   [[nodiscard]] Eigen::Vector3d gather(const Vertices& x) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) sum += weights[i] * x.row(vertices[i]).transpose();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+      sum += weights[i] * x.row(vertices[i]).transpose();
+    return sum;
+  }
+  /// The same of those that can move.
+  [[nodiscard]] Eigen::Vector3d gather_free(const Vertices& x, const std::vector<char>& free) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      if (free[static_cast<std::size_t>(vertices[i])] != 0) sum += weights[i] * x.row(vertices[i]).transpose();
+    }
     return sum;
   }
   /// d(x) [m].

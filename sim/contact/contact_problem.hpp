@@ -18,6 +18,8 @@ class ContactProblem {
   /// Takes the Hessian at x with a share of its negative eigenvalues, 0 to 1.
   /// @param damping added to it, of the largest stiffness that each vertex can have
   virtual void linearise(const Vertices& x, double concavity, double damping) = 0;
+  /// Whether the Hessian is Newton's, so that a small step means that the minimum is near.
+  [[nodiscard]] virtual bool exact() const = 0;
   /// Whether it can solve with a factor of H and of contacts that couple what H couples.
   [[nodiscard]] virtual NewtonCholesky* factor() { return nullptr; }
   /// product = H·vector, zero on pins.
@@ -35,10 +37,12 @@ class ContactProblem {
 /// A step of an implicit method, whose Hessian is Newton's without negative eigenvalues, or liu13's constant matrix.
 class ImplicitProblem final : public ContactProblem {
  public:
-  ImplicitProblem(const System& system, const StepObjective& objective, ConstantFactor& factor, ImplicitHessian hessian);
+  ImplicitProblem(const System& system, const StepObjective& objective, ConstantFactor& factor,
+                  ImplicitHessian hessian);
 
   double evaluate(const Vertices& x, Vertices& gradient) override { return objective_.evaluate(x, gradient); }
   void linearise(const Vertices& x, double concavity, double damping) override;
+  [[nodiscard]] bool exact() const override { return hessian_ == ImplicitHessian::newton; }
   [[nodiscard]] NewtonCholesky* factor() override;
   void multiply(const Vertices& vector, Vertices& product) override;
   void precondition(const Vertices& vector, Vertices& solution) override { factor_.solve(vector, solution); }

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <limits>
 #include <utility>
 
 #include "sim/parallel/vectors.hpp"
@@ -14,16 +11,20 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr double relative_stiffness = 10;      // of a contact, of what holds its vertices otherwise
-constexpr double sufficient_decrease = 1e-4;   // Armijo's constant
-constexpr double shortest_move = 1e-6;         // of a direction
-constexpr double linear_tolerance = 0.05;      // of the residual, of the gradient
+constexpr double relative_stiffness = 10;     // of a contact, of what holds its vertices otherwise
+constexpr double sufficient_decrease = 1e-4;  // Armijo's constant (Nocedal and Wright 2006, section 3.1)
+constexpr double shortest_move = 1e-6;        // of a direction
+constexpr double share_of_way = 0.01;         // tolerance of a step, of the longest way of a vertex in it
+constexpr double linear_tolerance = 0.05;     // of conjugate gradients, in the norm of their preconditioner
 constexpr int most_linear_iterations = 300;
-constexpr double least_held = 0.1;             // of κ, from which on sliding holds a direction across it
-constexpr double least_free = 0.25;      // of a contact's weights, that has to be on free vertices
-constexpr double fast = 0.5;  // what an iteration leaves of the gradient at most, unless it creeps
+constexpr double least_held = 0.1;       // of κ, from which on a direction counts as held
+constexpr double least_free = 0.25;      // of a contact's weights, that has to be on vertices that can move
+constexpr double worth_an_update = 0.5;  // largest move of an iteration, of the slack, at which multipliers change
+constexpr double fast = 0.5;             // what an iteration leaves of the gradient at most, unless it creeps
+constexpr double least_damping = 1.0 / 256, damping_growth = 4;
 constexpr int most_halvings = 40;
-constexpr double worth_an_update = 0.5;  // the largest move of an iteration, of the slack, with which multipliers change
+
+double longest(const Vertices& v) { return v.rowwise().norm().maxCoeff(); }
 
 }  // namespace
 
@@ -39,6 +40,9 @@ ContactSolver::ContactSolver(const System& system)
       product_(gradient_) {
   for (const int pin : system.cloth.pins) free_[static_cast<Index>(pin)] = 0;
   trial_.x = trial_.gradient = gradient_;
+  for (const Spring& spring : system.cloth.springs) {
+    longest_move_ += spring.rest_length / static_cast<double>(system.cloth.springs.size());
+  }
 }
 
 void ContactSolver::begin(const Vertices& x, double start, double end) {
@@ -52,7 +56,17 @@ bool ContactSolver::touches(const Vertices& target) {
   return !contacts_.empty();
 }
 
+bool ContactSolver::can_move(const ContactConstraint& contact) const {
+  double moved = 0, all = 0;
+  for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
+    all += std::abs(contact.weights[i]);
+    if (free_[static_cast<Index>(contact.vertices[i])] != 0) moved += std::abs(contact.weights[i]);
+  }
+  return moved > 0 && moved >= least_free * all;
+}
+
 void ContactSolver::find(const Vertices& target, bool turn) {
+  if (!target.allFinite()) return;
   before_.swap(contacts_);
   contacts_.clear();
   auto from = before_.begin();
@@ -63,27 +77,20 @@ void ContactSolver::find(const Vertices& target, bool turn) {
     }
     system_.contacts[static_cast<Index>(source)]->find(target, source, held_, contacts_);
   }
-  std::erase_if(contacts_, [&](const ContactConstraint& contact) {
-    double moved = 0, all = 0;
-    for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
-      all += std::abs(contact.weights[i]);
-      if (free_[static_cast<Index>(contact.vertices[i])] != 0) moved += std::abs(contact.weights[i]);
-    }
-    return moved < least_free * all || moved == 0;
-  });
+  std::erase_if(contacts_, [&](const ContactConstraint& contact) { return !can_move(contact); });
   auto known = before_.begin();
   for (ContactConstraint& contact : contacts_) {
     while (known != before_.end() && known->key < contact.key) ++known;
     if (known == before_.end() || known->key != contact.key) continue;
-    if (!turn) {
+    if (turn) {
+      contact.force = known->force;
+      contact.stiffness = known->stiffness;
+      contact.radius = known->radius;
+    } else {
       const bool collides = contact.collides;
       contact = *known;
       contact.collides = collides;
-      continue;
     }
-    contact.force = known->force;
-    contact.stiffness = known->stiffness;
-    contact.radius = known->radius;
   }
 }
 
@@ -100,10 +107,10 @@ void ContactSolver::set_stiffness(const ContactProblem& problem) {
   }
 }
 
-ContactSolver::Response ContactSolver::respond(const ContactConstraint& contact, const Vertices& x, double radius) const {
+ContactSolver::Response ContactSolver::respond(const ContactConstraint& contact, const Vertices& x) const {
   const Eigen::Vector3d& n = contact.normal;
   const Eigen::Vector3d place = contact.place(x), slip = place - contact.start;
-  const double k = contact.stiffness, before = contact.force.dot(n);
+  const double k = contact.stiffness, before = contact.force.dot(n), radius = contact.radius;
   const double normal = std::max(0.0, before - k * (place.dot(n) - contact.distance));
   Response response;
   response.force = normal * n;
@@ -138,111 +145,121 @@ void ContactSolver::find_radii(const Vertices& x, bool all) {
   }
 }
 
-double ContactSolver::add_forces(const Vertices& x, Vertices& gradient) {
-  double energy = 0;
+ContactSolver::Standing ContactSolver::assess(const ContactProblem& problem, const Iterate& point) {
+  gradient_ = point.gradient;
   responses_.resize(contacts_.size());
+  Standing now{.value = point.value, .residual = 0, .error = 0, .collides = false};
   for (Index k = 0; k < contacts_.size(); ++k) {
-    responses_[k] = respond(contacts_[k], x, contacts_[k].radius);
-    contacts_[k].scatter(-responses_[k].force, gradient);
-    energy += responses_[k].energy;
+    responses_[k] = respond(contacts_[k], point.x);
+    contacts_[k].scatter(-responses_[k].force, gradient_);
+    now.value += responses_[k].energy;
+    now.residual = std::max(now.residual, responses_[k].residual);
+    now.collides = now.collides || contacts_[k].collides;
   }
-  for (const int pin : system_.cloth.pins) gradient.row(pin).setZero();
-  return energy;
+  for (const int pin : system_.cloth.pins) gradient_.row(pin).setZero();
+  now.error = problem.error(gradient_);
+  return now;
 }
 
-void ContactSolver::find_direction(ContactProblem& problem, const Vertices& x, const Vertices& gradient,
-                                   Vertices& direction) {
-  const Threads& threads = system_.threads;
-  NewtonCholesky* factor = problem.factor();
-  std::vector<ContactBlock> absorbed;
-  std::vector<char> in_factor(contacts_.size(), 0);
-  if (factor != nullptr) {
-    for (Index k = 0; k < contacts_.size(); ++k) {
-      const ContactConstraint& contact = contacts_[k];
-      if (responses_[k].stiffness.isZero(0)) continue;
-      ContactBlock block{contact.count, contact.vertices, contact.weights, responses_[k].stiffness};
-      if (!factor->couples(block)) continue;
-      in_factor[k] = 1;
-      absorbed.push_back(block);
-    }
-    const bool all = std::ranges::count(in_factor, 1) == std::ranges::count_if(responses_, [](const Response& r) { return !r.stiffness.isZero(0); });
-    factor->set_contacts(std::move(absorbed));
-    factor->set_damping(damping_);
-    factor->begin();
-    factor->solve(x, gradient, concavity_, direction);
-    linear_iterations_ = 1;
-    if (all) return;
-    problem.linearise(x, factor->share(), damping_);
+std::vector<char> ContactSolver::solve_with_factor(NewtonCholesky& factor, const Vertices& x) {
+  std::vector<ContactBlock> blocks;
+  std::vector<char> solved(contacts_.size(), 0);
+  for (Index k = 0; k < contacts_.size(); ++k) {
+    const ContactConstraint& contact = contacts_[k];
+    ContactBlock block{contact.count, contact.vertices, contact.weights, responses_[k].stiffness};
+    solved[k] = block.stiffness.isZero(0) || factor.couples(block) ? 1 : 0;
+    if (solved[k] != 0 && !block.stiffness.isZero(0)) blocks.push_back(block);
   }
+  factor.set_contacts(std::move(blocks));
+  factor.set_damping(damping_);
+  factor.begin();
+  factor.solve(x, gradient_, concavity_, direction_);
+  return solved;
+}
+
+std::vector<HeldDirection> ContactSolver::held_directions(const std::vector<char>& solved) const {
   std::vector<HeldDirection> held;
   for (Index k = 0; k < contacts_.size(); ++k) {
-    if (in_factor[k] != 0) continue;
+    if (solved[k] != 0) continue;
     const ContactConstraint& contact = contacts_[k];
     const Response& response = responses_[k];
-    const double all = contact.stiffness * (1 + 1 / relative_stiffness);
     const auto hold = [&](const Eigen::Vector3d& u) {
       const double stiffness = u.dot(response.stiffness * u);
       if (stiffness < least_held * contact.stiffness) return;
-      held.push_back({static_cast<int>(k), u, all - contact.stiffness + stiffness});
+      held.push_back({static_cast<int>(k), u, stiffness + contact.stiffness / relative_stiffness});
     };
     hold(contact.normal);
-    if (contacts_[k].radius == 0) continue;
+    if (contact.radius <= 0) continue;
     Eigen::Vector3d first = response.force - response.force.dot(contact.normal) * contact.normal;
     if (response.sticks || first.isZero(0)) first = contact.normal.unitOrthogonal();
     first.normalize();
     hold(first);
     hold(contact.normal.cross(first));
   }
-  preconditioner_.set(contacts_, std::move(held), free_);
-  const auto solve = [&](const Vertices& a, Vertices& b) {
+  return held;
+}
+
+void ContactSolver::find_direction(ContactProblem& problem, const Vertices& x) {
+  NewtonCholesky* const factor = problem.factor();
+  std::vector<char> solved(contacts_.size(), 0);
+  if (factor != nullptr) {
+    solved = solve_with_factor(*factor, x);
+    if (std::ranges::all_of(solved, [](char one) { return one != 0; })) return;
+    problem.linearise(x, factor->share(), damping_);
+  }
+  preconditioner_.set(contacts_, held_directions(solved), free_);
+  iterate_linearly(problem, [&](const Vertices& a, Vertices& b) {
     if (factor != nullptr) {
       factor->solve_again(a, b);
     } else {
       problem.precondition(a, b);
     }
-  };
-  direction.setZero();
-  residual_ = gradient;
-  double energy = 0, first_energy = 0;
+  });
+}
+
+template <class Solve>
+void ContactSolver::iterate_linearly(ContactProblem& problem, const Solve& solve) {
+  const Threads& threads = system_.threads;
+  direction_.setZero();
+  residual_ = gradient_;
+  double energy = 0, first = 0;
   for (int iteration = 0; iteration < most_linear_iterations; ++iteration) {
-    linear_iterations_ = iteration;
     system_.stop.look();
     preconditioner_.apply(residual_, preconditioned_, solve);
     const double before = energy;
     energy = dot(threads, residual_, preconditioned_);
     if (iteration == 0) {
-      first_energy = energy;
+      first = energy;
       search_ = preconditioned_;
     } else {
       multiply_and_add(threads, energy / before, preconditioned_, search_);
     }
-    if (!(energy > linear_tolerance * linear_tolerance * first_energy)) break;
+    if (!(energy > linear_tolerance * linear_tolerance * first)) return;
     problem.multiply(search_, product_);
     for (Index k = 0; k < contacts_.size(); ++k) {
-      const Eigen::Vector3d moved = contacts_[k].gather(search_);
-      contacts_[k].scatter(responses_[k].stiffness * moved, product_);
+      contacts_[k].scatter(responses_[k].stiffness * contacts_[k].gather_free(search_, free_), product_);
     }
     for (const int pin : system_.cloth.pins) product_.row(pin).setZero();
     const double curvature = dot(threads, search_, product_);
     if (!(curvature > 0)) {
-      // As far as H is positive definite it has been solved (Nocedal and Wright 2006, algorithm 7.1).
-      if (iteration == 0) direction = preconditioned_;
+      // As far as the Hessian is positive definite it has been solved (Nocedal and Wright 2006, algorithm 7.1).
+      if (iteration == 0) direction_ = preconditioned_;
       return;
     }
-    const double length = energy / curvature;
-    if (!std::isfinite(length)) return;
-    add_multiple(threads, length, search_, direction);
-    add_multiple(threads, -length, product_, residual_);
+    add_multiple(threads, energy / curvature, search_, direction_);
+    add_multiple(threads, -energy / curvature, product_, residual_);
   }
 }
 
-double ContactSolver::descend(ContactProblem& problem, Iterate& point, double value, double slope) {
-  for (double length = 1; length >= shortest_move; length /= 2) {
+double ContactSolver::descend(ContactProblem& problem, Iterate& point, double value) {
+  const double slope = dot(system_.threads, gradient_, direction_);
+  const double first = std::min(1.0, longest_move_ / longest(direction_));
+  for (double length = first; length >= shortest_move; length /= 2) {
     system_.stop.look();
     sum(system_.threads, point.x, -length, direction_, trial_.x);
     trial_.value = problem.evaluate(trial_.x, trial_.gradient);
     double after = trial_.value;
-    for (Index k = 0; k < contacts_.size(); ++k) after += respond(contacts_[k], trial_.x, contacts_[k].radius).energy;
+    for (const ContactConstraint& contact : contacts_) after += respond(contact, trial_.x).energy;
     if (after <= value - sufficient_decrease * length * slope + problem.rounding(std::abs(value))) {
       std::swap(point, trial_);
       return length;
@@ -251,61 +268,48 @@ double ContactSolver::descend(ContactProblem& problem, Iterate& point, double va
   return 0;
 }
 
-StepReport ContactSolver::solve(ContactProblem& problem, double given, int most_iterations, Iterate& point) {
-  StepReport report;
-  report.converged = false;
+StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accuracy, int most_iterations,
+                                Iterate& point) {
+  StepReport report{.converged = false};
   bool settled = false, updated = false;
-  double last_steepness = 0;
+  double steepness = 0;
   concavity_ = damping_ = 0;
   for (;; ++report.iterations) {
     problem.linearise(point.x, 0, damping_);
     set_stiffness(problem);
     find_radii(point.x, updated);
-    gradient_ = point.gradient;
-    const double value = point.value + add_forces(point.x, gradient_);
-    const double way = (point.x - start_).rowwise().norm().maxCoeff();
-    static const double share = getenv("SHARE") ? atof(getenv("SHARE")) : 0.01;
-    const double tolerance = std::max(given, share * way);
-    double residual = 0;
-    bool collides = false;
-    for (Index k = 0; k < contacts_.size(); ++k) {
-      residual = std::max(residual, responses_[k].residual);
-      collides = collides || contacts_[k].collides;
-    }
-    const double error = problem.error(gradient_);
-    if (std::getenv("DRAPE_CT")) std::fprintf(stderr, "  it %d contacts %zu residual %.3g error %.3g collides %d value %.8g\n", report.iterations, contacts_.size(), residual, error, (int)collides, value);
-    if (residual <= tolerance && (error <= tolerance || settled) && !collides) {
-      report.converged = true;
-      break;
-    }
-    if (report.iterations >= most_iterations || !std::isfinite(value)) break;
-    const double steepness = norm(system_.threads, gradient_);
-    if (report.iterations > 0 && !updated && steepness > fast * last_steepness) concavity_ = 1;
-    last_steepness = steepness;
-    find_direction(problem, point.x, gradient_, direction_);
-    const double slope = dot(system_.threads, gradient_, direction_);
-    const double length = descend(problem, point, value, slope);
-    if (length == 0 && !collides) { if (std::getenv("DRAPE_CT")) std::fprintf(stderr, "  line search failed slope %.3g\n", slope); break; }
-    const double moved = direction_.rowwise().norm().maxCoeff();
+    const Standing now = assess(problem, point);
+    const bool by_gradient = accuracy.rule == StoppingRule::gradient;
+    const double usual = accuracy.usual || by_gradient ? share_of_way * longest(point.x - start_) : 0;
+    const double tolerance = by_gradient ? usual : std::max(accuracy.tolerance, usual);
+    const bool at_a_change = problem.exact() || accuracy.rule == StoppingRule::change;
+    const bool balanced = by_gradient ? norm(system_.threads, gradient_) <= accuracy.tolerance
+                                      : now.error <= tolerance || (settled && at_a_change);
+    report.converged = balanced && now.residual <= tolerance && !now.collides;
+    if (report.converged || report.iterations >= most_iterations || !std::isfinite(now.value)) break;
+    const double before = std::exchange(steepness, norm(system_.threads, gradient_));
+    if (report.iterations > 0 && !updated && steepness > fast * before) concavity_ = 1;
+    find_direction(problem, point.x);
+    const double length = descend(problem, point, now.value);
+    if (length == 0 && !now.collides) break;
+    if (length < 0.5) damping_ = std::min(1.0, std::max(damping_growth * damping_, least_damping));
+    if (length == 1) damping_ = damping_ <= least_damping ? 0 : damping_ / damping_growth;
+    const double moved = longest(direction_);
     settled = moved <= tolerance;
-    double slack = 0;
-    for (Index k = 0; k < contacts_.size(); ++k) {
-      slack = std::max(slack, respond(contacts_[k], point.x, contacts_[k].radius).residual);
-    }
-    if (std::getenv("DRAPE_CT")) std::fprintf(stderr, "     pcg %d theta %g length %g moved %.3g slack %.3g\n", linear_iterations_, damping_, length, moved, slack);
-    if (length < 0.5) damping_ = std::min(1.0, std::max(4 * damping_, 1.0 / 256));
-    if (length == 1) damping_ = damping_ < 1e-3 ? 0 : damping_ / 4;
-    updated = false;
-    if (moved <= std::max(tolerance, worth_an_update * slack)) {
-      for (Index k = 0; k < contacts_.size(); ++k) {
-        contacts_[k].force = respond(contacts_[k], point.x, contacts_[k].radius).force;
-      }
-      updated = true;
+    updated = moved <= std::max(tolerance, worth_an_update * slack(point.x));
+    if (updated) {
+      for (ContactConstraint& contact : contacts_) contact.force = respond(contact, point.x).force;
     }
     find(point.x, updated);
   }
   retreat(problem, point);
   return report;
+}
+
+double ContactSolver::slack(const Vertices& x) const {
+  double most = 0;
+  for (const ContactConstraint& contact : contacts_) most = std::max(most, respond(contact, x).residual);
+  return most;
 }
 
 void ContactSolver::retreat(ContactProblem& problem, Iterate& point) {
@@ -334,6 +338,7 @@ bool ContactSolver::carried() const {
 }
 
 void ContactSolver::rebound(const Vertices& before, double h, Vertices& v) const {
+  const Eigen::VectorXd& masses = system_.cloth.masses;
   for (const ContactConstraint& contact : contacts_) {
     if (!(contact.restitution > 0) || !(contact.force.dot(contact.normal) > 0)) continue;
     const Eigen::Vector3d drift = contact.carried / h;
@@ -343,14 +348,14 @@ void ContactSolver::rebound(const Vertices& before, double h, Vertices& v) const
     double compliance = 0;
     for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
       const int vertex = contact.vertices[i];
-      if (free_[static_cast<Index>(vertex)] == 0) continue;
-      compliance += contact.weights[i] * contact.weights[i] / system_.cloth.masses[vertex];
+      if (free_[static_cast<Index>(vertex)] != 0)
+        compliance += contact.weights[i] * contact.weights[i] / masses[vertex];
     }
     const double impulse = (-contact.restitution * arriving - leaving) / compliance;
     for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
       const int vertex = contact.vertices[i];
       if (free_[static_cast<Index>(vertex)] == 0) continue;
-      v.row(vertex) += contact.weights[i] * impulse / system_.cloth.masses[vertex] * contact.normal.transpose();
+      v.row(vertex) += contact.weights[i] * impulse / masses[vertex] * contact.normal.transpose();
     }
   }
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "sim/contact/contact.hpp"
@@ -15,10 +14,14 @@ namespace drape {
 /// Method of multipliers (Hestenes 1969; Powell 1969) in the form for friction of Alart and Curnier 1991: with the
 /// multiplier r of a contact and t = r − κ·(gap along n, slip across it), its force is
 ///   f = n·max(0, n·t) + P(t across n),   P the projection on the disc of radius µ·(n·f).
-/// An iteration is a step of Newton's method on the augmented function, whose equations conjugate gradients solve, a
-/// line search, and the new multipliers r = f. At the solution r = f: then contacts that bear a force are closed to
-/// the tolerance, and those that stick have not slipped. Contacts are found anew after every iteration, with the
-/// normals of where the cloth is then, so curved and moving obstacles need no case of their own.
+/// An iteration takes a step of Newton's method on the augmented function
+///   g(x) + Σ (max(0, n·t)² − (n·r)²)/2κ + friction's part,
+/// with a line search. Where steps are small beside the gaps and slips that are left, the multipliers become r = f, the
+/// radii µ·(n·f), and normals those of where the cloth is. At the solution r = f: contacts that bear a force are closed
+/// and those that stick have not slipped, to the tolerance. Contacts enter as soon as an iteration brings features near
+/// or has them collide on the straight way of the step.
+///
+/// A hard contact takes energy from the cloth and stores none. A step that stops early is looked at by EnergyBooks.
 class ContactSolver {
  public:
   explicit ContactSolver(const System& system);
@@ -29,53 +32,76 @@ class ContactSolver {
   /// Finds the contacts of a cloth that goes straight to `target`. Returns whether there are any.
   [[nodiscard]] bool touches(const Vertices& target);
 
-  /// Moves the point, which has g's value and gradient, to the minimum under the contacts.
-  /// @param tolerance of a vertex, and of gaps and slips of contacts that hold [m]
-  StepReport solve(ContactProblem& problem, double tolerance, int most_iterations, Iterate& point);
+  /// Moves the point, which has g's value and gradient, to the minimum under the contacts. Gaps and slips of contacts
+  /// that hold are as small as the tolerance; by default that is a hundredth of the longest way of a vertex in the
+  /// step, if that is more than elsewhere. Where features still collide at the end, the step goes back on its straight
+  /// way until none do, and counts as not converged.
+  StepReport solve(ContactProblem& problem, const Accuracy& accuracy, int most_iterations, Iterate& point);
 
   /// Work that obstacles have done on the cloth by moving, by the forces of the last solve [J].
   [[nodiscard]] double work_of_obstacles() const;
 
-  /// Whether any of the obstacles moves that the cloth touches.
+  /// Whether an obstacle that the cloth touches moves.
   [[nodiscard]] bool carried() const;
 
-  /// Gives v, the velocities at the end of the step n×3 [m/s], the rebound of what arrived in it.
+  /// Gives v, the velocities at the end of the step n×3 [m/s], the rebound of what arrived in it: features that bear a
+  /// force part with `restitution` times the speed with which they came (Newton's law), by an impulse along the normal.
   /// @param before velocities at its start, n×3 [m/s]
   void rebound(const Vertices& before, double h, Vertices& v) const;
 
   [[nodiscard]] const std::vector<ContactConstraint>& contacts() const { return contacts_; }
 
  private:
-  /// Force of a contact at x, with the radius of its disc of friction.
+  /// What a contact does at x.
   struct Response {
-    Eigen::Vector3d force;       // [N]
-    Eigen::Matrix3d stiffness;   // of d [N/m]
-    double energy = 0;           // of the augmented function [J]
-    double residual = 0;         // |f − r|/κ [m]
+    Eigen::Vector3d force;      // [N]
+    Eigen::Matrix3d stiffness;  // of d [N/m]
+    double energy = 0;          // in the augmented function [J]
+    double residual = 0;        // |f − r|/κ [m]
     bool sticks = false;
   };
-  [[nodiscard]] Response respond(const ContactConstraint& contact, const Vertices& x, double radius) const;
-  void set_stiffness(const ContactProblem& problem);
+  /// Where a point stands, with the gradient of the augmented function in gradient_.
+  struct Standing {
+    double value;     // of that function [J]
+    double residual;  // largest of a contact [m]
+    double error;     // estimated, of a vertex [m]
+    bool collides;    // on the straight way
+  };
+  [[nodiscard]] bool can_move(const ContactConstraint& contact) const;
   /// Finds the contacts of a cloth that goes straight to `target`.
   /// @param turn known ones to how their features touch now, too
   void find(const Vertices& target, bool turn);
-  /// Adds the forces at x to a gradient; returns the contacts' part of the augmented function [J].
-  double add_forces(const Vertices& x, Vertices& gradient);
+  [[nodiscard]] Response respond(const ContactConstraint& contact, const Vertices& x) const;
+  /// Gives new contacts their κ.
+  void set_stiffness(const ContactProblem& problem);
+  /// Sets the radii of friction of contacts that have none, or of all.
   void find_radii(const Vertices& x, bool all);
-  void find_direction(ContactProblem& problem, const Vertices& x, const Vertices& gradient, Vertices& direction);
-  [[nodiscard]] double descend(ContactProblem& problem, Iterate& point, double value, double slope);
+  Standing assess(const ContactProblem& problem, const Iterate& point);
+  /// Largest residual at x [m].
+  [[nodiscard]] double slack(const Vertices& x) const;
+
+  // Newton's direction for gradient_.
+  void find_direction(ContactProblem& problem, const Vertices& x);
+  /// Solves with a factor of the Hessian and of the contacts that couple no more vertices than that; says which.
+  std::vector<char> solve_with_factor(NewtonCholesky& factor, const Vertices& x);
+  [[nodiscard]] std::vector<HeldDirection> held_directions(const std::vector<char>& solved) const;
+  template <class Solve>
+  void iterate_linearly(ContactProblem& problem, const Solve& solve);
+  /// Goes along direction_ until the augmented function falls enough from `value`; returns what part of it, or 0.
+  [[nodiscard]] double descend(ContactProblem& problem, Iterate& point, double value);
+
   /// Shortens the way to the point until nothing collides on it.
   void retreat(ContactProblem& problem, Iterate& point);
 
   const System& system_;
   ContactPreconditioner preconditioner_;
-  std::vector<char> free_;
-  int linear_iterations_ = 0;
-  double damping_ = 0;                      // added to the Hessian, of its bound
-  double concavity_ = 0;                    // share of the negative eigenvalues of the Hessian
+  std::vector<char> free_;   // whether each vertex can move
+  double longest_move_ = 0;  // of a vertex in an iteration: an edge [m]
+  double damping_ = 0;       // of the Hessian's bound, added to it
+  double concavity_ = 0;     // share of the Hessian's negative eigenvalues
   std::vector<ContactConstraint> contacts_, before_, held_;
   std::vector<Response> responses_;
-  Vertices start_;                          // of the step
+  Vertices start_;  // of the step
   Vertices gradient_, direction_, residual_, preconditioned_, search_, product_;
   Iterate trial_;
 };

@@ -12,9 +12,9 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr double impact_share = 0.5;  // of the distance at the end, down to which features may come on their way
-constexpr double target_slack = 0.25;       // how far a vertex may end from where pairs were searched for, in distances
-constexpr double resolved = 1e-9;    // of the distance: below, a difference has no direction
+constexpr double impact_share = 0.5;   // of the distance at the end, down to which features may come on their way
+constexpr double target_slack = 0.25;  // how far a vertex may end from where pairs were searched for, in distances
+constexpr double resolved = 1e-9;      // of the distance: below, a difference has no direction
 
 Point plane_normal(Feature feature, const FourPoints& p) {
   const bool edges = feature == Feature::edge_edge;
@@ -191,14 +191,15 @@ void BodyContacts::find_vertices(const Vertices&, int source, const std::vector<
     const auto before = start_.mesh->find(x_[Index(i)], 2 * terms_.distance, foot.triangle);
     const Triangle& t = body_->topology().triangles[Index(foot.triangle)];
     ContactConstraint contact = make({i, cloth_count_ + t[0], cloth_count_ + t[1], cloth_count_ + t[2]},
-                           {1, -foot.weights[0], -foot.weights[1], -foot.weights[2]}, foot.normal);
+                                     {1, -foot.weights[0], -foot.weights[1], -foot.weights[2]}, foot.normal);
     contact.key = key;
     contact.distance = before ? distance_at_end(before->distance, terms_.distance, duration_) : terms_.distance;
     contacts.push_back(contact);
   }
 }
 
-void BodyContacts::find_pairs(int source, const std::vector<ContactConstraint>& held, std::vector<ContactConstraint>& contacts) {
+void BodyContacts::find_pairs(int source, const std::vector<ContactConstraint>& held,
+                              std::vector<ContactConstraint>& contacts) {
   const double kept = kept_part * terms_.distance;
   for (const BodyPair& met : candidates_.pairs()) {
     const FeaturePair& pair = met.pair;
@@ -219,7 +220,7 @@ void BodyContacts::find_pairs(int source, const std::vector<ContactConstraint>& 
 }
 
 ContactConstraint BodyContacts::make(const std::array<int, 4>& vertices, const std::array<double, 4>& weights,
-                           const Point& normal) const {
+                                     const Point& normal) const {
   ContactConstraint contact;
   contact.count = 0;
   contact.normal = end_.pose.turn * normal;

@@ -46,7 +46,7 @@ class SelfContacts final : public ContactSource {
   const Cloth& cloth_;
   CollisionCandidates candidates_;
   double duration_ = 0;
-  bool searched_ = false;                    // in this step
+  bool searched_ = false;  // in this step
   std::vector<Point> x_, target_, found_for_;
 };
 
@@ -70,7 +70,7 @@ class BodyContacts final : public ContactSource {
   void find_pairs(int source, const std::vector<ContactConstraint>& held, std::vector<ContactConstraint>& contacts);
   /// The contact of features whose touch is known in the body's coordinates.
   [[nodiscard]] ContactConstraint make(const std::array<int, 4>& vertices, const std::array<double, 4>& weights,
-                             const Point& normal) const;
+                                       const Point& normal) const;
 
   std::shared_ptr<const MovingBody> body_;
   ContactTerms terms_;
@@ -81,8 +81,8 @@ class BodyContacts final : public ContactSource {
   FootMemory feet_;
   double duration_ = 0;
   bool searched_ = false;
-  const Vertices* world_ = nullptr;                // x at the start of the step
-  std::vector<Point> x_, target_, found_for_;     // in the body's coordinates, its own points last
+  const Vertices* world_ = nullptr;            // x at the start of the step
+  std::vector<Point> x_, target_, found_for_;  // in the body's coordinates, its own points last
 };
 
 }  // namespace drape

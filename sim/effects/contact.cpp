@@ -10,9 +10,10 @@ namespace drape {
 void describe_contact(Keys& keys, double& stiffness, Response& response, double& friction,
                       std::optional<double>& restitution, const std::string& without_restitution) {
   keys.add("stiffness", &stiffness, "1/s²", "Outward acceleration per metre of depth within that reach.").at_least(0);
-  keys.choice("response", response, {"explicit", "implicit", "solved"},
-              "A push that is evaluated once per step, or is solved for together with the springs; or contact without a "
-              "push, solved for with the whole step: its total energy never rises. `stiffness` does not act then.");
+  keys.choice(
+      "response", response, {"explicit", "implicit", "solved"},
+      "A push that is evaluated once per step, or is solved for together with the springs; or contact without a "
+      "push, solved for with the whole step: its total energy never rises. `stiffness` does not act then.");
   keys.add("friction", &friction, "",
            "Coulomb's coefficient µ: a vertex at rest on a slope of tan θ ≤ µ stays there; 0 is frictionless.")
       .at_least(0);

@@ -16,7 +16,7 @@ struct SelfCollision {
   double repulsion = 20;    ///< the part of the missing distance by which they separate per second, at first [1/s]
   double friction = 0.3;    ///< Coulomb's coefficient between layers
   Response response = Response::explicit_force;
-  int iterations = 10;      ///< passes over the contacts of a step, and over its collisions before they become rigid
+  int iterations = 10;  ///< passes over the contacts of a step, and over its collisions before they become rigid
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;

@@ -102,7 +102,8 @@ void Sphere::install(System& system) const {
   system.colliders.push_back(std::make_unique<TrackedSphere>(moving, reach));
   if (response == Response::solved) {
     const ContactTerms terms{reach.thickness, friction, restitution.value_or(0)};
-    system.contacts.push_back(std::make_unique<SurfaceContacts<BallObstacle>>(BallObstacle{moving, reach.scale}, terms));
+    system.contacts.push_back(
+        std::make_unique<SurfaceContacts<BallObstacle>>(BallObstacle{moving, reach.scale}, terms));
     return;
   }
   install_contact(SphereSurface{moving, reach}, law(), system);

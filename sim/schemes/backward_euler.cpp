@@ -1,8 +1,5 @@
 #include "sim/schemes/backward_euler.hpp"
 
-#include <cstdio>
-#include <cstdlib>
-
 #include "sim/parallel/vectors.hpp"
 
 namespace drape {
@@ -25,7 +22,6 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   // A step that a small change ended has been looked at, unless it has just been moved.
   const bool looked = !free_ && report.converged && solver_->accuracy().rule == StoppingRule::change;
   if (touches && books_.gains_in_contact(point_, contact_->work_of_obstacles())) {
-    if (std::getenv("DRAPE_CT")) std::fprintf(stderr, "BOOKS shed\n");
     if (!contact_->carried()) report.kept = books_.shed(point_);
     report.converged = false;
   }

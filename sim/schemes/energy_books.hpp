@@ -27,8 +27,8 @@ class EnergyBooks {
   /// @param state must stay as it is until the step ends
   /// @param last_end where end() was told that the last step ended
   void begin(const State& state, const Vertices& last_end);
-  /// Whether ΔK + ΔE − W at the point, where contacts hold the cloth and obstacles that move have done this work [J], is
-  /// more than rounding explains.
+  /// Whether ΔK + ΔE − W at the point, where contacts hold the cloth and obstacles that move have done this work [J],
+  /// is more than rounding explains.
   [[nodiscard]] bool gains_in_contact(const Iterate& point, double work);
   /// Whether ΔK + ΔE − W at the point is more than rounding explains.
   /// @param tolerant and more than is tolerated
@@ -57,10 +57,10 @@ class EnergyBooks {
   Iterate start_;                 // its x with its pins where they are when the step ends, and g there…
   bool start_exact_ = false;      // …or, where it has not been needed, a lower bound of g and nothing else
   void evaluate_start();
-  double start_kinetic_ = 0;      // ½‖v‖²_M [J]
-  double end_energy_ = 0;         // a lower bound of E where the last step ended [J]
-  bool steady_;                   // E is at the start of a step what it was there when the last one ended…
-  bool springs_;                  // …and nothing but that of springs
+  double start_kinetic_ = 0;  // ½‖v‖²_M [J]
+  double end_energy_ = 0;     // a lower bound of E where the last step ended [J]
+  bool steady_;               // E is at the start of a step what it was there when the last one ended…
+  bool springs_;              // …and nothing but that of springs
 };
 
 /// The mean of n×3 numbers, weighted by mass.

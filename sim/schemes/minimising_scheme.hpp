@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "sim/parallel/vectors.hpp"
 #include "sim/contact/contact_solver.hpp"
+#include "sim/parallel/vectors.hpp"
 #include "sim/schemes/energy_books.hpp"
 #include "sim/schemes/scheme.hpp"
 #include "sim/solvers/minimiser.hpp"
@@ -46,8 +46,7 @@ class MinimisingScheme : public Scheme {
     if (!problem_) {
       problem_.emplace(system_, objective_, solver_->constant_factor(), solver_->hessian());
     }
-    const Accuracy accuracy = solver_->accuracy();
-    return contact_->solve(*problem_, accuracy.tolerance, solver_->max_iterations(), point_);
+    return contact_->solve(*problem_, solver_->accuracy(), solver_->max_iterations(), point_);
   }
 
   struct Expected {
@@ -80,8 +79,8 @@ class MinimisingScheme : public Scheme {
   StepObjective objective_;
   std::unique_ptr<Minimiser> solver_;
   Iterate point_;
-  bool free_;  // see is_free()
-  std::optional<ContactSolver> contact_;  // where the cloth can touch something
+  bool free_;                               // see is_free()
+  std::optional<ContactSolver> contact_;    // where the cloth can touch something
   std::optional<ImplicitProblem> problem_;  // of contact, once there is any
 
  private:

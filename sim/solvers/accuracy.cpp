@@ -64,7 +64,9 @@ int default_iterations(const IntegratorSettings& settings, int otherwise) {
 }
 
 Accuracy::Accuracy(const IntegratorSettings& settings, const System& system, const Eigen::VectorXd& inertia)
-    : rule(rule_of(settings)), tolerance(settings.tolerance.value_or(customary)) {
+    : rule(rule_of(settings)),
+      tolerance(settings.tolerance.value_or(customary)),
+      usual(!settings.tolerance && !settings.stop) {
   if (!settings.tolerance && rule == StoppingRule::error) tolerance = default_error(system, inertia);
 }
 

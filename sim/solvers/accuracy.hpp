@@ -16,6 +16,7 @@ struct System;
 struct Accuracy {
   StoppingRule rule;
   double tolerance;  ///< [m], or [N] for StoppingRule::gradient
+  bool usual;        ///< whether neither the rule nor the tolerance is given
 
   /// @param inertia of every vertex in a step, m/h² [N/m]
   Accuracy(const IntegratorSettings& settings, const System& system, const Eigen::VectorXd& inertia);
