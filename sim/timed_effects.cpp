@@ -96,6 +96,19 @@ struct TimedFilter final : Timed<MotionFilter> {
   [[nodiscard]] bool converged() const override { return inner->converged(); }
 };
 
+struct TimedContacts final : Timed<ContactSource> {
+  using Timed::Timed;
+  void begin(const Vertices& x, double start, double end) override {
+    const Stopwatch watch(seconds);
+    inner->begin(x, start, end);
+  }
+  void find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
+            std::vector<ContactConstraint>& contacts) override {
+    const Stopwatch watch(seconds);
+    inner->find(target, source, held, contacts);
+  }
+};
+
 template <class TimedKind, class Base>
 void wrap(std::vector<std::unique_ptr<Base>>& list, std::size_t from, double& seconds) {
   for (std::size_t i = from; i < list.size(); ++i) list[i] = std::make_unique<TimedKind>(std::move(list[i]), seconds);
@@ -108,6 +121,7 @@ void time_additions(System& system, const SystemSizes& before, double& seconds) 
   wrap<TimedEnergy>(system.energies, before.energies, seconds);
   wrap<TimedCorrection>(system.corrections, before.corrections, seconds);
   wrap<TimedFilter>(system.filters, before.filters, seconds);
+  wrap<TimedContacts>(system.contacts, before.contacts, seconds);
 }
 
 }  // namespace drape

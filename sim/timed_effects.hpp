@@ -6,12 +6,13 @@ namespace drape {
 
 /// How much of each list of a system there is at one moment.
 struct SystemSizes {
-  std::size_t forces, energies, corrections, filters;
+  std::size_t forces, energies, corrections, filters, contacts;
   explicit SystemSizes(const System& system)
       : forces(system.forces.size()),
         energies(system.energies.size()),
         corrections(system.corrections.size()),
-        filters(system.filters.size()) {}
+        filters(system.filters.size()),
+        contacts(system.contacts.size()) {}
 };
 
 /// Makes everything that was added to the system after `before` add the seconds it takes to `seconds`, which must

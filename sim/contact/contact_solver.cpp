@@ -23,6 +23,7 @@ constexpr double worth_an_update = 0.5;  // largest move of an iteration, of the
 constexpr double fast = 0.5;             // what an iteration leaves of the gradient at most, unless it creeps
 constexpr double least_damping = 1.0 / 256, damping_growth = 4;
 constexpr int most_halvings = 40;
+constexpr int most_useful = 150;  // iterations: a step that has not ended by then hardly ever does
 
 double longest(const Vertices& v) { return v.rowwise().norm().maxCoeff(); }
 
@@ -286,7 +287,7 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
     const bool balanced = by_gradient ? norm(system_.threads, gradient_) <= accuracy.tolerance
                                       : now.error <= tolerance || (settled && at_a_change);
     report.converged = balanced && now.residual <= tolerance && !now.collides;
-    if (report.converged || report.iterations >= most_iterations || !std::isfinite(now.value)) break;
+    if (report.converged || report.iterations >= std::min(most_iterations, most_useful) || !std::isfinite(now.value)) break;
     const double before = std::exchange(steepness, norm(system_.threads, gradient_));
     if (report.iterations > 0 && !updated && steepness > fast * before) concavity_ = 1;
     find_direction(problem, point.x);
