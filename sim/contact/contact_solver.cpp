@@ -269,6 +269,24 @@ double ContactSolver::descend(ContactProblem& problem, Iterate& point, double va
   return 0;
 }
 
+void ContactSolver::choose_start(ContactProblem& problem, const Vertices& steady, Iterate& point) {
+  const auto value_of = [&](const Iterate& at) {
+    problem.linearise(at.x, 0, 0);
+    set_stiffness(problem);
+    find_radii(at.x, false);
+    return assess(problem, at).value;
+  };
+  const double value = value_of(point);
+  trial_.x = steady;
+  trial_.value = problem.evaluate(trial_.x, trial_.gradient);
+  find(trial_.x, true);
+  if (value_of(trial_) < value) {
+    std::swap(point, trial_);
+  } else {
+    find(point.x, true);
+  }
+}
+
 StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accuracy, int most_iterations,
                                 Iterate& point) {
   StepReport report{.converged = false};
@@ -287,7 +305,8 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
     const bool balanced = by_gradient ? norm(system_.threads, gradient_) <= accuracy.tolerance
                                       : now.error <= tolerance || (settled && at_a_change);
     report.converged = balanced && now.residual <= tolerance && !now.collides;
-    if (report.converged || report.iterations >= std::min(most_iterations, most_useful) || !std::isfinite(now.value)) break;
+    if (report.converged || report.iterations >= std::min(most_iterations, most_useful) || !std::isfinite(now.value))
+      break;
     const double before = std::exchange(steepness, norm(system_.threads, gradient_));
     if (report.iterations > 0 && !updated && steepness > fast * before) concavity_ = 1;
     find_direction(problem, point.x);

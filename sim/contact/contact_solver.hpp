@@ -38,6 +38,10 @@ class ContactSolver {
   /// way until none do, and counts as not converged.
   StepReport solve(ContactProblem& problem, const Accuracy& accuracy, int most_iterations, Iterate& point);
 
+  /// Sets the point to where cloth would go that keeps its velocities, if the augmented function is less there.
+  /// @param steady that place, n×3 [m]
+  void choose_start(ContactProblem& problem, const Vertices& steady, Iterate& point);
+
   /// Work that obstacles have done on the cloth by moving, by the forces of the last solve [J].
   [[nodiscard]] double work_of_obstacles() const;
 

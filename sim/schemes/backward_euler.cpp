@@ -15,8 +15,13 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   books_.begin(state, point_.x);
   begin_point(state, expected.late);
   const Vertices before = contact_ ? state.v : Vertices();
-  if (contact_) contact_->begin(state.x, system_.time(state.step), system_.time(state.step + 1));
-  StepReport report = solve_step([this] { return !books_.gains(point_, true); });
+  Vertices steady;
+  if (contact_) {
+    contact_->begin(state.x, system_.time(state.step), system_.time(state.step + 1));
+    steady = state.x + system_.step * state.v;
+    system_.place_pins(system_.time(state.step + 1), steady);
+  }
+  StepReport report = solve_step(steady, [this] { return !books_.gains(point_, true); });
   const bool touches = contact_ && !contact_->contacts().empty();
   if (free_ && !touches) balance_momentum(system_.cloth, objective_, point_);
   // A step that a small change ended has been looked at, unless it has just been moved.

@@ -37,7 +37,8 @@ class MinimisingScheme : public Scheme {
   }
 
   /// Minimises the objective from the point, under the contacts of a step that began at contact_->begin().
-  StepReport solve_step(const std::function<bool()>& may_end) {
+  /// @param steady where cloth would go that keeps its velocities; empty without contacts
+  StepReport solve_step(const Vertices& steady, const std::function<bool()>& may_end) {
     if (!contact_) return solver_->minimise(point_, may_end);
     if (!contact_->touches(point_.x)) {
       const StepReport report = solver_->minimise(point_, may_end);
@@ -46,6 +47,7 @@ class MinimisingScheme : public Scheme {
     if (!problem_) {
       problem_.emplace(system_, objective_, solver_->constant_factor(), solver_->hessian());
     }
+    contact_->choose_start(*problem_, steady, point_);
     return contact_->solve(*problem_, solver_->accuracy(), solver_->max_iterations(), point_);
   }
 
