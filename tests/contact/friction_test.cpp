@@ -1,0 +1,83 @@
+// Coulomb's law on a slope: what holds does not creep, and what slides does so with the acceleration of a block.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/contact/contact_setup.hpp"
+
+namespace drape::test {
+namespace {
+
+using Eigen::RowVector3d;
+using Eigen::Vector3d;
+
+constexpr double friction = 0.5;
+
+INSTANTIATE_TEST_SUITE_P(With, Solved, testing::ValuesIn(solving_methods), method_name);
+
+struct Slope {
+  Vector3d up, down;  // across it, and along it
+  double steepness;   // g times the sine of its angle minus what friction holds back [m/s²]
+};
+Slope slope_of(double tangent) {
+  const double cosine = 1 / std::sqrt(1 + tangent * tangent), sine = tangent * cosine;
+  return {{sine, 0, cosine}, {cosine, 0, -sine}, g * (sine - friction * cosine)};
+}
+
+/// A sheet that lies on the slope at rest.
+Cloth lying(const Slope& slope) {
+  Mesh mesh = level_square(0.5, 4, 0);
+  for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
+    const RowVector3d p = mesh.positions.row(i);
+    mesh.positions.row(i) = (p.x() * slope.down + p.y() * Vector3d::UnitY() + distance * slope.up).transpose();
+  }
+  return plain_sheet(mesh);
+}
+
+SimulationSettings on_slope(SimulationSettings settings, const Slope& slope) {
+  Ground ground = solved_ground(friction);
+  ground.normal = slope.up;
+  settings.effects.add(ground);
+  return settings;
+}
+
+TEST_P(Solved, WhatLiesOnASlopeWithinTheConeDoesNotCreep) {
+  const Slope slope = slope_of(0.99 * friction);
+  for (const double step : {0.002, 0.01}) {
+    for (const bool accurate : {false, true}) {
+      SimulationSettings s = on_slope(settings(lying(slope), step), slope);
+      if (accurate) {
+        s.integrator.stop = StoppingRule::error;
+        s.integrator.tolerance = 1e-9;
+      }
+      Simulation simulation(s);
+      run(simulation, 0.1);
+      const Vertices from = simulation.state().x;
+      run(simulation, 0.5);
+      const double creep = (simulation.state().x - from).rowwise().norm().maxCoeff() / 0.4;
+      EXPECT_LT(creep, accurate ? 1e-6 : 1e-5) << step << (accurate ? ", accurate" : "");
+    }
+  }
+}
+
+TEST_P(Solved, WhatSlidesDownASlopeAcceleratesAsABlock) {
+  for (const double part : {1.01, 1.5}) {
+    const Slope slope = slope_of(part * friction);
+    for (const double step : {0.002, 0.01}) {
+      Simulation simulation(on_slope(settings(lying(slope), step), slope));
+      constexpr double from = 0.1, to = 0.3;
+      const auto speed = [&] { return mean_of(simulation.cloth(), simulation.state().v).dot(slope.down.transpose()); };
+      run(simulation, from);
+      const double before = speed();
+      run(simulation, to);
+      const double acceleration = (speed() - before) / (to - from);
+      const double error = part < 1.1 ? 0.002 * g : 0.01 * slope.steepness;
+      EXPECT_NEAR(acceleration, slope.steepness, error) << part << ", " << step;
+      EXPECT_GT(before, 0.5 * slope.steepness * from) << part << ", " << step;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace drape::test
