@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "sim/parallel/vectors.hpp"
@@ -44,6 +45,7 @@ ContactSolver::ContactSolver(const System& system)
   for (const Spring& spring : system.cloth.springs) {
     longest_move_ += spring.rest_length / static_cast<double>(system.cloth.springs.size());
   }
+  if (system.cloth.springs.empty()) longest_move_ = std::numeric_limits<double>::infinity();
 }
 
 void ContactSolver::begin(const Vertices& x, double start, double end) {

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sim/effects/bending.hpp"
+#include "sim/effects/body.hpp"
+#include "sim/effects/gravity.hpp"
+#include "sim/effects/ground.hpp"
+#include "sim/effects/self_collision.hpp"
+#include "sim/effects/sphere.hpp"
+#include "sim/fabrics.hpp"
+#include "sim/simulation.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+
+inline constexpr double g = 9.8;          // the default gravity [m/s²]
+inline constexpr double distance = 0.01;  // that contact keeps [m]
+
+/// The methods that contact can be solved with.
+inline constexpr std::array solving_methods{
+    NamedMethod{Method::implicit, "Implicit"},
+    NamedMethod{Method::liu13, "Liu13"},
+    NamedMethod{Method::quasi_newton, "QuasiNewton"},
+};
+
+/// Tests of each of them.
+class Solved : public testing::TestWithParam<NamedMethod> {
+ protected:
+  /// A cloth under gravity.
+  [[nodiscard]] SimulationSettings settings(Cloth cloth, double step) const {
+    SimulationSettings result;
+    result.cloth = std::move(cloth);
+    result.step = step;
+    result.integrator.method = GetParam().method;
+    result.effects = {Gravity{}};
+    return result;
+  }
+};
+
+/// A level square around the z axis, its own rest shape.
+inline Mesh level_square(double side, int cells, double height) {
+  Mesh mesh = make_grid(cells, cells);
+  mesh.positions *= side / 2;
+  mesh.positions.col(2).array() += height;
+  return mesh;
+}
+
+/// A sheet of 0.2 kg/m² of that mesh.
+inline Cloth plain_sheet(const Mesh& start, double stiffness = 180) {
+  Cloth cloth = make_cloth(start, start, 1, stiffness, {});
+  share_mass_by_area(0.2, cloth);
+  return cloth;
+}
+
+inline Ground solved_ground(double friction = 0.5, double restitution = 0) {
+  return {.thickness = distance, .response = Response::solved, .friction = friction, .restitution = restitution};
+}
+
+/// A box whose upper side is at that height.
+inline Body solved_box(const Eigen::Vector3d& size, double top) {
+  Body box{.box = size, .center = Eigen::Vector3d(0, 0, top - size.z() / 2), .thickness = distance};
+  box.response = Response::solved;
+  return box;
+}
+
+inline SelfCollision solved_self() { return {.thickness = distance, .response = Response::solved}; }
+
+inline Eigen::RowVector3d mean_of(const Cloth& cloth, const Vertices& values) {
+  return (cloth.masses.transpose() * values) / cloth.masses.sum();
+}
+
+/// Root of the mean square of the speeds [m/s].
+inline double rms_speed(const Simulation& simulation) {
+  const Vertices& v = simulation.state().v;
+  return v.norm() / std::sqrt(static_cast<double>(v.rows()));
+}
+
+inline void run(Simulation& simulation, double until) {
+  while (simulation.time() < until - 1e-9) simulation.step();
+}
+
+inline std::string lines(const std::vector<std::string>& all) {
+  std::string text;
+  for (const std::string& line : all) text += line + '\n';
+  return text;
+}
+
+}  // namespace drape::test

@@ -1,0 +1,162 @@
+// Whole runs over all that contact can be with obstacles at rest: the total energy never rises, and nothing passes.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "tests/contact/contact_setup.hpp"
+#include "tests/support/audited_run.hpp"
+#include "tests/support/random.hpp"
+
+namespace drape::test {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr int cells = 12;
+constexpr double side = 1;       // of the sheets [m]
+constexpr double depth = 0.4;    // of the ground below the other obstacles [m]
+constexpr double stable = 0.01;  // the largest rise, of what the cloth has to give
+enum class Obstacle { ground, sphere, box, pole, itself };
+constexpr std::array obstacles{"ground", "sphere", "box", "pole", "itself"};
+constexpr std::array steps{0.001, 0.002, 0.005, 0.01, 0.02};     // [s]
+constexpr std::array stiffnesses{18.0, 180.0, 1800.0, 18000.0};  // [N/m]
+
+/// One run of the set: all that it is made from follows from its number.
+struct Trial {
+  int number;
+
+  [[nodiscard]] Obstacle obstacle() const { return static_cast<Obstacle>(number % 5); }
+  [[nodiscard]] double step() const { return steps[static_cast<std::size_t>((number / 5 + number) % 5)]; }
+  [[nodiscard]] const NamedMethod& method() const {
+    return solving_methods[static_cast<std::size_t>((number + number / 15) % 3)];
+  }
+  [[nodiscard]] std::size_t material() const { return static_cast<std::size_t>(number) % 14; }
+  [[nodiscard]] std::string title() const {
+    const bool fabric = material() < fabrics().size();
+    std::string cloth = fabric ? std::string(fabrics()[material()].name)
+                               : "k" + std::to_string(std::lround(stiffnesses[material() - fabrics().size()]));
+    std::erase(cloth, '-');
+    return "Run" + std::to_string(number) + "_" + obstacles[static_cast<std::size_t>(number % 5)] + "_" + cloth + "_" +
+           std::to_string(std::lround(step() * 1000)) + "ms_" + method().name;
+  }
+};
+
+Mesh folded_square(double height) {
+  Mesh mesh = level_square(side, cells, height);
+  const double fold = 0.1;
+  for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
+    const double beyond = mesh.positions(i, 0) - fold;
+    if (beyond <= 0) continue;
+    // A bend of three cells' width, then flat.
+    const double radius = 0.08, angle = std::min(beyond / radius, std::numbers::pi);
+    mesh.positions(i, 0) = fold + radius * std::sin(angle) - std::max(0.0, beyond - std::numbers::pi * radius);
+    mesh.positions(i, 2) += radius * (1 - std::cos(angle));
+  }
+  return mesh;
+}
+
+/// The sheet in any pose, its lowest vertex so high that it touches nothing yet; folded over itself if it is to meet
+/// itself.
+Mesh pose(Obstacle obstacle, Random& random) {
+  Mesh mesh = obstacle == Obstacle::itself ? folded_square(0) : level_square(side, cells, 0);
+  const double most = obstacle == Obstacle::itself ? 0.3 : 0.5 * std::numbers::pi;
+  const Vector3d axis = random_point(random).normalized();
+  const Matrix3d turn = AngleAxisd(random.between(0, most), axis).toRotationMatrix();
+  mesh.positions = (mesh.positions * turn.transpose()).eval();
+  mesh.positions.col(2).array() += 1.5 * distance + random.between(0, 0.03) - mesh.positions.col(2).minCoeff();
+  return mesh;
+}
+
+Vertices velocities(const Trial& run, const Cloth& cloth, Random& random) {
+  const double speed = run.number % 3 == 0 ? 0 : random.between(0, 5);
+  Vector3d way = random_point(random).normalized();
+  way.z() = -std::abs(way.z());
+  Vertices v = (speed * way.transpose()).replicate(cloth.vertex_count(), 1);
+  if (run.obstacle() != Obstacle::itself) return v;
+  for (Eigen::Index i = 0; i < v.rows(); ++i) {
+    if (cloth.rest(i, 0) > 0.1) v.row(i) << 0.5, 0, -std::max(1.0, speed / 2);  // the flap comes down on the rest
+  }
+  return v;
+}
+
+void add_obstacle(Obstacle obstacle, Effects& effects) {
+  Ground ground = solved_ground();
+  if (obstacle != Obstacle::ground && obstacle != Obstacle::itself) ground.height = -depth;
+  if (obstacle == Obstacle::sphere) {
+    const double radius = 0.25;
+    effects.add(Sphere{.center = Vector3d(0, 0, -radius),
+                       .radius = radius,
+                       .thickness = distance,
+                       .response = Response::solved,
+                       .friction = 0.3,
+                       .restitution = 0.5});
+  }
+  if (obstacle == Obstacle::box) effects.add(solved_box({0.5, 0.4, 0.25}, 0));
+  if (obstacle == Obstacle::pole) effects.add(solved_box({0.02, 2, 0.02}, 0));
+  effects.add(ground);
+  effects.add(solved_self());
+}
+
+SimulationSettings make(const Trial& run) {
+  Random random(static_cast<std::uint64_t>(1000 + 77 * run.number));
+  const Mesh rest = level_square(side, cells, 0), start = pose(run.obstacle(), random);
+  SimulationSettings settings;
+  settings.step = run.step();
+  settings.integrator.method = run.method().method;
+  settings.effects = {Gravity{}};
+  if (run.material() < fabrics().size()) {
+    const Fabric& fabric = fabrics()[run.material()];
+    settings.cloth = make_cloth(start, rest, 1, 1, {});
+    share_mass_by_area(fabric.density, settings.cloth);
+    stiffen_by_area(fabric.modulus, settings.cloth);
+    settings.effects.add(Bending{.rigidity = fabric.rigidity});
+  } else {
+    settings.cloth = make_cloth(start, rest, 0.2, stiffnesses[run.material() - fabrics().size()], {});
+  }
+  settings.cloth.velocities = velocities(run, settings.cloth, random);
+  add_obstacle(run.obstacle(), settings.effects);
+  return settings;
+}
+
+/// What the cloth has to give: what moves and strains it, and its fall onto the ground [J].
+double to_give(const Trial& run, const SimulationSettings& settings) {
+  const Energies energies = Simulation(settings).energies();
+  const bool deep = run.obstacle() != Obstacle::ground && run.obstacle() != Obstacle::itself;
+  const double lowest = (deep ? -depth : 0) + distance;
+  const double fall = mean_of(settings.cloth, settings.cloth.positions).z() - lowest;
+  return energies.kinetic + energies.elastic + settings.cloth.masses.sum() * g * fall;
+}
+
+std::vector<Trial> all_runs() {
+  std::vector<Trial> all;
+  for (int i = 0; i < 42; ++i) all.push_back({i});
+  return all;
+}
+
+void PrintTo(const Trial& run, std::ostream* out) { *out << run.title(); }
+
+class ObstaclesAtRest : public testing::TestWithParam<Trial> {};
+INSTANTIATE_TEST_SUITE_P(Of, ObstaclesAtRest, testing::ValuesIn(all_runs()),
+                         [](const auto& info) { return info.param.title(); });
+
+TEST_P(ObstaclesAtRest, GiveNoEnergyAndLetNothingPass) {
+  const Trial& run = GetParam();
+  const SimulationSettings settings = make(run);
+  const double all = to_give(run, settings);
+  const AuditedRun audited = audit_run(settings, run.step() > 0.005 ? 60 : 100);
+  EXPECT_LE(audited.rise.rise, stable * all) << run.title() << ": " << 100 * audited.rise.rise / all << " % from step "
+                                             << audited.rise.from << " to " << audited.rise.to;
+  EXPECT_EQ(audited.with_passages, 0) << run.title() << "\n" << lines(audited.first);
+  EXPECT_EQ(audited.with_crossings, 0) << run.title() << "\n" << lines(audited.first);
+  EXPECT_EQ(audited.deepest, 0) << run.title();
+}
+
+}  // namespace
+}  // namespace drape::test
