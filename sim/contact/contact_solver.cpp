@@ -15,15 +15,16 @@ using Index = std::size_t;
 constexpr double relative_stiffness = 10;     // of a contact, of what holds its vertices otherwise
 constexpr double sufficient_decrease = 1e-4;  // Armijo's constant (Nocedal and Wright 2006, section 3.1)
 constexpr double shortest_move = 1e-6;        // of a direction
-constexpr double share_of_way = 0.01;         // tolerance of a step, of the longest way of a vertex in it
-constexpr double linear_tolerance = 0.05;     // of conjugate gradients, in the norm of their preconditioner
+constexpr double share_of_change = 0.01;      // tolerance of a step, of how far its forces move a vertex in it at most
+constexpr double contact_share = 0.02;  // of the tolerance, that gaps and slips may have: κ makes large forces of them
+constexpr double linear_tolerance = 0.05;  // of conjugate gradients, in the norm of their preconditioner
 constexpr int most_linear_iterations = 300;
 constexpr double least_held = 0.1;       // of κ, from which on a direction counts as held
 constexpr double least_free = 0.25;      // of a contact's weights, that has to be on vertices that can move
 constexpr double worth_an_update = 0.5;  // largest move of an iteration, of the slack, at which multipliers change
 constexpr double fast = 0.5;             // what an iteration leaves of the gradient at most, unless it creeps
 constexpr double least_damping = 1.0 / 256, damping_growth = 4;
-constexpr int most_halvings = 40;
+constexpr int most_halvings = 40, most_rounds = 50;
 constexpr int most_useful = 150;  // iterations: a step that has not ended by then hardly ever does
 
 double longest(const Vertices& v) { return v.rowwise().norm().maxCoeff(); }
@@ -272,6 +273,7 @@ double ContactSolver::descend(ContactProblem& problem, Iterate& point, double va
 }
 
 void ContactSolver::choose_start(ContactProblem& problem, const Vertices& steady, Iterate& point) {
+  steady_ = steady;
   const auto value_of = [&](const Iterate& at) {
     problem.linearise(at.x, 0, 0);
     set_stiffness(problem);
@@ -301,12 +303,12 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
     find_radii(point.x, updated);
     const Standing now = assess(problem, point);
     const bool by_gradient = accuracy.rule == StoppingRule::gradient;
-    const double usual = accuracy.usual || by_gradient ? share_of_way * longest(point.x - start_) : 0;
+    const double usual = accuracy.usual || by_gradient ? share_of_change * longest(point.x - steady_) : 0;
     const double tolerance = by_gradient ? usual : std::max(accuracy.tolerance, usual);
     const bool at_a_change = problem.exact() || accuracy.rule == StoppingRule::change;
     const bool balanced = by_gradient ? norm(system_.threads, gradient_) <= accuracy.tolerance
                                       : now.error <= tolerance || (settled && at_a_change);
-    report.converged = balanced && now.residual <= tolerance && !now.collides;
+    report.converged = balanced && now.residual <= contact_share * tolerance && !now.collides;
     if (report.converged || report.iterations >= std::min(most_iterations, most_useful) || !std::isfinite(now.value))
       break;
     const double before = std::exchange(steepness, norm(system_.threads, gradient_));
@@ -334,11 +336,27 @@ double ContactSolver::slack(const Vertices& x) const {
   return most;
 }
 
+void ContactSolver::go_with_obstacles(Vertices& x) {
+  for (const ContactConstraint& contact : contacts_) {
+    if (!contact.collides) continue;
+    double weight = 0;
+    for (Index i = 0; i < static_cast<Index>(contact.count); ++i) weight += contact.weights[i];
+    if (std::abs(weight) < 0.5) continue;  // of the cloth with itself
+    const Eigen::RowVector3d way = -contact.carried.transpose() / weight;
+    for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
+      const int vertex = contact.vertices[i];
+      if (free_[static_cast<Index>(vertex)] != 0) x.row(vertex) = start_.row(vertex) + way;
+    }
+  }
+  find(x, true);
+}
+
 void ContactSolver::retreat(ContactProblem& problem, Iterate& point) {
   const auto collides = [&] {
     return std::ranges::any_of(contacts_, [](const ContactConstraint& contact) { return contact.collides; });
   };
   if (!collides()) return;
+  for (int round = 0; round < most_rounds && carried() && collides(); ++round) go_with_obstacles(point.x);
   const Vertices way = point.x - start_;
   double part = 1;
   for (int halving = 0; halving < most_halvings && collides(); ++halving) {
@@ -349,10 +367,16 @@ void ContactSolver::retreat(ContactProblem& problem, Iterate& point) {
   point.value = problem.evaluate(point.x, point.gradient);
 }
 
-double ContactSolver::work_of_obstacles() const {
+double ContactSolver::work(const Vertices& x) const {
   double work = 0;
-  for (const ContactConstraint& contact : contacts_) work -= contact.force.dot(contact.carried);
+  for (const ContactConstraint& contact : contacts_) {
+    work += respond(contact, x).force.dot(contact.gather(x) - contact.gather(start_));
+  }
   return work;
+}
+
+bool ContactSolver::touches_obstacles() const {
+  return std::ranges::any_of(contacts_, [](const ContactConstraint& contact) { return contact.count < 4; });
 }
 
 bool ContactSolver::carried() const {

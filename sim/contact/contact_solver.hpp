@@ -33,18 +33,21 @@ class ContactSolver {
   [[nodiscard]] bool touches(const Vertices& target);
 
   /// Moves the point, which has g's value and gradient, to the minimum under the contacts. Gaps and slips of contacts
-  /// that hold are as small as the tolerance; by default that is a hundredth of the longest way of a vertex in the
-  /// step, if that is more than elsewhere. Where features still collide at the end, the step goes back on its straight
-  /// way until none do, and counts as not converged.
+  /// that hold are as small as the tolerance; by default that is a hundredth of how far the
+  /// step's forces move a vertex at most, if that is more than elsewhere. Where features still collide at the end, the
+  /// step goes back on its straight way until none do, and counts as not converged.
   StepReport solve(ContactProblem& problem, const Accuracy& accuracy, int most_iterations, Iterate& point);
 
   /// Sets the point to where cloth would go that keeps its velocities, if the augmented function is less there.
   /// @param steady that place, n×3 [m]
   void choose_start(ContactProblem& problem, const Vertices& steady, Iterate& point);
 
-  /// Work that obstacles have done on the cloth by moving, by the forces of the last solve [J].
-  [[nodiscard]] double work_of_obstacles() const;
+  /// Work of the contacts on a cloth that goes from the start of the step to x, by their forces there [J]: negative but
+  /// for what obstacles do by moving, and for features that were too near and separate.
+  [[nodiscard]] double work(const Vertices& x) const;
 
+  /// Whether the cloth touches anything but itself.
+  [[nodiscard]] bool touches_obstacles() const;
   /// Whether an obstacle that the cloth touches moves.
   [[nodiscard]] bool carried() const;
 
@@ -94,7 +97,10 @@ class ContactSolver {
   /// Goes along direction_ until the augmented function falls enough from `value`; returns what part of it, or 0.
   [[nodiscard]] double descend(ContactProblem& problem, Iterate& point, double value);
 
-  /// Shortens the way to the point until nothing collides on it.
+  /// Has vertices that collide with obstacles go with them.
+  void go_with_obstacles(Vertices& x);
+  /// Has what still collides with obstacles that move go with them, and then shortens the way to the point until
+  /// nothing collides on it.
   void retreat(ContactProblem& problem, Iterate& point);
 
   const System& system_;
@@ -105,7 +111,7 @@ class ContactSolver {
   double concavity_ = 0;     // share of the Hessian's negative eigenvalues
   std::vector<ContactConstraint> contacts_, before_, held_;
   std::vector<Response> responses_;
-  Vertices start_;  // of the step
+  Vertices start_, steady_;  // of the step, and where steady velocities lead
   Vertices gradient_, direction_, residual_, preconditioned_, search_, product_;
   Iterate trial_;
 };

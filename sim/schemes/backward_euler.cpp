@@ -23,11 +23,12 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   }
   StepReport report = solve_step(steady, [this] { return !books_.gains(point_, true); });
   const bool touches = contact_ && !contact_->contacts().empty();
-  if (free_ && !touches) balance_momentum(system_.cloth, objective_, point_);
+  const bool held = touches && contact_->touches_obstacles();
+  if (free_ && !held) balance_momentum(system_.cloth, objective_, point_);
   // A step that a small change ended has been looked at, unless it has just been moved.
   const bool looked = !free_ && report.converged && solver_->accuracy().rule == StoppingRule::change;
-  if (touches && books_.gains_in_contact(point_, contact_->work_of_obstacles())) {
-    if (!contact_->carried()) report.kept = books_.shed(point_);
+  if (touches && books_.gains_in_contact(point_, contact_->work(point_.x))) {
+    if (!contact_->carried()) report.kept = books_.shed(point_, held);
     report.converged = false;
   }
   if (!touches && !looked && books_.gains(point_, report.converged)) {

@@ -27,15 +27,16 @@ class EnergyBooks {
   /// @param state must stay as it is until the step ends
   /// @param last_end where end() was told that the last step ended
   void begin(const State& state, const Vertices& last_end);
-  /// Whether ΔK + ΔE − W at the point, where contacts hold the cloth and obstacles that move have done this work [J],
-  /// is more than rounding explains.
+  /// Whether ΔK + ΔE − W at the point, where contacts have done this work on the cloth [J], is more than rounding
+  /// explains.
   [[nodiscard]] bool gains_in_contact(const Iterate& point, double work);
   /// Whether ΔK + ΔE − W at the point is more than rounding explains.
   /// @param tolerant and more than is tolerated
   [[nodiscard]] bool gains(const Iterate& point, bool tolerant);
   /// Goes back from a point that gains towards where the step started until it gains nothing; returns the part of the
   /// way that is left. A cloth that nothing holds goes back to where it would be as a whole.
-  double shed(Iterate& point);
+  /// @param touches whether contacts hold the cloth
+  double shed(Iterate& point, bool touches = false);
   /// Notes what the cloth has where the step ends.
   void end(const Iterate& point);
 

@@ -52,7 +52,6 @@ TEST_P(Impact, AFallingSheetRisesToItsSquareOfTheHeight) {
 }
 
 TEST_P(Impact, ASheetThatFellOnTheGroundLiesStillAtTheContactDistance) {
-  if (GetParam().method == Method::liu13) GTEST_SKIP() << "it lies 0.7 mm too deep, of 0.98 that a step falls freely";
   SimulationSettings s = settings(plain_sheet(level_square(0.6, 8, 0.1)), 0.01);
   s.effects.add(solved_ground());
   Simulation simulation(s);
@@ -82,18 +81,6 @@ Mesh turned_square(double side, int cells, double height, double angle) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
   mesh.positions = (mesh.positions * turn.transpose()).eval();
   return mesh;
-}
-
-TEST_P(Impact, APileOfSheetsComesToRest) {
-  const Mesh pile =
-      together({turned_square(0.5, 6, 0.03, 0), turned_square(0.48, 5, 0.06, 0.3), turned_square(0.46, 6, 0.09, 0.6)});
-  SimulationSettings s = settings(plain_sheet(pile), 0.01);
-  s.effects.add(solved_ground());
-  s.effects.add(solved_self());
-  Simulation simulation(s);
-  run(simulation, 2);
-  EXPECT_LT(rms_speed(simulation), 1e-3);
-  EXPECT_NEAR(simulation.state().x.col(2).minCoeff(), distance, 1e-5);
 }
 
 TEST_P(Impact, PatchesThatMeetKeepTheirMomentum) {
