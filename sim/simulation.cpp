@@ -8,6 +8,7 @@
 #include "sim/schemes/registry.hpp"
 #include "sim/spring_network.hpp"
 #include "sim/step_forces.hpp"
+#include "sim/valid_settings.hpp"
 
 namespace drape {
 namespace {
@@ -17,6 +18,11 @@ std::unique_ptr<StabilityGuard> make_asked_guard(const SimulationSettings& setti
   if (settings.integrator.allow_unstable) return guard;
   if (const auto problem = guard->problem()) throw UsageError(*problem);
   return guard;
+}
+
+SimulationSettings valid(SimulationSettings settings) {
+  require_valid(settings);
+  return settings;
 }
 
 State initial_state(const Cloth& cloth) {
@@ -48,7 +54,7 @@ class Simulation::Motion {
   StabilityGuard::EnergyNow energy;  // K + E
 
   Motion(SimulationSettings given, Timing timing, const Stop& asked)
-      : settings(std::move(given)),
+      : settings(valid(std::move(given))),
         stop(asked),
         threads(settings.threads, settings.spare_threads),
         effect_seconds(timing == Timing::effects ? settings.effects.size() : 0, 0.0),
