@@ -82,7 +82,7 @@ std::optional<MeshName> read_mesh_name(const TomlValue& value, const std::string
     }
     if (entry.name == "fps") {
       const Range positive{.minimum = 0, .minimum_excluded = true};
-      mesh.options.frames_per_second = read_number(entry.value, name + ".fps", positive, problems).value_or(1);
+      mesh.options.frames_per_second = read_number(entry.value, name + ".fps", positive, problems);
       continue;
     }
     const auto text = read_string(entry.value, name + "." + entry.name, problems);

@@ -238,6 +238,10 @@ std::optional<std::filesystem::path> read_file_name(const TomlValue& value, cons
 
   const std::filesystem::path beside_scene = folder / *text;
   if (is_file(beside_scene)) return beside_scene;
+  if (std::error_code error; std::filesystem::is_directory(beside_scene, error)) {
+    problems.add(value.place, fmt::format("{}: expected a file, but {} is a folder", name, beside_scene.string()));
+    return std::nullopt;
+  }
   try {
     const std::filesystem::path in_data = data_folder() / "textures" / *text;
     if (is_file(in_data)) return in_data;

@@ -205,6 +205,8 @@ TEST(SceneErrors, ATextureMustExistAndTheMeshMustTakeIt) {
   EXPECT_EQ(missing.substr(0, missing.find(" nor ")), "scene.toml:5:11: texture: no such file: neither plad.png");
 
   folder.write("pictures/mine.png", "");
+  EXPECT_EQ(folder.problems(with("look", "texture = \"pictures\"")),
+            "scene.toml:5:11: texture: expected a file, but pictures is a folder");
   EXPECT_EQ(folder.load(with("look", "texture = \"pictures/mine.png\"")).look.texture,
             folder.path() / "pictures/mine.png");
   EXPECT_TRUE(folder.load(with("look", "texture = \"\"")).look.texture.empty());
