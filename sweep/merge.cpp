@@ -77,7 +77,7 @@ std::vector<fs::path> parts_in(const fs::path& folder, const char* mark) {
   return found;
 }
 
-SweepFile merge_sweeps(const std::vector<fs::path>& parts, const fs::path& folder) {
+SweepFile merge_sweeps(const std::vector<fs::path>& parts, const fs::path& folder, const std::stop_token& stop) {
   std::optional<SweepFile> whole;
   for (const fs::path& part : parts) {
     const std::optional<SweepFile> file = read_sweep_file(part);
@@ -92,11 +92,13 @@ SweepFile merge_sweeps(const std::vector<fs::path>& parts, const fs::path& folde
   write_sweep_file(folder, *whole);
   for (const PlannedRun& run : whole->plan.runs) {
     std::optional<RunRecord> has = read_run(folder, run.key);
+    if (stop.stop_requested()) break;
     for (const fs::path& part : parts) {
       if (has && has->settled()) break;
       const std::optional<RunRecord> found = read_run(part, run.key);
       std::error_code ignored;
-      if (!found || fs::equivalent(part, folder, ignored) || (has && !found->settled())) continue;
+      const bool there = found && found->outcome != RunOutcome::not_run;
+      if (!there || fs::equivalent(part, folder, ignored) || (has && !found->settled())) continue;
       take_over(run_place(part, run.key), run_place(folder, run.key));
       has = found;
     }

@@ -85,6 +85,12 @@ std::optional<SweepFile> read_sweep_file(const std::filesystem::path& folder) {
     return SweepFile{plan_of(json.at("plan")), parse_shard(json.at("shard"))};
   } catch (const Error&) {
     throw;
+  } catch (const Json::parse_error& error) {
+    throw UsageError(
+        fmt::format("{}: it is damaged at byte {}; drape sweep writes it anew", file.string(), error.byte));
+  } catch (const Json::exception&) {
+    throw UsageError(fmt::format("{}: it is damaged: a value is missing or of another kind; drape sweep writes it anew",
+                                 file.string()));
   } catch (const std::exception& error) {
     throw UsageError(fmt::format("{}: it is damaged ({}); drape sweep writes it anew", file.string(), error.what()));
   }

@@ -74,11 +74,12 @@ std::optional<RunRecord> read_run(const fs::path& sweep, const std::string& key)
                      .figures = {}};
     flatten(json.at("figures"), "", record.figures);
     return record;
-  } catch (const Json::exception&) {
-    return std::nullopt;  // it is run again, and replaced
+  } catch (const Json::exception&) {  // said below, in words for people
   } catch (const UsageError&) {
-    return std::nullopt;
   }
+  RunRecord damaged;
+  damaged.reason = fmt::format("{} is damaged: --resume runs it again", file.string());
+  return damaged;
 }
 
 RunFolder::RunFolder(const fs::path& sweep, const std::string& key)
