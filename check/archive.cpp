@@ -53,8 +53,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Comparison, motion, picture, windows, frames,
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Machine, drape, compiler, system, processor, cpu_flags, kernels, renderer)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SceneResult, name, file, golden, verdict, error, findings, windows, end_to_end,
                                    settings, ignored, elsewhere, scene_changed, recorded_at, recorded_on, renderer,
-                                   size, animation, stills, has_candidate, rerun_command, accept_command, seconds)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckReport, command, accept_command, date, machine, scenes, seconds)
+                                   size, animation, stills, candidate, rerun_command, accept_command, seconds)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckReport, command, run_options, accept_command, date, machine, scenes, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckShard, report, places, scenes, whole)
 
 std::string pack_shard(const CheckShard& shard) {
@@ -75,6 +75,7 @@ CheckShard merge_shards(std::vector<CheckShard> shards, const std::vector<std::f
   CheckShard whole;
   whole.report = shards.front().report;
   whole.report.scenes.clear();
+  whole.report.run_options.clear();
   whole.report.seconds = 0;
   whole.scenes = shards.front().scenes;
   std::map<std::size_t, SceneResult> results;

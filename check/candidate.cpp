@@ -12,6 +12,7 @@
 #include "check/picture.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "core/installation.hpp"
 #include "core/nearest.hpp"
 #include "core/read_file.hpp"
@@ -22,14 +23,23 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t most_description = 1 << 20;  // bytes
+constexpr std::uintmax_t most_report = 1 << 28;       // bytes
 
 fs::path description_file(const fs::path& report, const std::string& name) { return report / name / "candidate.json"; }
 
-Candidate read_candidate(const fs::path& file) {
+std::string candidate_hash(const fs::path& folder) {
+  Hash hash;
+  hash.add(read_golden_file(folder / "manifest.json", UINTMAX_MAX));
+  return hash.text();
+}
+
+/// @param hash that the report lists
+Candidate read_candidate(const fs::path& file, std::string hash) {
   try {
     const Json json = parse_json(read_file(file, most_description));
     const Fields fields(json, "");
     return {.folder = file.parent_path() / "candidate",
+            .hash = std::move(hash),
             .name = file.parent_path().filename().string(),
             .scene_file = fields.text("scene"),
             .scene_digest = fields.text("scene_hash"),
@@ -37,6 +47,31 @@ Candidate read_candidate(const fs::path& file) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(file.string() + ": " + error.what() + "; check the scene again");
   }
+}
+
+/// The name of a scene in a report, which is that of a folder beside it.
+std::string scene_name(const Fields& scene) {
+  std::string name = scene.text("name");
+  if (name.empty() || name.front() == '.' || name.find('/') != std::string::npos) {
+    scene.fail("name", "the name of a folder in this one");
+  }
+  return name;
+}
+
+/// The candidates that report.json lists.
+std::vector<Candidate> listed_candidates(const fs::path& report) {
+  const fs::path file = report / "report.json";
+  std::vector<Candidate> candidates;
+  try {
+    const Json json = parse_json(read_file(file, most_report));
+    for (const Fields& scene : Fields(json, "").objects("scenes")) {
+      std::string hash = scene.text("candidate");
+      if (!hash.empty()) candidates.push_back(read_candidate(description_file(report, scene_name(scene)), hash));
+    }
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(file.string() + ": " + error.what() + "; check the scenes again");
+  }
+  return candidates;
 }
 
 /// A golden with its pictures, all of it as it was recorded.
@@ -71,6 +106,8 @@ Whole accepted(const Candidate& candidate, const std::vector<int>& frames) {
   }
   if (program_hash() != candidate.program)
     refuse(candidate, "it was checked by a different build of drape; check it again");
+  if (candidate_hash(candidate.folder) != candidate.hash)
+    refuse(candidate, "another check has left this since the report was written; check it again");
   Whole whole = read_whole(candidate.folder);
   if (frames.empty()) return whole;
 
@@ -94,12 +131,13 @@ Whole accepted(const Candidate& candidate, const std::vector<int>& frames) {
 
 }  // namespace
 
-void write_candidate(const fs::path& report, const std::string& name, const Scene& scene, const Golden& golden,
-                     const std::vector<Png>& pictures) {
+std::string write_candidate(const fs::path& report, const std::string& name, const Scene& scene, const Golden& golden,
+                            const std::vector<Png>& pictures) {
   write_golden(report / name / "candidate", golden, pictures);
   const Json json{{"scene", scene.file.string()}, {"scene_hash", scene.digest}, {"program", program_hash()}};
   write_file_atomically(description_file(report, name),
                         json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return candidate_hash(report / name / "candidate");
 }
 
 void remove_candidate(const fs::path& report, const std::string& name) {
@@ -109,12 +147,7 @@ void remove_candidate(const fs::path& report, const std::string& name) {
 }
 
 std::vector<Candidate> find_candidates(const fs::path& report, const std::vector<std::string>& wanted) {
-  std::vector<Candidate> all;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(report, error)) {
-    const fs::path file = description_file(report, entry.path().filename().string());
-    if (fs::exists(file, error)) all.push_back(read_candidate(file));
-  }
+  std::vector<Candidate> all = listed_candidates(report);
   if (all.empty()) {
     throw UsageError(fmt::format("{}: there is nothing to accept: this check found no scene changed", report.string()));
   }

@@ -68,7 +68,7 @@ class SceneCheck {
  private:
   void miss() {
     result_.verdict = SceneVerdict::missing;
-    if (options_.update == UpdateMode::none) {
+    if (options_.update == UpdateMode::none || overridden()) {
       result_.findings.push_back("there is no golden to compare with");
     } else if (options_.update == UpdateMode::missing) {
       bless_scene(scene_, settings_, options_.backend, stop_, progress_);
@@ -92,7 +92,7 @@ class SceneCheck {
     result_.recorded_at = golden_.date;
     result_.recorded_on = golden_.machine;
     result_.ignored = covered_part(settings_.ignore, golden_.size);
-    result_.scene_changed = golden_.scene_digest != scene_.digest;
+    result_.scene_changed = golden_.scene_digest != digest_of_file();
 
     const std::string another_motion = motion_mismatch(scene_, golden_);
     const std::string other_pictures = picture_mismatch(scene_, settings_, golden_, !options_.frames.empty());
@@ -112,6 +112,19 @@ class SceneCheck {
       compare_end_to_end();
     }
     conclude();
+  }
+
+  [[nodiscard]] bool overridden() const { return !options_.overrides.empty(); }
+
+  /// Digest of what the scene file gives without overrides. Where that alone is no scene, the file cannot be told from
+  /// the one that was recorded.
+  [[nodiscard]] std::string digest_of_file() const {
+    if (!overridden()) return scene_.digest;
+    try {
+      return load_scene(scene_.file).digest;
+    } catch (const UsageError&) {
+      return golden_.scene_digest;
+    }
   }
 
   void check_precision() const {
@@ -235,13 +248,17 @@ class SceneCheck {
     if (changed && result_.scene_changed) {
       result_.findings.push_back("the scene file has changed since the golden was recorded");
     }
+    if (changed && overridden()) {
+      result_.findings.push_back(fmt::format(
+          "it was checked with {}: to make that golden, edit the scene and check it again", options_.overrides));
+    }
     if (!changed || options_.artefacts.empty()) return;
     if (!stop_.stop_requested()) {
       DifferenceAnimation made = difference_animation(scene_, golden_, result_, options_.backend, options_.artefacts);
       result_.animation = std::move(made.gif);
       result_.stills = std::move(made.stills);
     }
-    if (!stop_.stop_requested()) keep_candidate();
+    if (!stop_.stop_requested() && !overridden()) keep_candidate();
   }
 
   /// What bless would record now. Where it cannot, because the motion diverges, there is nothing to accept.
@@ -253,8 +270,8 @@ class SceneCheck {
       result_.findings.push_back(fmt::format("there is nothing to accept: {}", diverged.what()));
     }
     if (!recording) return;
-    write_candidate(options_.artefacts, result_.name, scene_, recording->golden, recording->pictures);
-    result_.has_candidate = true;
+    result_.candidate =
+        write_candidate(options_.artefacts, result_.name, scene_, recording->golden, recording->pictures);
   }
 
   const Scene& scene_;

@@ -37,7 +37,7 @@ std::string github_summary(const CheckReport& report) {
     const Comparison& windows = scene->windows;
     text += fmt::format("| {} | {} {} | {} | {} | {} |\n", markdown(scene->file.string()), scene->passed() ? "✅" : "❌",
                         verdict_name(scene->verdict), windows.windows.empty() ? "–" : verdict_name(windows.motion),
-                        windows.frames.empty() ? "–" : verdict_name(windows.picture),
+                        windows.frames.empty() ? "–" : picture_verdict(*scene, windows),
                         markdown(fmt::format("{}", fmt::join(scene->findings, "; "))));
   }
   if (!report.accept_command.empty()) text += fmt::format("\nTo accept all of it: `{}`\n", report.accept_command);

@@ -33,11 +33,11 @@ std::string describe(const SceneResult& scene) {
   std::string text =
       fmt::format("{}: passed: motion {}, {} {}", file, verdict_name(scene.windows.motion), scene.windows.frames.size(),
                   scene.windows.frames.size() == 1 ? "picture" : "pictures");
-  text += fmt::format(" {}", verdict_name(scene.windows.picture));
+  text += " " + picture_verdict(scene, scene.windows);
   if (const std::string ignored = describe_ignored(scene); !ignored.empty()) text += fmt::format(" ({})", ignored);
   if (scene.end_to_end) {
     text += fmt::format("; end to end {}, {}", verdict_name(scene.end_to_end->motion),
-                        verdict_name(scene.end_to_end->picture));
+                        picture_verdict(scene, *scene.end_to_end));
   }
   return text + fmt::format(" ({:.1f} s)", scene.seconds);
 }

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <memory>
 
 #include "check/candidate.hpp"
 #include "cli/check_results.hpp"
+#include "cli/interruption.hpp"
 #include "cli/studies.hpp"
 #include "cli/sweep_results.hpp"
 #include "core/error.hpp"
@@ -33,17 +35,27 @@ void take_over(const fs::path& part, const fs::path& folder, const std::string& 
   if (error) throw OutputError(fmt::format("cannot write {}: {}", (folder / name).string(), error.message()));
 }
 
+/// Whether a person has asked for an end. What is merged so far is complete, and merging again goes on.
+bool interrupted() {
+  if (!interruption().stop_requested()) return false;
+  spdlog::error("interrupted: the same command completes it");
+  return true;
+}
+
 ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder, const CommonOptions& common) {
   constexpr std::size_t most_bytes = std::size_t{1} << 32;
   std::vector<CheckShard> shards;
   for (const fs::path& part : parts) {
     shards.push_back(unpack_shard(read_file(part / check_mark, most_bytes), part / check_mark));
-    for (const SceneResult& result : shards.back().report.scenes) take_over(part, folder, result.name);
+    for (const SceneResult& result : shards.back().report.scenes) {
+      if (interrupted()) return ExitCode::interrupted;
+      take_over(part, folder, result.name);
+    }
   }
   CheckShard whole = merge_shards(std::move(shards), parts);
   Verdicts verdicts;
   for (SceneResult& result : whole.report.scenes) {
-    if (result.has_candidate) {
+    if (result.has_candidate()) {
       whole.report.accept_command = accept_command(folder);
       result.accept_command = accept_command(folder) + " " + shell_word(result.name);
     }
@@ -63,6 +75,7 @@ const char* mark_in(const fs::path& folder) {
 }
 
 ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
+  interruption();  // from here on, a signal ends it between two files
   const char* mark = mark_in(arguments.folders.front());
   std::vector<fs::path> parts;
   for (const std::string& folder : arguments.folders) {
@@ -78,7 +91,8 @@ ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
   const fs::path folder = arguments.output.empty() ? arguments.folders.front() : arguments.output;
   if (mark == check_mark) return merge_checks(parts, folder, common);
   if (mark == stability_runs_name) return merge_stability_study(parts, folder, common);
-  SweepFile whole = merge_sweeps(parts, folder);
+  SweepFile whole = merge_sweeps(parts, folder, interruption().get_token());
+  if (interrupted()) return ExitCode::interrupted;
   return conclude_sweep(read_results(folder, std::move(whole)), folder, common);
 }
 
