@@ -13,10 +13,11 @@
 #include "cli/number_option.hpp"
 #include "cli/output_clashes.hpp"
 #include "cli/run_arguments.hpp"
+#include "cli/scene_files.hpp"
 #include "cli/summary.hpp"
+#include "cli/terminal.hpp"
 #include "cli/watched.hpp"
 #include "compare/compare_scenes.hpp"
-#include "core/console.hpp"
 #include "core/shell.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
@@ -44,30 +45,26 @@ std::pair<std::vector<Scene>, std::vector<std::shared_ptr<MotionReader>>> load_v
     const CompareArguments& arguments) {
   std::vector<Scene> scenes;
   std::vector<std::shared_ptr<MotionReader>> recorded;
-  std::string problems;
-  const auto load = [&](const std::string& file, const std::vector<std::string>& overrides) {
+  SceneProblems problems;
+  const auto load = [&](const std::string& file, const std::vector<std::string>& some) {
+    std::vector<std::string> overrides = arguments.overrides;
+    overrides.insert(overrides.end(), some.begin(), some.end());
     try {
       SceneToRun found = open_scene(file, overrides);
       if (found.recorded) require_steps(file, found.recorded->last_step(), arguments.options.steps);
       scenes.push_back(std::move(found.scene));
       recorded.push_back(std::move(found.recorded));
     } catch (const UsageError& error) {
-      const std::string problem = error.what();  // of a file, which may be that of all its variations
-      if (problems.find(problem) == std::string::npos) problems += (problems.empty() ? "" : "\n") + problem;
+      problems.add(file, as_varied(error.what(), some));
     }
   };
   std::vector<Variation> varied;
   for (const std::string& text : arguments.varied) varied.push_back(parse_variation(text));
   const std::vector<std::vector<std::string>> all = combinations(varied);
   for (const std::string& file : arguments.scenes) {
-    for (const std::vector<std::string>& values : all) {
-      std::vector<std::string> overrides = arguments.overrides;
-      const std::vector<std::string> some = overrides_of(varied, values);
-      overrides.insert(overrides.end(), some.begin(), some.end());
-      load(file, overrides);
-    }
+    for (const std::vector<std::string>& values : all) load(file, overrides_of(varied, values));
   }
-  if (!problems.empty()) throw UsageError(problems);
+  problems.throw_if_any(arguments.scenes);
   constexpr std::size_t most = 36;
   if (scenes.size() > most) {
     throw UsageError(fmt::format("{} motions cannot be shown side by side; the limit is {}", scenes.size(), most));
@@ -139,7 +136,7 @@ ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& com
   });
   if (!common.quiet) {
     for (const ComparedMotion& motion : result.motions) spdlog::info(motion.label);
-    if (!result.outputs.empty()) print_text(stderr, describe_files(result.outputs) + "\n");
+    if (!result.outputs.empty()) print_wrapped(stderr, describe_files(result.outputs) + "\n");
   }
   return conclude(result);
 }
@@ -159,7 +156,7 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
           "Output file; its extension selects the format (repeatable; default out/compare.gif).\n.html a "
           "self-contained page: the motions in step, their figures and differences; its diagrams as files are in "
           "NAME-diagrams\n{}",
-          output_help(true))));
+          output_help(FormatKinds::drawn))));
   one_each(
       sub->add_option("--set", arguments->overrides, "Override a value of all scenes: key.path=value; repeatable"));
   one_each(sub->add_option(

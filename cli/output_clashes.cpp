@@ -27,7 +27,9 @@ std::vector<Writer> writers(std::size_t number, const Scene& scene, const RunOpt
   for (const std::string& path : options.outputs) {
     result.push_back({number, "-o " + path, output_files(path, film)});
   }
-  if (options.poster) result.push_back({number, "--poster", poster_files(options.outputs, film)});
+  for (const std::string& path : options.poster ? options.outputs : std::vector<std::string>()) {
+    result.push_back({number, "the poster of " + path, poster_files({path}, film)});
+  }
   if (options.motion) {
     const std::string& path = options.motion->path;
     result.push_back({number, "-o " + path, {path, growing_name(path).string(), checkpoint_name(path).string()}});

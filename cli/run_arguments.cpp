@@ -133,7 +133,7 @@ void add_outputs(CLI::App& command, RunArguments& arguments, const std::string& 
           fmt::format(
               "Output file; its extension selects the format ({}).\nA run that ends early, by Ctrl-C or divergence, "
               "writes NAME.partial.EXT instead, and for a .drape NAME.drape.partial, which --resume continues.\n{}",
-              usage, output_help(drawn)))
+              usage, output_help(drawn ? FormatKinds::all : FormatKinds::undrawn)))
       ->allow_extra_args(false);
 }
 

@@ -12,6 +12,7 @@
 #include "cli/motion_runs.hpp"
 #include "cli/output_clashes.hpp"
 #include "cli/run_arguments.hpp"
+#include "cli/scene_files.hpp"
 #include "cli/scene_run.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
@@ -128,7 +129,7 @@ ExitCode go_on(const RunArguments& arguments, const CommonOptions& common) {
 
 std::vector<SceneToRun> load_all(const RunArguments& arguments) {
   std::vector<SceneToRun> all;
-  std::string problems;
+  SceneProblems problems;
   for (const std::string& file : arguments.scenes) {
     if (is_motion_file(file) && !arguments.drawing) {
       throw UsageError(fmt::format("{} is already a motion: use drape render to draw it", file));
@@ -136,10 +137,10 @@ std::vector<SceneToRun> load_all(const RunArguments& arguments) {
     try {
       all.push_back(open_scene(file, arguments.overrides, arguments.look));
     } catch (const UsageError& error) {
-      problems += (problems.empty() ? "" : "\n") + std::string(error.what());
+      problems.add(file, error.what());
     }
   }
-  if (!problems.empty()) throw UsageError(problems);
+  problems.throw_if_any(arguments.scenes);
   return all;
 }
 

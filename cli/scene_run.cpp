@@ -11,7 +11,7 @@
 #include "cli/interruption.hpp"
 #include "cli/motion_runs.hpp"
 #include "cli/summary.hpp"
-#include "core/console.hpp"
+#include "cli/terminal.hpp"
 #include "core/shell.hpp"
 #include "run/motion_space.hpp"
 #include "run/outputs.hpp"
@@ -40,7 +40,10 @@ SceneRun::SceneRun(const Scene& scene, RunOptions options, const RunArguments& a
       arguments_(arguments),
       common_(common),
       quiet_(common.quiet || arguments.step_by_step),
-      pause_(interruption()) {
+      pause_(interruption()),
+      slow_(film_extent(scene, options_).steps, needs_drawing(options_),
+            [&scene](const std::string& text) { spdlog::info("{}: {}", scene.file.string(), text); }) {
+  options_.observer = &slow_;
   if (arguments.step_by_step) options_.observer = &pause_;
 }
 
@@ -77,7 +80,7 @@ ExitCode SceneRun::end() {
   if (!result_.renderer.empty()) spdlog::debug("drawn by {}", result_.renderer);
   if (common_.verbose) spdlog::debug(effect_shares(result_.statistics));
   if (!common_.quiet && (result_.statistics.steps() > 0 || options_.recorded)) {
-    print_text(stderr, summarize(result_) + "\n");
+    print_wrapped(stderr, summarize(result_) + "\n");
   }
   for (const std::string& doubt : doubts(result_)) spdlog::warn("{}: {}", scene_.file.string(), doubt);
   return conclude();

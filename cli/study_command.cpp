@@ -6,6 +6,7 @@
 
 #include "cli/number_option.hpp"
 #include "cli/studies.hpp"
+#include "cli/terminal.hpp"
 #include "cli/watched.hpp"
 #include "core/atomic_file.hpp"
 #include "core/console.hpp"
@@ -53,8 +54,9 @@ ExitCode conclude_study(const StudyReport& report, const std::filesystem::path& 
   const std::string problem = write_report(report, folder);
   if (!problem.empty()) spdlog::warn(problem);
   if (!common.quiet) {
-    print_text(stdout, fmt::format("{}\n{}\n", to_text(report, terminal(stdout, common.color).width),
-                                   (folder / report_page).string()));
+    const std::size_t width = terminal(stdout, common.color).width;
+    const std::string text = common.verbose ? to_text(report, width) + "\n" : to_summary(report, width);
+    print_text(stdout, text + (folder / report_page).string() + "\n");
   }
   return ExitCode::ok;
 }

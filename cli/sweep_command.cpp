@@ -8,6 +8,7 @@
 #include "cli/interruption.hpp"
 #include "cli/number_option.hpp"
 #include "cli/sweep_results.hpp"
+#include "cli/terminal.hpp"
 #include "cli/watched.hpp"
 #include "core/console.hpp"
 #include "core/shell.hpp"
@@ -130,7 +131,7 @@ ExitCode conclude_sweep(const SweepResults& results, const std::filesystem::path
   for (const std::string& trouble : results.troubles()) spdlog::error(trouble);
   if (const std::string problem = write_sweep_report(results, folder); !problem.empty()) spdlog::warn(problem);
   if (!common.quiet) {
-    print_text(stdout, fmt::format("{}\n{}\n", results.headline(), (folder / sweep_page_name).string()));
+    print_wrapped(stdout, fmt::format("{}\n{}\n", results.headline(), (folder / sweep_page_name).string()));
   }
   if (const std::size_t left = results.count(RunOutcome::not_run); left > 0) {
     spdlog::error("{} of {} runs were not run: --resume continues", left, results.rows.size());
@@ -167,7 +168,8 @@ void add_sweep_command(CLI::App& app, const CommonOptions& common, Command& comm
                                        "Run nothing; write jobs for Slurm: an array of N shards, and their merge");
   slurm->check(whole_number_in({1, 100'000}))->excludes("--shard");
   one_each(sub->add_option("--slurm-option", arguments->slurm_options,
-                           "Option of sbatch for these jobs, such as --partition=short; repeatable"));
+                           "Option of sbatch for these jobs, such as --partition=short; repeatable")
+               ->needs(slurm));
   sub->add_flag("--submit", arguments->submit, "Submit these jobs")->needs(slurm);
   sub->add_flag("--dry-run", arguments->dry_run, "Check everything and list the runs with estimated times");
   sub->add_flag("--report-only", arguments->report_only, "Run nothing; write the report again from the folder");

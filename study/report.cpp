@@ -61,12 +61,39 @@ std::vector<StudySection> all_sections(const StudyReport& report) {
   return sections;
 }
 
+/// The text, or what fits of it and "…".
+std::string cut(std::string text, std::size_t width) {
+  if (columns_of(text) <= width) return text;
+  while (columns_of(text) >= width) {
+    std::size_t end = text.size() - 1;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // a character of several bytes
+    text.resize(end);
+  }
+  return text + "…";
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> study_provenance() {
   std::vector<std::pair<std::string, std::string>> facts = html::provenance();
   facts.emplace_back("Instruction set", std::string(kernels().name));
   return facts;
+}
+
+std::string to_summary(const StudyReport& report, std::size_t width) {
+  constexpr std::size_t most_lines = 5;
+  std::vector<std::string> lines{report.headline};
+  for (const StudyFinding& f : report.findings) {
+    lines.push_back(fmt::format("  {}{}{} {}", f.verdict, f.verdict.empty() ? "" : ": ", f.claim, f.figures));
+  }
+  if (lines.size() > most_lines) {
+    const std::size_t more = lines.size() - most_lines + 1;
+    lines.resize(most_lines - 1);
+    lines.push_back(fmt::format("  and {} more findings", more));
+  }
+  std::string text;
+  for (const std::string& line : lines) text += cut(line, width) + "\n";
+  return text;
 }
 
 std::string to_text(const StudyReport& report, std::size_t width) {
