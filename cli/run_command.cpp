@@ -71,7 +71,8 @@ ExitCode run(const Scene& scene, const RunOptions& options, const RunArguments& 
 /// @throws UsageError if what is said of outputs is said where there are none
 void require_something_to_make(const RunArguments& arguments) {
   if (!arguments.outputs.empty()) return;
-  if (arguments.overrides.empty() && !arguments.steps && arguments.frames.empty() && arguments.every.empty()) return;
+  const bool frames = !arguments.frames.empty() || arguments.times.any() || !arguments.every.empty();
+  if (arguments.overrides.empty() && !arguments.steps && !frames) return;
   throw UsageError(
       fmt::format("--resume {} continues the run as it began; --set, --steps, --frames and --every apply to outputs of "
                   "the whole motion, and there is no -o",
@@ -83,6 +84,7 @@ ExitCode make_of_motion(const std::string& file, const RunArguments& arguments, 
   const SceneToRun found = open_motion(file, arguments.overrides, arguments.look);
   RunOptions options = run_options(arguments, found.scene, common.verbose);
   limit_to_motion(file, found.recorded->last_step(), options);
+  choose_frames(arguments.times, found.scene, options);
   if (arguments.outputs.empty()) {
     spdlog::info("{} is complete", file);
     return ExitCode::ok;
@@ -111,6 +113,7 @@ ExitCode go_on(const RunArguments& arguments, const CommonOptions& common) {
   afterwards.records = {};
   RunOptions later = run_options(afterwards, found->drawn, common.verbose);
   limit_to_motion(file, *found->options.steps, later);
+  choose_frames(arguments.times, found->drawn, later);
   look_ahead({found->drawn}, {later});
 
   RunOptions options = found->options;
@@ -192,6 +195,7 @@ ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
     if (found.recorded) {
       limit_to_motion(found.scene.file.string(), found.recorded->last_step(), options.back());
     }
+    choose_frames(arguments.times, found.scene, options.back());
     options.back().recorded = found.recorded;
     scenes.push_back(std::move(found.scene));
   }
