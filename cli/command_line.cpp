@@ -69,7 +69,8 @@ void refuse_empty_values(CLI::App& app) {
     return value.empty() ? std::string("expected a value, found an empty text") : std::string();
   };
   for (CLI::Option* option : app.get_options()) {
-    const bool own = option->check_lname("set") || option->check_lname("vary") || option->check_lname("output");
+    const bool own = option->check_lname("set") || option->check_lname("vary") || option->check_lname("output") ||
+                     option->check_lname("threads");
     if (option->get_type_size() > 0 && !option->get_positional() && !own) option->check(CLI::Validator(problem, ""));
   }
   for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) refuse_empty_values(*subcommand);

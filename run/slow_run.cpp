@@ -18,11 +18,14 @@ std::string about(double seconds) {
   return fmt::format("{:.0f} h", seconds / 3600);
 }
 
-Reason of_iterations(double iterations, const IntegratorSettings& integrator) {
+Reason of_iterations(double iterations, const SimulationSettings& settings) {
+  constexpr double coarse = 1e-4;  // of the cloth's size: a hundred times what is solved to by default
+  const IntegratorSettings& integrator = settings.integrator;
   const std::string why = fmt::format("each takes {:.0f} iterations", iterations);
   if (integrator.method != Method::quasi_newton) return {why, "method = \"quasi-newton\""};
   if (integrator.stop || integrator.tolerance) return {why, "a larger [integrator] tolerance"};
-  return {why, "a shorter [time] step, which takes fewer of them, or softer springs"};
+  return {why, fmt::format("[integrator] stop = \"error\" with tolerance = {:.1g}, or a shorter [time] step",
+                           coarse * size_of(settings.cloth))};
 }
 
 Reason reason(const Pace& pace, const SimulationSettings& settings) {
@@ -36,7 +39,7 @@ Reason reason(const Pace& pace, const SimulationSettings& settings) {
     return {fmt::format("[time] accuracy cuts each into {:.0f} substeps", pace.substeps / steps),
             "a larger [time] accuracy"};
   }
-  if (pace.iterations > many_iterations * steps) return of_iterations(pace.iterations / steps, integrator);
+  if (pace.iterations > many_iterations * steps) return of_iterations(pace.iterations / steps, settings);
   const std::string why =
       fmt::format("each takes {:.3g} ms for {} vertices", 1e3 * pace.simulated / steps, settings.cloth.vertex_count());
   if (is_explicit(integrator.method)) {

@@ -86,6 +86,11 @@ std::string to_summary(const StudyReport& report, std::size_t width) {
   for (const StudyFinding& f : report.findings) {
     lines.push_back(fmt::format("  {}{}{} {}", f.verdict, f.verdict.empty() ? "" : ": ", f.claim, f.figures));
   }
+  for (const StudySection& section : report.sections) {
+    for (const std::string& paragraph : section.text) {
+      if (lines.size() < most_lines) lines.push_back("  " + paragraph);
+    }
+  }
   if (lines.size() > most_lines) {
     const std::size_t more = lines.size() - most_lines + 1;
     lines.resize(most_lines - 1);

@@ -29,6 +29,13 @@ TEST(Pace, SaysHowLongAndWhy) {
   settings.integrator = {.method = Method::quasi_newton, .tolerance = 1e-9};
   EXPECT_NE(text(slow, settings).find("faster would be a larger [integrator] tolerance"), std::string::npos);
 
+  settings.integrator.tolerance.reset();
+  EXPECT_NE(
+      text(slow, settings)
+          .find("faster would be [integrator] stop = \"error\" with tolerance = 0.0003, or a shorter [time] step"),
+      std::string::npos)
+      << text(slow, settings);
+
   Pace other = slow;
   other.drawn = true;
   other.simulated = 1;
