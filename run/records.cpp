@@ -54,9 +54,8 @@ class Records::EnergyLog final : public StepObserver {
  private:
   void add(const Simulation& simulation) { add(simulation.state().step, simulation.time(), simulation.energies()); }
   void add(std::int64_t step, double time, const Energies& e) {
-    constexpr double unsigned_zero = 0;  // added to a zero of either sign it gives 0, which is printed without one
-    file.write(fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}\n", step, time, e.total() + unsigned_zero,
-                           e.kinetic + unsigned_zero, e.gravity + unsigned_zero, e.elastic + unsigned_zero));
+    file.write(fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}\n", step, time, e.total(), e.kinetic, e.gravity,
+                           e.elastic));
   }
 };
 

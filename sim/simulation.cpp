@@ -153,7 +153,9 @@ Energies Simulation::Motion::energies() {
   per_vertex = state.v.rowwise().squaredNorm();
   const double kinetic = 0.5 * m.dot(per_vertex);
   per_vertex.noalias() = state.x * system->gravity;
-  return {.kinetic = kinetic, .gravity = -m.dot(per_vertex), .elastic = elastic};
+  return {.kinetic = kinetic,
+          .gravity = 0 - m.dot(per_vertex),  // and not −0
+          .elastic = elastic};
 }
 
 Simulation::Simulation(SimulationSettings settings, Timing timing, const Stop& stop)

@@ -222,7 +222,7 @@ TEST(MotionOnTheCommandLine, SaysWhatIsWrong) {
   EXPECT_EQ(text("simulate scene.toml -o a.drape -o b.drape"),
             "drape: -o a.drape and -o b.drape: a run writes only one motion file\n");
   EXPECT_EQ(text("simulate scene.toml -o a.drape --every 0"),
-            "drape: --every takes a number of steps of at least 1, or frames; found '0'\n");
+            "drape: --every takes a number of steps of at least 1, a time such as 0.1s, or frames; found '0'\n");
   EXPECT_EQ(text("simulate scene.toml -o {frame}.drape"),
             "drape: '{frame}.drape' is one file for the whole run: it cannot contain {frame}\n");
   EXPECT_EQ(text("simulate"), "drape: SCENE is required; see drape --help\n");

@@ -145,6 +145,24 @@ TEST(Terminal, BreaksResultsBetweenWords) {
   EXPECT_LE(longest_line(at_terminal.text.substr(summary)), 81U) << at_terminal.text;  // with a carriage return
 }
 
+// A bar that is continued in the next line is not taken back by what follows it.
+TEST(Terminal, ShowsProgressInOneLine) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", test::swinging_scene);
+  const Finished finished = test::run_shell(
+      folder, "TERM=xterm script -qec '" DRAPE_EXECUTABLE
+              " study accuracy scene.toml --parts order --methods verlet --steps 0.002,0.001 --times 0.4 "
+              "--runs 1 --animate none' /dev/null </dev/null");
+  const std::string taken_back = "\r\x1b[K";
+  for (std::size_t at = finished.text.find(taken_back); at != std::string::npos;) {
+    const std::size_t begin = at + taken_back.size();
+    const std::string line = finished.text.substr(begin, finished.text.find_first_of("\r\n", begin) - begin);
+    EXPECT_LT(columns_of(line), 80U) << line;
+    at = finished.text.find(taken_back, begin);
+  }
+  EXPECT_NE(finished.text.find("report.html"), std::string::npos) << finished.text;
+}
+
 TEST(Terminal, WrapsMessagesAtTheWindowsWidth) {
   const test::SceneFolder folder;
   folder.write("scene.toml", test::swinging_scene + "[look]\ncolour = 1\nbackgrund = 2\nsphere_colour = \"red\"\n");
