@@ -32,7 +32,7 @@ nlohmann::json report_in(const SceneFolder& folder, const std::string& place) {
   json.erase("command");  // which has --jobs
   for (nlohmann::json& result : json["scenes"]) {
     result.erase("seconds");
-    result["candidate"] = result["candidate"] != "";  // whose hash has the time in it
+    result["candidate"] = !result["candidate"].get<std::string>().empty();  // whose hash has the time in it
   }
   return json;
 }
