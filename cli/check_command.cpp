@@ -12,6 +12,7 @@
 #include "check/machine.hpp"
 #include "cli/check_results.hpp"
 #include "cli/frame_list.hpp"
+#include "cli/line_option.hpp"
 #include "cli/number_option.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/watched.hpp"
@@ -94,7 +95,7 @@ class Judge {
     } catch (const std::bad_alloc&) {
       result = unjudged_scene(scene, names_[place], settings, UsageError("there is not enough memory for this"));
     }
-    const std::string file = shell_word(scene.file.string());
+    const std::string file = shell_file(scene.file.string());
     result.rerun_command = "drape check " + file + command_options(arguments_);
     // What was checked with other values than the file's is not what the file gives.
     result.has_candidate = result.has_candidate && arguments_.overrides.empty();
@@ -178,7 +179,7 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   CheckReport& report = part.report;
   report.date = utc_now();
   report.command = "drape check";
-  for (const std::string& scene : arguments.scenes) report.command += " " + shell_word(scene);
+  for (const std::string& scene : arguments.scenes) report.command += " " + shell_file(scene);
   report.command += command_options(arguments);
   Verdicts verdicts;
   const Judge judge(scenes, arguments, options);
@@ -216,7 +217,8 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
                   "Which goldens to write; default missing, and such a check still fails")
       ->type_name("all|missing|none");
   add_backend_option(*sub, arguments->backend);
-  sub->add_option("--report", arguments->report, "Folder for the report (HTML, JSON, JUnit); default out/check");
+  sub->add_option("--report", arguments->report, "Folder for the report (HTML, JSON, JUnit); default out/check")
+      ->check(on_one_line());
   sub->add_option("--threads", arguments->threads, "Number of windows of motion computed at once")
       ->check(whole_number_in({1, 1024}));
   sub->add_option("--jobs", arguments->jobs, "How many scenes are checked at once; default 1")

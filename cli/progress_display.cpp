@@ -49,20 +49,20 @@ void ProgressDisplay::update() {
   }
   if (style_ == Style::lines) {
     last_line_ = now;
-    print_text(stderr, text + "\n");
+    print_unescaped(stderr, text + "\n");
     return;
   }
   const std::size_t width = terminal(stderr, ColorMode::never).width, taken = bar_width + 4;
   if (width != unlimited_width) text.resize(std::min(text.size(), width > taken ? width - taken : 0));
   const auto filled = static_cast<std::size_t>(bar_width * done / total);
-  print_text(stderr,
-             fmt::format("\r\x1b[K[{}{}] {}", std::string(filled, '#'), std::string(bar_width - filled, ' '), text));
+  print_unescaped(
+      stderr, fmt::format("\r\x1b[K[{}{}] {}", std::string(filled, '#'), std::string(bar_width - filled, ' '), text));
   bar_shown_ = true;
 }
 
 void ProgressDisplay::clear() {
   if (!bar_shown_) return;
-  print_text(stderr, "\r\x1b[K");
+  print_unescaped(stderr, "\r\x1b[K");
   bar_shown_ = false;
 }
 

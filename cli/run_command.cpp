@@ -13,6 +13,7 @@
 #include "cli/output_clashes.hpp"
 #include "cli/run_arguments.hpp"
 #include "cli/scene_run.hpp"
+#include "core/text.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
 #include "render/texture_image.hpp"
@@ -158,7 +159,7 @@ ExitCode run_each(const std::vector<Scene>& scenes, const std::vector<RunOptions
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     if (i > 0 && interruption().stop_requested()) {
       end_last();
-      if (worst != ExitCode::interrupted) spdlog::error("interrupted before {}", scenes[i].file.string());
+      if (worst != ExitCode::interrupted) spdlog::error("interrupted before {}", shown(scenes[i].file));
       return ExitCode::interrupted;
     }
     auto next = std::make_unique<SceneRun>(scenes[i], options[i], arguments, common);

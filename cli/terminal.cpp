@@ -12,6 +12,7 @@
 #include <mutex>
 
 #include "core/console.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -40,11 +41,11 @@ class TerminalSink : public spdlog::sinks::base_sink<std::mutex> {
   void sink_it_(const spdlog::details::log_msg& message) override {
     constexpr std::string_view prefix = "drape:";
     const std::string_view payload(message.payload.data(), message.payload.size());
-    const std::string text = wrapped(std::string(prefix) + " " + std::string(payload), where_.width, 2);
-    std::string shown(prefix);
-    if (message.level >= spdlog::level::err) shown = inked(prefix, Ink::red, where_);
-    if (message.level == spdlog::level::warn) shown = inked(prefix, Ink::yellow, where_);
-    print_text(stderr, shown + text.substr(prefix.size()) + "\n");
+    const std::string text = wrapped(std::string(prefix) + " " + escape_controls(payload), where_.width, 2);
+    std::string head(prefix);
+    if (message.level >= spdlog::level::err) head = inked(prefix, Ink::red, where_);
+    if (message.level == spdlog::level::warn) head = inked(prefix, Ink::yellow, where_);
+    print_unescaped(stderr, head + text.substr(prefix.size()) + "\n");
   }
   void flush_() override {}
 
