@@ -98,10 +98,34 @@ TEST_F(Paper, ShowsTheStillsOfAnAnimation) {
   EXPECT_EQ(seen("img[src^=\"data:image/png\"]"), 1);
 }
 
+TEST_F(Paper, CopiesNothingThatASpreadsheetComputes) {
+  open_page(table({"A table", {{"name"}, {"n", true}}, {{"=1+1", "-5"}, {"@SUM(A1)", "-1.5e-3"}, {"a|b", "–"}}}));
+  EXPECT_EQ(copied("[data-form=CSV]"), "name,n\n'=1+1,-5\n'@SUM(A1),-1.5e-3\na|b,–\n");
+  EXPECT_NE(copied("[data-form=Markdown]").find("| a\\|b | – |"), std::string::npos);
+}
+
+TEST_F(Paper, ShowsCardsInANarrowWindow) {
+  Table answer{"What to take", {{"error"}, {"below 1 mm"}, {"below 0.1 mm"}}, {}};
+  answer.rows = {{"whole [ms per second]", "quasi-newton, accuracy 1e-3: 12.4", "liu13, h = 0.001 s: 40.1"},
+                 {"one step [µs]", "liu13, ε = 1e-4: 31.0", ""}};
+  answer.card_labels = {"error", "below 1 mm", "below 0.1 mm"};
+  open_page(table(answer));
+  keep_screenshots("cards");
+  browser_->set_width(390);
+  EXPECT_EQ(browser_->run("return [...document.querySelectorAll('td')].filter((c) => c.textContent && "
+                          "c.getBoundingClientRect().right > 390).length"),
+            0);
+  EXPECT_EQ(browser_->run("return document.querySelector('.scroll').scrollWidth > 390"), false);
+  EXPECT_EQ(browser_->run("return getComputedStyle(document.querySelector('td + td'), '::before').content"),
+            "\"below 1 mm\"");
+  browser_->set_width(1200);
+  EXPECT_EQ(browser_->run("return getComputedStyle(document.querySelector('td + td')).display"), "table-cell");
+}
+
 TEST_F(Paper, TakesTablesFromTheClipboard) {
   open_page(table({"A table", {{"method"}, {"ε_1, %", true}}, {{"a, \"b\"", "0.5"}}}));
   EXPECT_EQ(copied("[data-form=CSV]"), "method,\"ε_1, %\"\n\"a, \"\"b\"\"\",0.5\n");
-  EXPECT_EQ(copied("[data-form=Markdown]"), "| method | ε_1, % |\n| --- | ---: |\n| a, \"b\" | 0.5 |\n");
+  EXPECT_EQ(copied("[data-form=Markdown]"), "| method | ε\\_1, % |\n| --- | ---: |\n| a, \"b\" | 0.5 |\n");
   const std::string latex = copied("[data-form=LaTeX]");
   EXPECT_NE(latex.find("\\begin{tabular}{lr}\n  \\toprule\n  method & $\\varepsilon$\\_1, \\% \\\\\n"),
             std::string::npos)
