@@ -22,12 +22,15 @@ int band_text_size(const Scene& scene) { return std::max(11, text_size(scene.vid
 
 /// Does something with the scene's text; an error names where it is.
 auto attributed(const Scene& scene, const auto& work) {
+  const auto placed = [&](const Error& error) {
+    return fmt::format("{}: {}", scene.caption_place.empty() ? shown(scene.file) : scene.caption_place, error.what());
+  };
   try {
     return work();
-  } catch (const Error& error) {
-    throw Error(
-        error.kind(),
-        fmt::format("{}: {}", scene.caption_place.empty() ? shown(scene.file) : scene.caption_place, error.what()));
+  } catch (const UsageError& error) {
+    throw UsageError(placed(error));
+  } catch (const OutputError& error) {
+    throw OutputError(placed(error));
   }
 }
 
