@@ -17,10 +17,10 @@ namespace {
 
 using Mask = cv::Mat1b;  // 1 where a frame changes the picture
 
-constexpr float quality = 75;          // libwebp's own default: a film is half as large as a GIF
-constexpr int seen_at_rest = 4;        // of 255: what may be off where nothing moves
+constexpr float quality = 75;          // libwebp's own default: a film has two thirds of the size of a GIF
+constexpr int seen_at_rest = 2;        // of 255: what may be off where nothing moves
 constexpr int seen_in_motion = 5;      // and elsewhere; in libwebp it is as much at this quality
-constexpr std::uint8_t at_rest = 2;    // frames for which a pixel has been the same
+constexpr std::uint8_t at_rest = 4;    // frames for which a pixel has not changed
 constexpr int block = 8;               // pixels: what is transparent is the cheaper the fewer corners it has
 constexpr std::int64_t shortest = 11;  // [ms]; browsers show what is shorter for a tenth of a second
 constexpr int repair_interval = 12;    // frames, where a frame is too short to be cut in two

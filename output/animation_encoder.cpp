@@ -73,7 +73,7 @@ std::vector<OutputFile> AnimationEncoder::finish(Ending ending) {
 }
 
 OutputFormat webp_format() {
-  return animation_format("webp", "libwebp", "looping animation in full colour, half the size of a GIF");
+  return animation_format("webp", "libwebp", "looping animation in full colour, two thirds of the size of a GIF");
 }
 
 OutputFormat apng_format() {
