@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/shell.hpp"
@@ -96,6 +97,34 @@ TEST(HostileNames, RunInScriptsForSlurm) {
     EXPECT_FALSE(test::has_controls(test::content(folder.path(report)))) << report;
   }
   EXPECT_FALSE(fs::exists(folder.path("owned")));
+}
+
+TEST(HostileNames, AreToldByFilesWithoutHarm) {
+  const SceneFolder folder;
+  folder.write("a.toml", test::swinging_scene);
+  // A motion says what its scene was called, and a run's record why it ended.
+  const std::string odd = shell_word("red \x1b[31m\n::error::owned.toml");
+  ASSERT_EQ(test::run(folder, "cp a.toml " + odd).code, 0);
+  const Finished written = drape(folder, "simulate " + odd + " --steps 2 -o m.drape");
+  const Finished drawn = drape(folder, "render m.drape -o m.png");
+  EXPECT_FALSE(test::has_controls(written.text + drawn.text)) << written.text << drawn.text;
+  EXPECT_EQ((written.text + drawn.text).find("\n::"), std::string::npos) << written.text << drawn.text;
+
+  ASSERT_EQ(drape(folder, "sweep a.toml --steps 1 -o out --quiet").code, 0);
+  for (const auto& run : fs::directory_iterator(folder.path("out/runs"))) {
+    auto record = nlohmann::json::parse(test::content(run.path() / "run.json"));
+    record["outcome"] = "diverged";
+    for (const std::string& name : test::hostile_names) {
+      record["reason"] = name;
+      folder.write("out/runs/" + run.path().filename().string() + "/run.json",
+                   record.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+      const Finished told = drape(folder, "sweep --report-only -o out");
+      EXPECT_FALSE(test::has_controls(told.text)) << told.text;
+      for (const std::string& line : lines_of(told.text)) EXPECT_FALSE(line.starts_with("::")) << told.text;
+      const std::string csv = test::content(folder.path("out/runs.csv"));
+      EXPECT_EQ(csv.find(",=1+1,"), std::string::npos) << csv;
+    }
+  }
 }
 
 /// The value of an option in the lines with which a script speaks to sbatch, as that reads it (slurm-23.11.0,
