@@ -7,6 +7,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/text.hpp"
+
 namespace nlohmann {
 
 /// null where there is nothing.
@@ -68,7 +70,7 @@ CheckShard unpack_shard(std::string_view bytes, const std::filesystem::path& fil
     if (shard.places.size() == shard.report.scenes.size()) return shard;
   } catch (const nlohmann::json::exception&) {  // says no more than the sentence below
   }
-  throw UsageError(fmt::format("{}: it is damaged, or of another version of drape check", file.string()));
+  throw UsageError(fmt::format("{}: it is damaged, or of another version of drape check", shown(file)));
 }
 
 CheckShard merge_shards(std::vector<CheckShard> shards, const std::vector<std::filesystem::path>& files) {
@@ -82,8 +84,8 @@ CheckShard merge_shards(std::vector<CheckShard> shards, const std::vector<std::f
   for (std::size_t i = 0; i < shards.size(); ++i) {
     CheckReport& report = shards[i].report;
     if (report.command != whole.report.command || shards[i].scenes != whole.scenes) {
-      throw UsageError(fmt::format("{} and {} are not of one check: {}, and {}", files.front().string(),
-                                   files[i].string(), whole.report.command, report.command));
+      throw UsageError(fmt::format("{} and {} are not of one check: {}, and {}", shown(files.front()), shown(files[i]),
+                                   shown(whole.report.command), shown(report.command)));
     }
     whole.report.seconds += report.seconds;
     whole.report.date = std::min(whole.report.date, report.date);

@@ -16,6 +16,7 @@
 #include "core/installation.hpp"
 #include "core/nearest.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -45,7 +46,7 @@ Candidate read_candidate(const fs::path& file, std::string hash) {
             .scene_digest = fields.text("scene_hash"),
             .program = fields.text("program")};
   } catch (const std::invalid_argument& error) {
-    throw UsageError(file.string() + ": " + error.what() + "; check the scene again");
+    throw UsageError(shown(file) + ": " + error.what() + "; check the scene again");
   }
 }
 
@@ -69,7 +70,7 @@ std::vector<Candidate> listed_candidates(const fs::path& report) {
       if (!hash.empty()) candidates.push_back(read_candidate(description_file(report, scene_name(scene)), hash));
     }
   } catch (const std::invalid_argument& error) {
-    throw UsageError(file.string() + ": " + error.what() + "; check the scenes again");
+    throw UsageError(shown(file) + ": " + error.what() + "; check the scenes again");
   }
   return candidates;
 }
@@ -96,7 +97,7 @@ Whole read_whole(const fs::path& folder) {
 }
 
 [[noreturn]] void refuse(const Candidate& candidate, const std::string& why) {
-  throw UsageError(fmt::format("{}: cannot be accepted: {}", candidate.scene_file.string(), why));
+  throw UsageError(fmt::format("{}: cannot be accepted: {}", shown(candidate.scene_file), why));
 }
 
 /// The golden that a candidate makes of the one there is.
@@ -149,7 +150,7 @@ void remove_candidate(const fs::path& report, const std::string& name) {
 std::vector<Candidate> find_candidates(const fs::path& report, const std::vector<std::string>& wanted) {
   std::vector<Candidate> all = listed_candidates(report);
   if (all.empty()) {
-    throw UsageError(fmt::format("{}: there is nothing to accept: this check found no scene changed", report.string()));
+    throw UsageError(fmt::format("{}: there is nothing to accept: this check found no scene changed", shown(report)));
   }
   std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.name < b.name; });
   if (wanted.empty()) return all;
@@ -162,7 +163,7 @@ std::vector<Candidate> find_candidates(const fs::path& report, const std::vector
       return candidate.name == name || candidate.scene_file == name;
     });
     if (found == all.end()) {
-      throw UsageError(fmt::format("{}: there is nothing to accept of '{}'{}", report.string(), name,
+      throw UsageError(fmt::format("{}: there is nothing to accept of '{}'{}", shown(report), shown(name),
                                    did_you_mean(name, names, "there is")));
     }
     chosen.push_back(*found);

@@ -18,6 +18,7 @@
 #include "check/picture.hpp"
 #include "check/record_motion.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "run/outputs.hpp"
 
 namespace drape {
@@ -132,7 +133,7 @@ class SceneCheck {
       throw UsageError(
           fmt::format("{} stores positions to {:.2g} m, which is too coarse for a motion_tolerance of {:g} m; bless "
                       "the scene with that tolerance, or set it to 0 for the same bits",
-                      result_.golden.string(), golden_.quanta.compared, settings_.motion_tolerance));
+                      shown(result_.golden), golden_.quanta.compared, settings_.motion_tolerance));
     }
   }
 

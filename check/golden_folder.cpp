@@ -18,13 +18,14 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void refuse(const fs::path& place, std::string_view what) {
-  throw UsageError(fmt::format("{}: {}; drape will not replace it: move it away", place.string(), what));
+  throw UsageError(fmt::format("{}: {}; drape will not replace it: move it away", shown(place), what));
 }
 
 /// Whether a name in the folder of the frames is one that golden_picture() gives: "0040.png".
@@ -71,7 +72,7 @@ void require_own_files(const fs::path& folder) {
 }
 
 [[noreturn]] void fail_to_write(const fs::path& folder, const std::error_code& error) {
-  throw OutputError(fmt::format("cannot write {}: {}", folder.string(), error.message()));
+  throw OutputError(fmt::format("cannot write {}: {}", shown(folder), error.message()));
 }
 
 std::error_code last_error() { return {errno, std::generic_category()}; }
@@ -169,10 +170,10 @@ bool has_golden(const fs::path& folder) {
   if (named == fs::file_type::not_found) return false;
   const fs::file_type type = fs::status(folder, error).type();
   if (type == fs::file_type::not_found) refuse(folder, "is a broken link, where the golden should be");
-  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", shown(folder), error.message()));
   if (type != fs::file_type::directory) refuse(folder, "is a file, where the golden should be a folder");
   const bool empty = fs::is_empty(folder, error);
-  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", shown(folder), error.message()));
   if (empty) return false;
   if (!is_golden(folder)) refuse(folder, "is not a golden: it contains other files");
   require_own_files(folder);

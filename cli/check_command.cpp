@@ -12,6 +12,7 @@
 #include "check/machine.hpp"
 #include "cli/check_results.hpp"
 #include "cli/frame_list.hpp"
+#include "cli/line_option.hpp"
 #include "cli/number_option.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/watched.hpp"
@@ -19,6 +20,7 @@
 #include "core/nearest.hpp"
 #include "core/parallel.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 #include "run/shard.hpp"
 #include "sweep/estimate.hpp"
 #include "sweep/merge.hpp"
@@ -118,7 +120,7 @@ class Judge {
     } catch (const std::bad_alloc&) {
       result = unjudged_scene(scene, names_[place], settings, UsageError("there is not enough memory for this"));
     }
-    const std::string file = shell_word(scene.file.string());
+    const std::string file = shell_file(scene.file.string());
     result.rerun_command = "drape check " + file + command_options(arguments_) + report_option(arguments_);
     if (result.has_candidate()) {
       result.accept_command = accept_command(options_.artefacts) + " " + shell_word(result.name);
@@ -193,7 +195,7 @@ void require_no_golden(const std::filesystem::path& report) {
                          std::filesystem::exists(report / "manifest.json", ignored) ||
                          std::filesystem::exists(report / "motion.bin", ignored);
   if (!is_golden) return;
-  throw UsageError(fmt::format("--report {}: this is the folder of a golden; name another one", report.string()));
+  throw UsageError(fmt::format("--report {}: this is the folder of a golden; name another one", shown(report)));
 }
 
 /// @throws UsageError if goldens are to be recorded of other values than the scene files'
@@ -222,7 +224,7 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   CheckReport& report = part.report;
   report.date = utc_now();
   report.command = "drape check";
-  for (const std::string& scene : arguments.scenes) report.command += " " + shell_word(scene);
+  for (const std::string& scene : arguments.scenes) report.command += " " + shell_file(scene);
   report.command += command_options(arguments);
   report.run_options = run_options(arguments);
   Verdicts verdicts;
@@ -261,7 +263,8 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
                   "Which goldens to write; default missing, and such a check still fails")
       ->type_name("all|missing|none");
   add_backend_option(*sub, arguments->backend);
-  sub->add_option("--report", arguments->report, "Folder for the report (HTML, JSON, JUnit); default out/check");
+  sub->add_option("--report", arguments->report, "Folder for the report (HTML, JSON, JUnit); default out/check")
+      ->check(on_one_line());
   sub->add_option("--threads", arguments->threads, "Number of windows of motion computed at once")
       ->check(whole_number_in({1, 1024}));
   sub->add_option("--jobs", arguments->jobs, "How many scenes are checked at once; default 1")

@@ -9,6 +9,7 @@
 #include "cli/frame_list.hpp"
 #include "cli/grid_option.hpp"
 #include "cli/interruption.hpp"
+#include "cli/line_option.hpp"
 #include "cli/motion_runs.hpp"
 #include "cli/number_option.hpp"
 #include "cli/output_clashes.hpp"
@@ -19,6 +20,7 @@
 #include "cli/watched.hpp"
 #include "compare/compare_scenes.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
 #include "sweep/variation.hpp"
@@ -74,7 +76,7 @@ std::pair<std::vector<Scene>, std::vector<std::shared_ptr<MotionReader>>> load_v
 
 std::string command_line(const CompareArguments& arguments) {
   std::string text = "drape compare";
-  for (const std::string& scene : arguments.scenes) text += " " + shell_word(scene);
+  for (const std::string& scene : arguments.scenes) text += " " + shell_file(scene);
   for (const std::string& value : arguments.overrides) text += " --set " + shell_word(value);
   for (const std::string& value : arguments.varied) text += " --vary " + shell_word(value);
   for (const std::string& path : arguments.options.outputs) text += " -o " + shell_word(path);
@@ -126,7 +128,7 @@ ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& com
   require_comparison(scenes, options);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     if (const auto& motion = options.recorded[i]) {
-      warn_of_gaps(scenes[i].file.string(), *motion, compared_extent(scenes, options, i));
+      warn_of_gaps(shown(scenes[i].file), *motion, compared_extent(scenes, options, i));
     }
   }
 
@@ -151,12 +153,13 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
   sub->add_option("SCENE", arguments->scenes, "Scene files (TOML), or motions (.drape) recorded by drape simulate")
       ->required();
   one_each(sub->add_option(
-      "-o,--output", options.outputs,
-      fmt::format(
-          "Output file; its extension selects the format (repeatable; default out/compare.gif).\n.html a "
-          "self-contained page: the motions in step, their figures and differences; its diagrams as files are in "
-          "NAME-diagrams\n{}",
-          output_help(FormatKinds::drawn))));
+                  "-o,--output", options.outputs,
+                  fmt::format(
+                      "Output file; its extension selects the format (repeatable; default out/compare.gif).\n.html a "
+                      "self-contained page: the motions in step, their figures and differences; its diagrams as files "
+                      "are in NAME-diagrams\n{}",
+                      output_help(FormatKinds::drawn)))
+               ->check(on_one_line()));
   one_each(
       sub->add_option("--set", arguments->overrides, "Override a value of all scenes: key.path=value; repeatable"));
   one_each(sub->add_option(

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "run/outputs.hpp"
 
 namespace drape {
@@ -46,7 +47,7 @@ void choose_frames(const FilmTimes& times, const Scene& scene, RunOptions& optio
   const auto frame_at = [&](const std::string& option, const std::string& text) {
     const double frame = parse_time(option, text) / whole.seconds_per_frame;
     if (frame <= whole.frames.last + 0.5) return frame;
-    throw UsageError(fmt::format("{} {}: the film of {} ends at {:g} s", option, text, scene.file.string(), end));
+    throw UsageError(fmt::format("{} {}: the film of {} ends at {:g} s", option, text, shown(scene.file), end));
   };
   FrameRange range = whole.frames;
   if (!times.at.empty()) {

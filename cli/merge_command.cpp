@@ -6,11 +6,13 @@
 #include "check/candidate.hpp"
 #include "cli/check_results.hpp"
 #include "cli/interruption.hpp"
+#include "cli/line_option.hpp"
 #include "cli/studies.hpp"
 #include "cli/sweep_results.hpp"
 #include "core/error.hpp"
 #include "core/read_file.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 #include "study/stability_runs.hpp"
 #include "sweep/merge.hpp"
 
@@ -32,7 +34,7 @@ void take_over(const fs::path& part, const fs::path& folder, const std::string& 
   remove_candidate(folder, name);  // of an older check
   if (!fs::exists(part / name, error)) return;
   fs::copy(part / name, folder / name, fs::copy_options::recursive | fs::copy_options::overwrite_existing, error);
-  if (error) throw OutputError(fmt::format("cannot write {}: {}", (folder / name).string(), error.message()));
+  if (error) throw OutputError(fmt::format("cannot write {}: {}", shown(folder / name), error.message()));
 }
 
 /// Whether a person has asked for an end. What is merged so far is complete, and merging again goes on.
@@ -71,7 +73,7 @@ const char* mark_in(const fs::path& folder) {
     if (!parts_in(folder, mark).empty()) return mark;
   }
   throw UsageError(
-      fmt::format("{}: there is no sweep, check or study of stability in it, nor a shard of one", folder.string()));
+      fmt::format("{}: there is no sweep, check or study of stability in it, nor a shard of one", shown(folder)));
 }
 
 ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
@@ -102,7 +104,8 @@ void add_merge_command(CLI::App& app, const CommonOptions& common, Command& comm
   auto arguments = std::make_shared<MergeArguments>();
   CLI::App* sub = app.add_subcommand("merge", "Merge the shards of a sweep, check or study");
   sub->add_option("DIR", arguments->folders, "Folders of shards, or a folder with shards in it")->required();
-  sub->add_option("-o,--output", arguments->output, "Folder for the merged result; default the first DIR");
+  sub->add_option("-o,--output", arguments->output, "Folder for the merged result; default the first DIR")
+      ->check(on_one_line());
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return merge(*arguments, common); }; });
 }

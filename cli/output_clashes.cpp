@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/file_identity.hpp"
+#include "core/text.hpp"
 #include "run/outputs.hpp"
 
 namespace drape {
@@ -57,7 +58,7 @@ class Clashes {
       const std::string identity = file_identity(file);
       const auto reader = readers_.find(identity);
       if (reader != readers_.end()) {
-        return fmt::format("{} would overwrite {}, an input of {}", writer.option, file, reader->second->file.string());
+        return fmt::format("{} would overwrite {}, an input of {}", writer.option, file, shown(reader->second->file));
       }
       const auto [other, free] = writers_.emplace(identity, Claim{writer.scene, writer.option, file});
       if (!free && problem.empty()) problem = describe(writer, file, other->second);
@@ -77,10 +78,10 @@ class Clashes {
                          file == other.file ? "" : fmt::format(": {} is {}", file, other.file));
     }
     const Scene &first = scenes_[other.scene], &second = scenes_[writer.scene];
-    return fmt::format(
-        "'{}' would be written for {} and again for {}: {}", file, first.file.string(), second.file.string(),
-        first.name == second.name ? "they have the same name, so render them one at a time, to different files"
-                                  : "put {scene} into the name");
+    return fmt::format("'{}' would be written for {} and again for {}: {}", file, shown(first.file), shown(second.file),
+                       first.name == second.name
+                           ? "they have the same name, so render them one at a time, to different files"
+                           : "put {scene} into the name");
   }
 
   const std::vector<Scene>& scenes_;

@@ -51,7 +51,7 @@ void ProgressDisplay::update() {
   }
   if (style_ == Style::lines) {
     last_line_ = now;
-    print_text(stderr, text + "\n");
+    print_unescaped(stderr, text + "\n");
     return;
   }
   const std::size_t width = terminal(stderr, ColorMode::never).width;

@@ -7,6 +7,7 @@
 #include "cli/byte_count.hpp"
 #include "cli/frame_list.hpp"
 #include "cli/grid_option.hpp"
+#include "cli/line_option.hpp"
 #include "cli/motion_runs.hpp"
 #include "cli/number_option.hpp"
 #include "core/error.hpp"
@@ -137,6 +138,7 @@ void add_outputs(CLI::App& command, RunArguments& arguments, const std::string& 
               "Output file; its extension selects the format ({}).\nA run that ends early, by Ctrl-C or divergence, "
               "writes NAME.partial.EXT instead, and for a .drape NAME.drape.partial, which --resume continues.\n{}",
               usage, output_help(drawn ? FormatKinds::all : FormatKinds::undrawn)))
+      ->check(on_one_line())
       ->allow_extra_args(false);
 }
 

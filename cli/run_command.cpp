@@ -14,6 +14,7 @@
 #include "cli/run_arguments.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/scene_run.hpp"
+#include "core/text.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
 #include "render/texture_image.hpp"
@@ -162,7 +163,7 @@ ExitCode run_each(const std::vector<Scene>& scenes, const std::vector<RunOptions
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     if (i > 0 && interruption().stop_requested()) {
       end_last();
-      if (worst != ExitCode::interrupted) spdlog::error("interrupted before {}", scenes[i].file.string());
+      if (worst != ExitCode::interrupted) spdlog::error("interrupted before {}", shown(scenes[i].file));
       return ExitCode::interrupted;
     }
     auto next = std::make_unique<SceneRun>(scenes[i], options[i], arguments, common);
@@ -193,7 +194,7 @@ ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
   for (SceneToRun& found : load_all(arguments)) {
     options.push_back(run_options(arguments, found.scene, common.verbose));
     if (found.recorded) {
-      limit_to_motion(found.scene.file.string(), found.recorded->last_step(), options.back());
+      limit_to_motion(shown(found.scene.file), found.recorded->last_step(), options.back());
     }
     choose_frames(arguments.times, found.scene, options.back());
     options.back().recorded = found.recorded;

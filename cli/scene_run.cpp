@@ -13,6 +13,7 @@
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 #include "run/motion_space.hpp"
 #include "run/outputs.hpp"
 #include "sim/make_system.hpp"
@@ -42,7 +43,7 @@ SceneRun::SceneRun(const Scene& scene, RunOptions options, const RunArguments& a
       quiet_(common.quiet || arguments.step_by_step),
       pause_(interruption()),
       slow_(film_extent(scene, options_).steps, needs_drawing(options_),
-            [&scene](const std::string& text) { spdlog::info("{}: {}", scene.file.string(), text); }) {
+            [&scene](const std::string& text) { spdlog::info("{}: {}", shown(scene.file), text); }) {
   options_.observer = &slow_;
   if (arguments.step_by_step) options_.observer = &pause_;
 }
@@ -52,19 +53,19 @@ void SceneRun::announce() const {
   for (const std::string& doubt : scene_.doubts) spdlog::warn(doubt);
   if (scene_.simulation.integrator.allow_unstable) {
     if (const auto problem = stability_problem(scene_.simulation, make_system(scene_.simulation))) {
-      spdlog::warn("{}: {}", scene_.file.string(), *problem);
+      spdlog::warn("{}: {}", shown(scene_.file), *problem);
     }
   }
   if (!options_.recorded) {
     for (const StartOverlap& overlap : start_overlaps(scene_.simulation)) {
-      spdlog::warn("{}: {}", scene_.file.string(), describe(overlap));
+      spdlog::warn("{}: {}", shown(scene_.file), describe(overlap));
     }
   }
   if (options_.motion) {
     const MotionSpace space = motion_space(scene_, options_);
     if (space.most > space.free) spdlog::warn(space.text(options_.motion->path));
   }
-  if (options_.recorded) warn_of_gaps(scene_.file.string(), *options_.recorded, film_extent(scene_, options_));
+  if (options_.recorded) warn_of_gaps(shown(scene_.file), *options_.recorded, film_extent(scene_, options_));
 }
 
 void SceneRun::begin() {
@@ -82,7 +83,7 @@ ExitCode SceneRun::end() {
   if (!common_.quiet && (result_.statistics.steps() > 0 || options_.recorded)) {
     print_wrapped(stderr, summarize(result_) + "\n");
   }
-  for (const std::string& doubt : doubts(result_)) spdlog::warn("{}: {}", scene_.file.string(), doubt);
+  for (const std::string& doubt : doubts(result_)) spdlog::warn("{}: {}", shown(scene_.file), doubt);
   return conclude();
 }
 
@@ -97,7 +98,7 @@ ExitCode SceneRun::conclude() const {
                     describe_end(result_, resume_command(arguments_, result_.motion ? result_.motion->file : "")));
       return ExitCode::interrupted;
     case Outcome::diverged:
-      spdlog::error("{}: {}", scene_.file.string(), result_.divergence);
+      spdlog::error("{}: {}", shown(scene_.file), result_.divergence);
       spdlog::error("ended {}", describe_end(result_));
       return std::max(outputs, ExitCode::diverged);
   }

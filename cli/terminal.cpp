@@ -14,6 +14,7 @@
 #include <mutex>
 
 #include "core/console.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -49,12 +50,12 @@ class TerminalSink : public spdlog::sinks::base_sink<std::mutex> {
   void sink_it_(const spdlog::details::log_msg& message) override {
     constexpr std::string_view prefix = "drape:";
     const std::string_view payload(message.payload.data(), message.payload.size());
-    const std::string text = wrapped(std::string(prefix) + " " + std::string(payload), where_.width, 2);
-    std::string shown(prefix);
-    if (message.level >= spdlog::level::err) shown = inked(prefix, Ink::red, where_);
-    if (message.level == spdlog::level::warn) shown = inked(prefix, Ink::yellow, where_);
+    const std::string text = wrapped(std::string(prefix) + " " + escape_controls(payload), where_.width, 2);
+    std::string head(prefix);
+    if (message.level >= spdlog::level::err) head = inked(prefix, Ink::red, where_);
+    if (message.level == spdlog::level::warn) head = inked(prefix, Ink::yellow, where_);
     const std::string cleared = passing_line_shown.exchange(false) ? "\r\x1b[K" : "";
-    print_text(stderr, cleared + shown + text.substr(prefix.size()) + "\n");
+    print_unescaped(stderr, cleared + head + text.substr(prefix.size()) + "\n");
   }
   void flush_() override {}
 
@@ -83,16 +84,16 @@ std::string inked(std::string_view text, Ink ink, const Terminal& where) {
 }
 
 void print_wrapped(std::FILE* stream, std::string_view lines) {
-  print_text(stream, wrapped(lines, terminal(stream, ColorMode::never).width, 2));
+  print_unescaped(stream, wrapped(escape_controls(lines), terminal(stream, ColorMode::never).width, 2));
 }
 
 void show_passing_line(std::string_view line) {
   passing_line_shown = true;
-  print_text(stderr, "\r\x1b[K" + std::string(line));
+  print_unescaped(stderr, "\r\x1b[K" + escape_controls(line));
 }
 
 void clear_passing_line() {
-  if (passing_line_shown.exchange(false)) print_text(stderr, "\r\x1b[K");
+  if (passing_line_shown.exchange(false)) print_unescaped(stderr, "\r\x1b[K");
 }
 
 void log_to_terminal(ColorMode mode) {

@@ -14,13 +14,14 @@
 
 #include "core/error.hpp"
 #include "core/file_identity.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail_to_write(const fs::path& file, std::string_view reason) {
-  throw OutputError(fmt::format("cannot write {}: {}", file.string(), reason));
+  throw OutputError(fmt::format("cannot write {}: {}", shown(file), reason));
 }
 
 /// Temporary files of one target are numbered from 0 on: several processes and threads may write it at once.

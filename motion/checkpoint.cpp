@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "motion/block_writer.hpp"
 #include "motion/packing.hpp"
 #include "motion/writer.hpp"
@@ -116,11 +117,11 @@ std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double ste
 Resumption read_resumption(const fs::path& file) {
   const fs::path growing = growing_name(file), checkpoint = checkpoint_name(file);
   if (!fs::exists(growing)) {
-    throw UsageError(fmt::format("{}: nothing to resume: no {}", file.string(), growing.string()));
+    throw UsageError(fmt::format("{}: nothing to resume: no {}", shown(file), shown(growing)));
   }
   if (!fs::exists(checkpoint)) {
-    throw UsageError(fmt::format("{}: cannot be resumed, because there is no {}: simulate again", growing.string(),
-                                 checkpoint.string()));
+    throw UsageError(fmt::format("{}: cannot be resumed, because there is no {}: simulate again", shown(growing),
+                                 shown(checkpoint)));
   }
   const BlockReader blocks(checkpoint, checkpoint_magic, "checkpoint");
   try {

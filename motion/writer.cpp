@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/file_identity.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 #include "motion/checkpoint.hpp"
 #include "motion/packing.hpp"
 #include "scene/physics.hpp"
@@ -53,7 +54,7 @@ void require_not_growing(const fs::path& file) {
   throw UsageError(fmt::format(
       "{} exists, from a run in progress or ended early: drape simulate --resume {} completes it; to start over, "
       "remove it",
-      growing.string(), file.string()));
+      shown(growing), shown(file)));
 }
 
 MotionFileWriter::MotionFileWriter(fs::path file, MotionHeader header, const Scene& scene)

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
+#include "core/text.hpp"
 #include "scene/mesh_file.hpp"
 #include "scene/values.hpp"
 
@@ -53,9 +54,9 @@ std::optional<Mesh> read_named(const TomlValue& value, const std::string& name, 
   try {
     Mesh mesh = read_mesh(folder / named->file, named->options, &inputs);
     if (!mesh.triangles.empty()) return mesh;
-    problems.add(value.place, fmt::format("{}: '{}' has no triangles", name, named->file.string()));
+    problems.add(value.place, fmt::format("{}: '{}' has no triangles", name, shown(named->file)));
   } catch (const UsageError& error) {
-    problems.add(value.place, fmt::format("{}: '{}' cannot be read:\n{}", name, named->file.string(), error.what()));
+    problems.add(value.place, fmt::format("{}: '{}' cannot be read:\n{}", name, shown(named->file), error.what()));
   }
   return std::nullopt;
 }

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
+#include "core/text.hpp"
 #include "scene/check_settings.hpp"
 #include "scene/color.hpp"
 #include "scene/mesh_file.hpp"
@@ -141,7 +142,7 @@ class KeyReader {
       mesh = std::make_shared<MeshMotion>(read_mesh_motion(folder_ / named->file, named->options, &files_));
     } catch (const UsageError& error) {
       problems_.add(value_.place,
-                    fmt::format("{}: '{}' cannot be read:\n{}", key_.name, named->file.string(), error.what()));
+                    fmt::format("{}: '{}' cannot be read:\n{}", key_.name, shown(named->file), error.what()));
     }
   }
 

@@ -9,6 +9,7 @@
 
 #include "core/nearest.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 #include "scene/method_names.hpp"
 #include "study/runs_file.hpp"
 
@@ -284,10 +285,10 @@ std::string runs_csv(const AccuracyStudy& study) {
 
 AccuracyStudy read_runs(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / runs_name;
-  std::vector<RunsRecord> records = parse_runs(read_text(file, most_bytes), file.string());
+  std::vector<RunsRecord> records = parse_runs(read_text(file, most_bytes), shown(file));
   StudyReader reader(folder);
   for (RunsRecord& record : records) reader.read(record);
-  return reader.finish(file.string());
+  return reader.finish(shown(file));
 }
 
 }  // namespace drape

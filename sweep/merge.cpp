@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "sweep/run_sweep.hpp"
 
 namespace drape {
@@ -23,14 +24,14 @@ bool is_part(const fs::path& folder, const char* mark) {
 /// @throws UsageError that says in what two plans differ
 void require_same(const SweepPlan& plan, const fs::path& from, const SweepPlan& first, const fs::path& first_from) {
   if (plan.program != first.program) {
-    throw UsageError(fmt::format("{} was made by {}, and {} by {}: one sweep is made by one program", from.string(),
-                                 plan.program, first_from.string(), first.program));
+    throw UsageError(fmt::format("{} was made by {}, and {} by {}: one sweep is made by one program", shown(from),
+                                 shown(plan.program), shown(first_from), shown(first.program)));
   }
   const nlohmann::ordered_json a = plan_json(plan), b = plan_json(first);
   for (const auto& [key, value] : a.items()) {
     if (value != b.at(key)) {
       throw UsageError(
-          fmt::format("{} and {} are not of one sweep: they differ in '{}'", from.string(), first_from.string(), key));
+          fmt::format("{} and {} are not of one sweep: they differ in '{}'", shown(from), shown(first_from), key));
     }
   }
 }
@@ -51,7 +52,7 @@ void take_over(const fs::path& from, const fs::path& to) {
   if (!error) return;
   std::error_code ignored;
   fs::remove_all(hidden, ignored);
-  throw OutputError(fmt::format("cannot write {}: {}", to.string(), error.message()));
+  throw OutputError(fmt::format("cannot write {}: {}", shown(to), error.message()));
 }
 
 }  // namespace
@@ -69,9 +70,9 @@ std::vector<fs::path> parts_in(const fs::path& folder, const char* mark) {
     }
   }
   if (error == std::errc::not_a_directory) {
-    throw UsageError(fmt::format("{}: this is a file; expected a folder with shards", folder.string()));
+    throw UsageError(fmt::format("{}: this is a file; expected a folder with shards", shown(folder)));
   }
-  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", shown(folder), error.message()));
   std::ranges::sort(found);
   if (found.empty() && is_part(folder, mark)) found.push_back(folder);
   return found;
@@ -81,7 +82,7 @@ SweepFile merge_sweeps(const std::vector<fs::path>& parts, const fs::path& folde
   std::optional<SweepFile> whole;
   for (const fs::path& part : parts) {
     const std::optional<SweepFile> file = read_sweep_file(part);
-    if (!file) throw UsageError(fmt::format("{}: there is no sweep in it", part.string()));
+    if (!file) throw UsageError(fmt::format("{}: there is no sweep in it", shown(part)));
     if (whole) require_same(file->plan, part, whole->plan, parts.front());
     if (!whole) whole = file;
   }

@@ -166,7 +166,7 @@ std::vector<std::string> add_sweep_table(const std::string& file, SweepRequest& 
 
 std::string command_of(const SweepRequest& request) {
   std::string text = "drape sweep";
-  for (const std::string& scene : request.scenes) text += " " + shell_word(scene);
+  for (const std::string& scene : request.scenes) text += " " + shell_file(scene);
   for (const std::string& value : request.overrides) text += " --set " + shell_word(value);
   for (const Variation& variation : request.varied) {
     std::string values;

@@ -8,6 +8,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 using Json = nlohmann::ordered_json;
@@ -80,19 +81,18 @@ std::optional<SweepFile> read_sweep_file(const std::filesystem::path& folder) {
     const Json json = Json::parse(read_file(file, most_sweep_bytes));
     if (const int found = json.at("format"); found != format_number) {
       throw UsageError(fmt::format("{}: it is of format {}, and this drape reads format {}: use the one that wrote it",
-                                   file.string(), found, format_number));
+                                   shown(file), found, format_number));
     }
     return SweepFile{plan_of(json.at("plan")), parse_shard(json.at("shard"))};
   } catch (const Error&) {
     throw;
   } catch (const Json::parse_error& error) {
-    throw UsageError(
-        fmt::format("{}: it is damaged at byte {}; drape sweep writes it anew", file.string(), error.byte));
+    throw UsageError(fmt::format("{}: it is damaged at byte {}; drape sweep writes it anew", shown(file), error.byte));
   } catch (const Json::exception&) {
     throw UsageError(fmt::format("{}: it is damaged: a value is missing or of another kind; drape sweep writes it anew",
-                                 file.string()));
+                                 shown(file)));
   } catch (const std::exception& error) {
-    throw UsageError(fmt::format("{}: it is damaged ({}); drape sweep writes it anew", file.string(), error.what()));
+    throw UsageError(fmt::format("{}: it is damaged ({}); drape sweep writes it anew", shown(file), error.what()));
   }
 }
 

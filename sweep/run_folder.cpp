@@ -12,6 +12,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;
@@ -36,7 +37,7 @@ void flatten(const Json& json, const std::string& name, std::vector<std::pair<st
 }
 
 [[noreturn]] void fail(const fs::path& place, const std::error_code& error) {
-  throw OutputError(fmt::format("cannot write {}: {}", place.string(), error.message()));
+  throw OutputError(fmt::format("cannot write {}: {}", shown(place), error.message()));
 }
 
 /// @throws OutputError that names the folder of the runs: of many that fail, the message is one
@@ -78,7 +79,7 @@ std::optional<RunRecord> read_run(const fs::path& sweep, const std::string& key)
   } catch (const UsageError&) {
   }
   RunRecord damaged;
-  damaged.reason = fmt::format("{} is damaged: --resume runs it again", file.string());
+  damaged.reason = fmt::format("{} is damaged: --resume runs it again", shown(file));
   return damaged;
 }
 
