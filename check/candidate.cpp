@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 #include "check/golden_file.hpp"
@@ -13,8 +14,10 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/installation.hpp"
+#include "core/names_in_folders.hpp"
 #include "core/nearest.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -25,13 +28,33 @@ constexpr std::uintmax_t most_description = 1 << 20;  // bytes
 
 fs::path description_file(const fs::path& report, const std::string& name) { return report / name / "candidate.json"; }
 
+/// A path to the byte: JSON holds UTF-8 alone, which the names of files need not be.
+void describe_path(const fs::path& path, Json& json) {
+  json["scene"] = printable(path.string());
+  if (json["scene"] == path.string()) return;
+  const std::string& bytes = path.native();
+  json["scene_bytes"] = std::vector<std::uint8_t>(bytes.begin(), bytes.end());
+}
+
+/// @throws std::invalid_argument
+fs::path described_path(const Json& json) {
+  const std::string shown = Fields(json, "").text("scene");
+  if (!json.contains("scene_bytes")) return shown;
+  try {
+    const auto bytes = json.at("scene_bytes").get<std::vector<std::uint8_t>>();
+    return std::string(bytes.begin(), bytes.end());
+  } catch (const Json::exception&) {
+    throw std::invalid_argument("'scene_bytes': expected a list of bytes");
+  }
+}
+
 Candidate read_candidate(const fs::path& file) {
   try {
     const Json json = parse_json(read_file(file, most_description));
     const Fields fields(json, "");
     return {.folder = file.parent_path() / "candidate",
             .name = file.parent_path().filename().string(),
-            .scene_file = fields.text("scene"),
+            .scene_file = described_path(json),
             .scene_digest = fields.text("scene_hash"),
             .program = fields.text("program")};
   } catch (const std::invalid_argument& error) {
@@ -97,18 +120,35 @@ Whole accepted(const Candidate& candidate, const std::vector<int>& frames) {
 void write_candidate(const fs::path& report, const std::string& name, const Scene& scene, const Golden& golden,
                      const std::vector<Png>& pictures) {
   write_golden(report / name / "candidate", golden, pictures);
-  const Json json{{"scene", scene.file.string()}, {"scene_hash", scene.digest}, {"program", program_hash()}};
+  Json json{{"scene_hash", scene.digest}, {"program", program_hash()}};
+  describe_path(scene.file, json);
   write_file_atomically(description_file(report, name),
                         json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+void require_own_candidate(const fs::path& report, const std::string& name) {
+  require_inside(report / name, report);
+  require_links_inside(report / name);
+  require_only_golden(report / name / "candidate");
+  const fs::path file = description_file(report, name);
+  std::error_code ignored;
+  const fs::file_type type = fs::symlink_status(file, ignored).type();
+  if (type == fs::file_type::not_found) return;
+  if (type == fs::file_type::regular && read_file(file, most_description).find("\"scene_hash\"") != std::string::npos) {
+    return;
+  }
+  throw UsageError(fmt::format("{}: drape has not written it and will not replace it: move it away", file.string()));
+}
+
 void remove_candidate(const fs::path& report, const std::string& name) {
+  require_own_candidate(report, name);
   std::error_code ignored;
   fs::remove(description_file(report, name), ignored);
-  fs::remove_all(report / name / "candidate", ignored);
+  remove_golden(report / name / "candidate");
 }
 
 std::vector<Candidate> find_candidates(const fs::path& report, const std::vector<std::string>& wanted) {
+  require_links_inside(report);
   std::vector<Candidate> all;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(report, error)) {
