@@ -24,10 +24,16 @@ fs::path new_folder() {
   return name;
 }
 
-/// What a motion's own files are called is chosen by drape, and leads to no other folder.
-void require_plain_name(const MotionReader& motion, const std::string& name) {
-  if (fs::path(name).filename() == name && name != "." && name != "..") return;
-  throw UsageError(fmt::format("{}: the file names a file of its scene '{}'", motion.file().string(), name));
+/// A motion's scene, whose problems are those of the motion's file.
+Scene load_scene_of(const MotionReader& motion, const fs::path& file) {
+  try {
+    return load_scene(file);
+  } catch (const UsageError& error) {
+    const std::string folder = file.parent_path().string() + "/";
+    std::string text = error.what();
+    for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) text.erase(at, folder.size());
+    throw UsageError(fmt::format("{}: the file's scene cannot be read: {}", motion.file().string(), text));
+  }
 }
 
 }  // namespace
@@ -36,16 +42,17 @@ MotionScene::MotionScene(const MotionReader& motion) : folder_(new_folder()) {
   const MotionHeader& header = motion.header();
   try {
     for (std::size_t k = 0; k < header.files.size(); ++k) {
-      require_plain_name(motion, header.files[k]);
       write_file_atomically(folder_ / header.files[k], motion.scene_file(k));
     }
-    require_plain_name(motion, header.name + ".toml");
     file_ = folder_ / (header.name + ".toml");
     write_file_atomically(file_, header.scene);
-    scene_ = load_scene(file_);
+    scene_ = load_scene_of(motion, file_);
     const Cloth& cloth = scene_.simulation.cloth;
     if (cloth.vertex_count() != header.vertices || static_cast<int>(cloth.triangles.size()) != header.triangles) {
       throw UsageError(motion.file().string() + ": the file's scene has another cloth than its motion");
+    }
+    if (scene_.simulation.step != header.step) {
+      throw UsageError(motion.file().string() + ": the file's scene has another time step than its motion");
     }
     if (physics_hash(physics_values(scene_)) != header.physics) {
       throw UsageError(

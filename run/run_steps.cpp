@@ -1,7 +1,13 @@
 #include "run/run_steps.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <chrono>
+
+#include "core/error.hpp"
+#include "sim/make_system.hpp"
 
 namespace drape {
 namespace {
@@ -27,6 +33,22 @@ void replay(const Resumption& from, double h, std::span<StepObserver* const> obs
 }
 
 }  // namespace
+
+void require_whole(const Resumption& from, const Simulation& simulation) {
+  const Simulation::Checkpoint& kept = from.checkpoint;
+  const Restraint& restraint = kept.state.restraint;
+  const System system = make_system(simulation.settings());
+  const bool restrains = std::ranges::any_of(system.filters, [](const auto& f) { return f->restraint() != nullptr; });
+  const bool restrained = restrains && kept.state.step > 0;
+  const Eigen::Index tensions = restrained ? std::ssize(simulation.springs()) : 0;
+  const Eigen::Index accelerations = restrained ? kept.state.x.rows() : 0;
+  if (kept.books.has_value() == simulation.checkpoint().books.has_value() && restraint.tensions.size() == tensions &&
+      restraint.acceleration.rows() == accelerations) {
+    return;
+  }
+  throw UsageError(fmt::format("{}: cannot be resumed, because its checkpoint does not have all parts: simulate again",
+                               from.partial->file().string()));
+}
 
 Stop heeding(const std::stop_token& stop) {
   return Stop([stop] { return stop.stop_requested(); });
