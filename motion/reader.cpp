@@ -12,6 +12,8 @@ namespace drape {
 namespace {
 
 constexpr std::uint64_t end_size = 16;
+/// A scene's places and velocities are up to 1e90, see scene/values.hpp; this has room for where they lead [m, m/s].
+constexpr double largest = 1e100;
 const std::string magic = motion_magic;
 
 }  // namespace
@@ -133,6 +135,9 @@ const State& MotionReader::state(std::size_t i) {
     understood(state_tag, begin, [&] {
       if (decoded_ % states_in_group == 0) codec_->begin_group();
       state_ = codec_->decode(bytes);
+      if (!(state_.x.cwiseAbs().maxCoeff() <= largest && state_.v.cwiseAbs().maxCoeff() <= largest)) {
+        throw std::invalid_argument("holds a place or velocity that cannot be");
+      }
       if (state_.step != step(decoded_)) throw std::invalid_argument("has a state of another step than its index says");
     });
   }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 
@@ -36,14 +35,16 @@ void replay(const Resumption& from, double h, std::span<StepObserver* const> obs
 
 void require_whole(const Resumption& from, const Simulation& simulation) {
   const Simulation::Checkpoint& kept = from.checkpoint;
-  const Restraint& restraint = kept.state.restraint;
   const System system = make_system(simulation.settings());
-  const bool restrains = std::ranges::any_of(system.filters, [](const auto& f) { return f->restraint() != nullptr; });
-  const bool restrained = restrains && kept.state.step > 0;
-  const Eigen::Index tensions = restrained ? std::ssize(simulation.springs()) : 0;
-  const Eigen::Index accelerations = restrained ? kept.state.x.rows() : 0;
-  if (kept.books.has_value() == simulation.checkpoint().books.has_value() && restraint.tensions.size() == tensions &&
-      restraint.acceleration.rows() == accelerations) {
+  Restraint expected;
+  for (const auto& filter : system.filters) {
+    const Restraint* const restraint = filter->restraint();
+    if (restraint != nullptr && kept.state.step > 0) expected = *restraint;
+  }
+  const Restraint& restraint = kept.state.restraint;
+  if (kept.books.has_value() == simulation.checkpoint().books.has_value() &&
+      restraint.tensions.size() == expected.tensions.size() &&
+      restraint.acceleration.rows() == expected.acceleration.rows()) {
     return;
   }
   throw UsageError(fmt::format("{}: cannot be resumed, because its checkpoint does not have all parts: simulate again",
