@@ -8,6 +8,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "scene/physics.hpp"
 
 namespace drape {
@@ -36,6 +37,15 @@ Scene load_scene_of(const MotionReader& motion, const fs::path& file) {
   }
 }
 
+/// The file has all that its scene is read from. @throws UsageError if the scene names a file elsewhere
+void require_own_inputs(const MotionReader& motion, const Scene& scene, const fs::path& folder) {
+  for (const fs::path& input : scene.inputs) {
+    if (input.lexically_normal().parent_path() == folder.lexically_normal()) continue;
+    throw UsageError(escape_controls(fmt::format("{}: the file's scene names a file that is not in it: {}",
+                                                 motion.file().string(), input.string())));
+  }
+}
+
 }  // namespace
 
 MotionScene::MotionScene(const MotionReader& motion) : folder_(new_folder()) {
@@ -47,6 +57,7 @@ MotionScene::MotionScene(const MotionReader& motion) : folder_(new_folder()) {
     file_ = folder_ / (header.name + ".toml");
     write_file_atomically(file_, header.scene);
     scene_ = load_scene_of(motion, file_);
+    require_own_inputs(motion, scene_, folder_);
     const Cloth& cloth = scene_.simulation.cloth;
     if (cloth.vertex_count() != header.vertices || static_cast<int>(cloth.triangles.size()) != header.triangles) {
       throw UsageError(motion.file().string() + ": the file's scene has another cloth than its motion");

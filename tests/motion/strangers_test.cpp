@@ -123,6 +123,21 @@ TEST_F(StrangersMotion, HasNamesThatStayInItsFolder) {
   }
 }
 
+TEST_F(StrangersMotion, HasAllFilesOfItsScene) {
+  const std::string elsewhere =
+      folder_.write("private.png", content(std::string(DRAPE_SOURCE_DIR) + "/textures/plaid.png"));
+  for (const std::string& name : {elsewhere, "../" + folder_.path().filename().string() + "/private.png"}) {
+    OpenedBlocks blocks(good_);
+    std::string& head = blocks.block(header_tag).plain;
+    const std::string named = "texture\\\" = \\\"file-1.png";
+    const std::size_t at = head.find(named);
+    ASSERT_NE(at, std::string::npos) << head;
+    head.replace(at, named.size(), "texture\\\" = \\\"" + name);
+    EXPECT_NE(error_of(blocks).find("the file's scene names a file that is not in it: "), std::string::npos)
+        << error_of(blocks);
+  }
+}
+
 TEST_F(StrangersMotion, HasTheStepOfItsScene) {
   OpenedBlocks blocks(good_);
   std::string& head = blocks.block(header_tag).plain;
