@@ -249,6 +249,16 @@ TEST_F(Strangers, CandidateWithSomethingElseIsKept) {
   EXPECT_TRUE(fs::exists(folder_.path("r/a/candidate/manifest.json")));
 }
 
+TEST_F(Strangers, ReportIsNotFollowedOutOfItsFolder) {
+  folder_.write("a.toml", scene);
+  ASSERT_EQ(drape(folder_, "bless a.toml").code, 0);
+  folder_.write("a.toml", scene + "[effects.damping]\nfactor = 0.9\n");
+  ASSERT_EQ(drape(folder_, "check a.toml --report r").code, 1);
+  fs::rename(folder_.path("r/a/candidate"), folder_.path("victim/candidate"));
+  fs::create_directory_symlink("../../victim/candidate", folder_.path("r/a/candidate"));
+  expect_refused("accept r", "r/a/candidate: a link leads from there out of r");
+}
+
 TEST_F(Strangers, SceneWhoseNameIsNotUtf8IsAccepted) {
   folder_.write("a\xff.toml", scene);
   ASSERT_EQ(drape(folder_, "bless a\xff.toml").code, 0);
