@@ -54,11 +54,13 @@ struct SealedMotion {
     for (std::int64_t step = 0; step <= 5; ++step) {
       state.step = step;
       state.x.array() += 0.01;
-      if (step > 0) writer.add(StepRow{.step = step, .energies = {.kinetic = 0.1, .gravity = 0.2, .elastic = 0.3}});
-      if (step == 0) writer.add(StepRow{});
+      StepRow row;
+      row.step = step;
+      row.energies = {.kinetic = 0.1, .gravity = 0.2, .elastic = 0.3};
+      writer.add(row);
       writer.add(state);
       if (step != 4) continue;
-      last.books = EnergyMemory{.explained = 1, .looked_at = state.x, .work = 2};
+      last.books = EnergyMemory{1, state.x, 2};
       state.restraint = {.acceleration = state.v, .tensions = Eigen::VectorXd::Ones(5)};
       writer.keep(last, std::vector<float>(4, 10.0F));
       growing = folder.content("made.drape.partial");
