@@ -71,9 +71,7 @@ ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder
     for (const SceneResult& result : shards.back().report.scenes) found.emplace_back(part, result.name);
   }
   CheckShard whole = merge_shards(std::move(shards), parts);
-  for (const auto& [part, name] : found) {
-    require_own_candidate(folder, name);
-  }
+  for (const auto& [part, name] : found) require_own_candidate(folder, name);
   for (const auto& [part, name] : found) take_over(part, folder, name);
   Verdicts verdicts;
   for (SceneResult& result : whole.report.scenes) {

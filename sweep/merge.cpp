@@ -92,29 +92,30 @@ namespace {
 struct SweepPart {
   fs::path folder;
   SweepFile file;
-  std::map<std::string, RunRecord> runs;  // by their keys
+  std::map<std::string, bool> settled;  // by the keys of its runs
 };
 
 SweepPart read_part(const fs::path& folder) {
   require_links_inside(folder);
   std::optional<SweepFile> file = read_sweep_file(folder);
   if (!file) throw UsageError(fmt::format("{}: there is no sweep in it", folder.string()));
-  SweepPart part{.folder = folder, .file = std::move(*file), .runs = {}};
+  SweepPart part{.folder = folder, .file = std::move(*file), .settled = {}};
   for (const PlannedRun& run : part.file.plan.runs) {
-    if (std::optional<RunRecord> found = read_run(folder, run.key)) part.runs.emplace(run.key, std::move(*found));
+    if (const auto found = read_run(folder, run.key)) part.settled.emplace(run.key, found->settled());
   }
   return part;
 }
 
-/// What the folder of the whole has already. @throws UsageError if links lead from its runs elsewhere
-std::map<std::string, RunRecord> runs_already_in(const fs::path& folder, const SweepPlan& plan) {
-  std::map<std::string, RunRecord> runs;
+/// The runs that the folder of the whole has already, and whether they are settled.
+/// @throws UsageError if links lead from there elsewhere
+std::map<std::string, bool> runs_already_in(const fs::path& folder, const SweepPlan& plan) {
+  std::map<std::string, bool> settled;
   for (const PlannedRun& run : plan.runs) {
     if (run.key.empty()) continue;
     require_inside(run_place(folder, run.key), folder);
-    if (std::optional<RunRecord> found = read_run(folder, run.key)) runs.emplace(run.key, std::move(*found));
+    if (const auto found = read_run(folder, run.key)) settled.emplace(run.key, found->settled());
   }
-  return runs;
+  return settled;
 }
 
 }  // namespace
@@ -130,18 +131,18 @@ SweepFile merge_sweeps(const std::vector<fs::path>& folders, const fs::path& fol
   SweepFile whole = parts.front().file;
   whole.shard = {};
   require_inside(folder / "runs", folder);
-  std::map<std::string, RunRecord> merged = runs_already_in(folder, whole.plan);
+  std::map<std::string, bool> merged = runs_already_in(folder, whole.plan);
   const SweepLock lock(folder);
   remove_unfinished(folder);
   write_sweep_file(folder, whole);
   for (const PlannedRun& run : whole.plan.runs) {
     for (const SweepPart& part : parts) {
       const auto has = merged.find(run.key);
-      if (has != merged.end() && has->second.settled()) break;
-      const auto found = part.runs.find(run.key);
+      if (has != merged.end() && has->second) break;
+      const auto found = part.settled.find(run.key);
       std::error_code ignored;
-      if (found == part.runs.end() || fs::equivalent(part.folder, folder, ignored)) continue;
-      if (has != merged.end() && !found->second.settled()) continue;
+      if (found == part.settled.end() || fs::equivalent(part.folder, folder, ignored)) continue;
+      if (has != merged.end() && !found->second) continue;
       take_over(run_place(part.folder, run.key), run_place(folder, run.key));
       merged.insert_or_assign(run.key, found->second);
     }
