@@ -26,7 +26,11 @@ struct Candidate {
 std::string write_candidate(const std::filesystem::path& report, const std::string& name, const Scene& scene,
                             const Golden& golden, const std::vector<Png>& pictures);
 
-/// Forgets what an earlier check has left.
+/// Makes sure that what has a candidate's place beside a report, if anything, is one that drape has written.
+/// @throws UsageError if it is something else, or a link leads out of the report's folder
+void require_own_candidate(const std::filesystem::path& report, const std::string& name);
+
+/// Forgets what an earlier check has left. @throws UsageError likewise; then nothing is removed
 void remove_candidate(const std::filesystem::path& report, const std::string& name);
 
 /// The candidates that a report lists, by name. What else is in its folder is another check's, and is left alone.

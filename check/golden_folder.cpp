@@ -35,6 +35,14 @@ bool names_picture(const fs::path& name) {
          std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
+/// Whether something in a golden's folder is the golden's.
+/// @param place relative to the folder
+bool is_own(const fs::path& place) {
+  const bool in_frames = place.parent_path() == "frames";
+  return in_frames ? names_picture(place.filename())
+                   : place == "manifest.json" || place == "motion.bin" || place == "frames";
+}
+
 /// Whether a file holds some words within its first bytes.
 bool mentions(const fs::path& file, std::string_view words) {
   constexpr std::size_t looked_at = 4096;
@@ -178,6 +186,23 @@ bool has_golden(const fs::path& folder) {
   if (!is_golden(folder)) refuse(folder, "is not a golden: it contains other files");
   require_own_files(folder);
   return true;
+}
+
+void require_only_golden(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::is_symlink(fs::symlink_status(folder, ignored))) refuse(folder, "is a link");
+  if (!has_golden(folder)) return;
+  for (const fs::path& place : {folder, folder / "frames"}) {
+    for (const auto& entry : fs::directory_iterator(place, ignored)) {
+      if (!is_own(entry.path().lexically_relative(folder))) refuse(entry.path(), "is not a part of a golden");
+    }
+  }
+}
+
+void remove_golden(const fs::path& folder) {
+  require_only_golden(folder);
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
 }
 
 std::uintmax_t write_golden(const fs::path& folder, const Golden& golden, const std::vector<Png>& pictures) {

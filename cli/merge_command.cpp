@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "check/candidate.hpp"
 #include "cli/check_results.hpp"
@@ -10,6 +12,7 @@
 #include "cli/studies.hpp"
 #include "cli/sweep_results.hpp"
 #include "core/error.hpp"
+#include "core/names_in_folders.hpp"
 #include "core/read_file.hpp"
 #include "core/shell.hpp"
 #include "core/text.hpp"
@@ -26,6 +29,20 @@ struct MergeArguments {
   std::string output;
 };
 
+/// Copies folders and what links lead to; leaves out what is neither file nor folder.
+void copy_files(const fs::path& from, const fs::path& to, std::error_code& error) {
+  fs::create_directories(to, error);
+  for (const auto& entry : fs::directory_iterator(from, error)) {
+    const fs::path target = to / entry.path().filename();
+    if (entry.is_directory(error) && !entry.is_symlink(error)) {
+      copy_files(entry.path(), target, error);
+    } else if (entry.is_regular_file(error)) {
+      fs::copy_file(entry.path(), target, fs::copy_options::overwrite_existing, error);
+    }
+    if (error) return;
+  }
+}
+
 /// Brings what a shard has found of a scene, its pictures and what can be accepted, into the folder of the whole.
 void take_over(const fs::path& part, const fs::path& folder, const std::string& name) {
   std::error_code error;
@@ -33,7 +50,7 @@ void take_over(const fs::path& part, const fs::path& folder, const std::string& 
   fs::create_directories(folder, error);
   remove_candidate(folder, name);  // of an older check
   if (!fs::exists(part / name, error)) return;
-  fs::copy(part / name, folder / name, fs::copy_options::recursive | fs::copy_options::overwrite_existing, error);
+  copy_files(part / name, folder / name, error);
   if (error) throw OutputError(fmt::format("cannot write {}: {}", shown(folder / name), error.message()));
 }
 
@@ -44,17 +61,32 @@ bool interrupted() {
   return true;
 }
 
-ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder, const CommonOptions& common) {
+/// @throws UsageError if it is damaged, or names something that is not in its folder
+CheckShard read_shard(const fs::path& part) {
   constexpr std::size_t most_bytes = std::size_t{1} << 32;
+  const fs::path file = part / check_mark;
+  require_links_inside(part);
+  CheckShard shard = unpack_shard(read_file(file, most_bytes), file);
+  for (const SceneResult& scene : shard.report.scenes) {
+    if (std::ranges::find(check_report_files, scene.name) == check_report_files.end()) continue;
+    throw UsageError(fmt::format("{}: a scene is called as the report's {}", shown(file), scene.name));
+  }
+  return shard;
+}
+
+ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder, const CommonOptions& common) {
   std::vector<CheckShard> shards;
+  std::vector<std::pair<fs::path, std::string>> found;  // the parts, and the scenes in them
   for (const fs::path& part : parts) {
-    shards.push_back(unpack_shard(read_file(part / check_mark, most_bytes), part / check_mark));
-    for (const SceneResult& result : shards.back().report.scenes) {
-      if (interrupted()) return ExitCode::interrupted;
-      take_over(part, folder, result.name);
-    }
+    shards.push_back(read_shard(part));
+    for (const SceneResult& result : shards.back().report.scenes) found.emplace_back(part, result.name);
   }
   CheckShard whole = merge_shards(std::move(shards), parts);
+  for (const auto& [part, name] : found) require_own_candidate(folder, name);
+  for (const auto& [part, name] : found) {
+    if (interrupted()) return ExitCode::interrupted;
+    take_over(part, folder, name);
+  }
   Verdicts verdicts;
   for (SceneResult& result : whole.report.scenes) {
     if (result.has_candidate()) {
@@ -78,6 +110,7 @@ const char* mark_in(const fs::path& folder) {
 
 ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
   interruption();  // from here on, a signal ends it between two files
+  for (const std::string& folder : arguments.folders) require_links_inside(folder);
   const char* mark = mark_in(arguments.folders.front());
   std::vector<fs::path> parts;
   for (const std::string& folder : arguments.folders) {

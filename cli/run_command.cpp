@@ -14,11 +14,13 @@
 #include "cli/run_arguments.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/scene_run.hpp"
+#include "core/console.hpp"
 #include "core/text.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
 #include "render/texture_image.hpp"
 #include "run/annotations.hpp"
+#include "run/motion_records.hpp"
 #include "run/outputs.hpp"
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
@@ -84,15 +86,19 @@ void require_something_to_make(const RunArguments& arguments) {
 ExitCode make_of_motion(const std::string& file, const RunArguments& arguments, const CommonOptions& common) {
   const SceneToRun found = open_motion(file, arguments.overrides, arguments.look);
   RunOptions options = run_options(arguments, found.scene, common.verbose);
+  require_files_of_their_own({found.scene}, {options});
+  const RecordPaths records = std::exchange(options.records, {});
   limit_to_motion(file, found.recorded->last_step(), options);
   choose_frames(arguments.times, found.scene, options);
-  if (arguments.outputs.empty()) {
-    spdlog::info("{} is complete", file);
-    return ExitCode::ok;
-  }
   options.recorded = found.recorded;
-  look_ahead({found.scene}, {options});
-  return run(found.scene, options, arguments, common);
+  if (!arguments.outputs.empty()) look_ahead({found.scene}, {options});
+  const std::vector<std::string> written = write_records(*found.recorded, found.scene, records);
+  for (const std::string& record : written) {
+    if (!common.quiet) print_text(stdout, record + "\n");
+  }
+  if (!arguments.outputs.empty()) return run(found.scene, options, arguments, common);
+  if (written.empty()) spdlog::info("{} is complete", file);
+  return ExitCode::ok;
 }
 
 /// Goes on with a run that ended early, and makes what is asked for of the whole motion.

@@ -12,6 +12,7 @@
 #include "cli/terminal.hpp"
 #include "cli/watched.hpp"
 #include "core/console.hpp"
+#include "core/names_in_folders.hpp"
 #include "core/shell.hpp"
 #include "core/text.hpp"
 #include "sweep/merge.hpp"
@@ -79,6 +80,7 @@ void require_same_program(const SweepOptions& options, const SweepPlan& plan) {
 }
 
 ExitCode report_again(const SweepArguments& arguments, const CommonOptions& common) {
+  require_links_inside(arguments.folder);
   std::optional<SweepFile> file = read_sweep_file(arguments.folder);
   if (!file) throw UsageError(fmt::format("{}: contains no sweep", arguments.folder));
   return conclude_sweep(read_results(arguments.folder, std::move(*file)), arguments.folder, common);
@@ -114,7 +116,11 @@ ExitCode sweep(const SweepArguments& arguments, const CommonOptions& common) {
   if (!arguments.shard.empty()) options.shard = parse_shard(arguments.shard);
   options.folder = shard_place(arguments.folder, options.shard);
   const SweepPlan plan = make_plan(complete_request(arguments));
-  if (arguments.resume) require_same_program(options, plan);
+  if (arguments.resume) {
+    require_links_inside(options.folder);
+    require_same_program(options, plan);
+    for (const PlannedRun& run : plan.runs) read_run(options.folder, run.key);  // or it throws
+  }
   if (arguments.dry_run) return list_runs(plan, options);
   if (arguments.tasks > 0) return write_jobs(arguments, plan, common);
 

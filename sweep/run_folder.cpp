@@ -11,6 +11,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/names_in_folders.hpp"
 #include "core/read_file.hpp"
 #include "core/text.hpp"
 
@@ -34,6 +35,36 @@ void flatten(const Json& json, const std::string& name, std::vector<std::pair<st
   } else {
     figures.emplace_back(name, json.is_string() ? json.get<std::string>() : json.dump());
   }
+}
+
+/// A record, whose nesting is bounded: reading its figures takes a stack frame for each level.
+/// @returns nothing if it is damaged
+std::optional<Json> parsed_record(const fs::path& file) {
+  constexpr int deepest = 16;
+  bool too_deep = false;
+  const auto bounded = [&](int depth, Json::parse_event_t, const Json&) {
+    too_deep = too_deep || depth > deepest;
+    return !too_deep;
+  };
+  try {
+    Json json = Json::parse(read_file(file, most_record_bytes), bounded);
+    return too_deep || !json.is_object() ? std::nullopt : std::optional(std::move(json));
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
+/// @throws UsageError if the record's key, or a file that it names, is not the name of something in a folder
+void require_names(const Json& record, const fs::path& file) {
+  const auto require = [&](const Json& name, const std::string& key) {
+    if (name.is_string()) name_in_folder(name.get_ref<const std::string&>(), file, key);
+  };
+  if (record.contains("key")) require(record["key"], "key");
+  if (!record.contains("files") || !record["files"].is_array()) return;
+  const Json& files = record["files"];
+  for (std::size_t i = 0; i < files.size(); ++i) require(files[i], fmt::format("files[{}]", i));
 }
 
 [[noreturn]] void fail(const fs::path& place, const std::error_code& error) {
@@ -61,8 +92,13 @@ std::optional<RunRecord> read_run(const fs::path& sweep, const std::string& key)
   const fs::path file = run_place(sweep, key) / record_name;
   std::error_code ignored;
   if (key.empty() || !fs::exists(file, ignored)) return std::nullopt;
+  RunRecord damaged;
+  damaged.reason = fmt::format("{} is damaged: --resume runs it again", shown(file));
+  const std::optional<Json> parsed = parsed_record(file);
+  if (!parsed) return damaged;
+  const Json& json = *parsed;
+  require_names(json, file);
   try {
-    const Json json = Json::parse(read_file(file, most_record_bytes));
     if (json.at("format") != 1 || json.at("key") != key) return std::nullopt;
     const auto* const name = std::ranges::find(run_outcome_names, json.at("outcome").get<std::string>());
     if (name == run_outcome_names.end()) return std::nullopt;
@@ -75,12 +111,9 @@ std::optional<RunRecord> read_run(const fs::path& sweep, const std::string& key)
                      .figures = {}};
     flatten(json.at("figures"), "", record.figures);
     return record;
-  } catch (const Json::exception&) {  // said below, in words for people
-  } catch (const UsageError&) {
+  } catch (const Json::exception&) {
+    return damaged;
   }
-  RunRecord damaged;
-  damaged.reason = fmt::format("{} is damaged: --resume runs it again", shown(file));
-  return damaged;
 }
 
 RunFolder::RunFolder(const fs::path& sweep, const std::string& key)
