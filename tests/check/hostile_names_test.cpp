@@ -94,7 +94,7 @@ TEST_P(HostileName, IsOneAnnotation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HostileName, testing::ValuesIn(test::hostile_names),
-                         [](const auto& info) { return std::to_string(info.index); });
+                         [](const auto& instance) { return std::to_string(instance.index); });
 
 }  // namespace
 }  // namespace drape
