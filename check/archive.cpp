@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+
+#include "core/names_in_folders.hpp"
+#include "core/text.hpp"
 
 namespace nlohmann {
 
@@ -53,8 +57,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Comparison, motion, picture, windows, frames,
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Machine, drape, compiler, system, processor, cpu_flags, kernels, renderer)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SceneResult, name, file, golden, verdict, error, findings, windows, end_to_end,
                                    settings, ignored, elsewhere, scene_changed, recorded_at, recorded_on, renderer,
-                                   size, animation, stills, has_candidate, rerun_command, accept_command, seconds)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckReport, command, accept_command, date, machine, scenes, seconds)
+                                   size, animation, stills, candidate, rerun_command, accept_command, seconds)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckReport, command, run_options, accept_command, date, machine, scenes, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckShard, report, places, scenes, whole)
 
 std::string pack_shard(const CheckShard& shard) {
@@ -62,27 +66,98 @@ std::string pack_shard(const CheckShard& shard) {
   return {bytes.begin(), bytes.end()};
 }
 
+namespace {
+
+/// Reads CBOR without keeping anything, down to some depth: the library takes a stack frame for each level.
+class DepthLimit final : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool key(string_t&) override { return true; }
+  bool start_object(std::size_t) override { return ++depth_ <= deepest; }
+  bool start_array(std::size_t) override { return ++depth_ <= deepest; }
+  bool end_object() override { return --depth_ >= 0; }
+  bool end_array() override { return --depth_ >= 0; }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) override { return false; }
+
+ private:
+  static constexpr int deepest = 32;  // a shard has about ten
+  int depth_ = 0;
+};
+
+template <class Enumeration>
+bool is_one_of(Enumeration value, Enumeration last) {
+  return value >= Enumeration{} && value <= last;
+}
+
+bool is_sound(const Comparison& comparison) {
+  const auto sound_window = [](const WindowResult& window) {
+    return is_one_of(window.verdict, MotionVerdict::changed);
+  };
+  const auto sound_frame = [](const FrameResult& frame) {
+    return frame.frame >= 0 && is_one_of(frame.difference.verdict, PictureVerdict::changed);
+  };
+  return is_one_of(comparison.motion, MotionVerdict::changed) &&
+         is_one_of(comparison.picture, PictureVerdict::changed) &&
+         std::ranges::all_of(comparison.windows, sound_window) && std::ranges::all_of(comparison.frames, sound_frame);
+}
+
+bool is_sound(const SceneResult& scene) {
+  constexpr int most_pixels = 1 << 14;
+  const auto sound_size = [](int pixels) { return pixels >= 0 && pixels <= most_pixels; };
+  return is_one_of(scene.verdict, SceneVerdict::error) && is_one_of(scene.error, ErrorKind::output) &&
+         std::ranges::all_of(scene.size, sound_size) && is_sound(scene.windows) &&
+         (!scene.end_to_end || is_sound(*scene.end_to_end));
+}
+
+/// Whether a shard's places are those of as many scenes among all.
+bool has_places(const CheckShard& shard) {
+  const std::vector<std::size_t>& places = shard.places;
+  const bool ascending = std::ranges::adjacent_find(places, std::greater_equal()) == places.end();
+  return places.size() == shard.report.scenes.size() && ascending && (places.empty() || places.back() < shard.scenes);
+}
+
+}  // namespace
+
 CheckShard unpack_shard(std::string_view bytes, const std::filesystem::path& file) {
+  const auto damaged = [&] {
+    return UsageError(fmt::format("{}: it is damaged, or of another version of drape check", shown(file)));
+  };
+  CheckShard shard;
   try {
-    auto shard = nlohmann::json::from_cbor(bytes.begin(), bytes.end()).get<CheckShard>();
-    if (shard.places.size() == shard.report.scenes.size()) return shard;
-  } catch (const nlohmann::json::exception&) {  // says no more than the sentence below
+    DepthLimit limit;
+    if (!nlohmann::json::sax_parse(bytes, &limit, nlohmann::json::input_format_t::cbor)) throw damaged();
+    nlohmann::json::from_cbor(bytes).get_to(shard);
+  } catch (const nlohmann::json::exception&) {  // says no more than this
+    throw damaged();
   }
-  throw UsageError(fmt::format("{}: it is damaged, or of another version of drape check", file.string()));
+  const std::vector<SceneResult>& scenes = shard.report.scenes;
+  if (!has_places(shard)) throw damaged();
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    name_in_folder(scenes[i].name, file, fmt::format("report.scenes[{}].name", i));
+    if (!is_sound(scenes[i])) throw damaged();
+  }
+  return shard;
 }
 
 CheckShard merge_shards(std::vector<CheckShard> shards, const std::vector<std::filesystem::path>& files) {
   CheckShard whole;
   whole.report = shards.front().report;
   whole.report.scenes.clear();
+  whole.report.run_options.clear();
   whole.report.seconds = 0;
   whole.scenes = shards.front().scenes;
   std::map<std::size_t, SceneResult> results;
   for (std::size_t i = 0; i < shards.size(); ++i) {
     CheckReport& report = shards[i].report;
     if (report.command != whole.report.command || shards[i].scenes != whole.scenes) {
-      throw UsageError(fmt::format("{} and {} are not of one check: {}, and {}", files.front().string(),
-                                   files[i].string(), whole.report.command, report.command));
+      throw UsageError(fmt::format("{} and {} are not of one check: {}, and {}", shown(files.front()), shown(files[i]),
+                                   shown(whole.report.command), shown(report.command)));
     }
     whole.report.seconds += report.seconds;
     whole.report.date = std::min(whole.report.date, report.date);

@@ -22,7 +22,7 @@ struct CheckShard {
 std::string pack_shard(const CheckShard& shard);
 
 /// @param file that they are from
-/// @throws UsageError if they are damaged
+/// @throws UsageError if they are damaged, or name something that is not in a folder
 CheckShard unpack_shard(std::string_view bytes, const std::filesystem::path& file);
 
 /// The check that shards are of, with the scenes in their order; of one that several have, the first.

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 #include "check/golden_file.hpp"
@@ -12,9 +13,12 @@
 #include "check/picture.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "core/installation.hpp"
+#include "core/names_in_folders.hpp"
 #include "core/nearest.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -22,21 +26,69 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t most_description = 1 << 20;  // bytes
+constexpr std::uintmax_t most_report = 1 << 28;       // bytes
 
 fs::path description_file(const fs::path& report, const std::string& name) { return report / name / "candidate.json"; }
 
-Candidate read_candidate(const fs::path& file) {
+std::string candidate_hash(const fs::path& folder) {
+  Hash hash;
+  hash.add(read_golden_file(folder / "manifest.json", UINTMAX_MAX));
+  return hash.text();
+}
+
+/// A path to the byte: JSON holds UTF-8 alone, which the names of files need not be.
+void describe_path(const fs::path& path, Json& json) {
+  json["scene"] = printable(path.string());
+  if (json["scene"] == path.string()) return;
+  const std::string& bytes = path.native();
+  json["scene_bytes"] = std::vector<std::uint8_t>(bytes.begin(), bytes.end());
+}
+
+/// @throws std::invalid_argument
+fs::path described_path(const Json& json) {
+  const std::string text = Fields(json, "").text("scene");
+  if (!json.contains("scene_bytes")) return text;
+  try {
+    const auto bytes = json.at("scene_bytes").get<std::vector<std::uint8_t>>();
+    return std::string(bytes.begin(), bytes.end());
+  } catch (const Json::exception&) {
+    throw std::invalid_argument("'scene_bytes': expected a list of bytes");
+  }
+}
+
+/// @param hash that the report lists
+Candidate read_candidate(const fs::path& file, std::string hash) {
   try {
     const Json json = parse_json(read_file(file, most_description));
     const Fields fields(json, "");
     return {.folder = file.parent_path() / "candidate",
+            .hash = std::move(hash),
             .name = file.parent_path().filename().string(),
-            .scene_file = fields.text("scene"),
+            .scene_file = described_path(json),
             .scene_digest = fields.text("scene_hash"),
             .program = fields.text("program")};
   } catch (const std::invalid_argument& error) {
-    throw UsageError(file.string() + ": " + error.what() + "; check the scene again");
+    throw UsageError(shown(file) + ": " + error.what() + "; check the scene again");
   }
+}
+
+/// The candidates that report.json lists.
+std::vector<Candidate> listed_candidates(const fs::path& report) {
+  const fs::path file = report / "report.json";
+  std::vector<Candidate> candidates;
+  try {
+    const Json json = parse_json(read_file(file, most_report));
+    const std::vector<Fields> scenes = Fields(json, "").objects("scenes");
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      std::string hash = scenes[i].text("candidate");
+      if (hash.empty()) continue;
+      const std::string name = name_in_folder(scenes[i].text("name"), file, fmt::format("scenes[{}].name", i));
+      candidates.push_back(read_candidate(description_file(report, name), std::move(hash)));
+    }
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(shown(file) + ": " + error.what() + "; check the scenes again");
+  }
+  return candidates;
 }
 
 /// A golden with its pictures, all of it as it was recorded.
@@ -61,7 +113,7 @@ Whole read_whole(const fs::path& folder) {
 }
 
 [[noreturn]] void refuse(const Candidate& candidate, const std::string& why) {
-  throw UsageError(fmt::format("{}: cannot be accepted: {}", candidate.scene_file.string(), why));
+  throw UsageError(fmt::format("{}: cannot be accepted: {}", shown(candidate.scene_file), why));
 }
 
 /// The golden that a candidate makes of the one there is.
@@ -71,6 +123,8 @@ Whole accepted(const Candidate& candidate, const std::vector<int>& frames) {
   }
   if (program_hash() != candidate.program)
     refuse(candidate, "it was checked by a different build of drape; check it again");
+  if (candidate_hash(candidate.folder) != candidate.hash)
+    refuse(candidate, "another check has left this since the report was written; check it again");
   Whole whole = read_whole(candidate.folder);
   if (frames.empty()) return whole;
 
@@ -94,29 +148,42 @@ Whole accepted(const Candidate& candidate, const std::vector<int>& frames) {
 
 }  // namespace
 
-void write_candidate(const fs::path& report, const std::string& name, const Scene& scene, const Golden& golden,
-                     const std::vector<Png>& pictures) {
+std::string write_candidate(const fs::path& report, const std::string& name, const Scene& scene, const Golden& golden,
+                            const std::vector<Png>& pictures) {
   write_golden(report / name / "candidate", golden, pictures);
-  const Json json{{"scene", scene.file.string()}, {"scene_hash", scene.digest}, {"program", program_hash()}};
+  Json json{{"scene_hash", scene.digest}, {"program", program_hash()}};
+  describe_path(scene.file, json);
   write_file_atomically(description_file(report, name),
                         json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return candidate_hash(report / name / "candidate");
+}
+
+void require_own_candidate(const fs::path& report, const std::string& name) {
+  require_inside(report / name, report);
+  require_links_inside(report / name);
+  require_only_golden(report / name / "candidate");
+  const fs::path file = description_file(report, name);
+  std::error_code ignored;
+  const fs::file_type type = fs::symlink_status(file, ignored).type();
+  if (type == fs::file_type::not_found) return;
+  if (type == fs::file_type::regular && read_file(file, most_description).find("\"scene_hash\"") != std::string::npos) {
+    return;
+  }
+  throw UsageError(fmt::format("{}: drape has not written it and will not replace it: move it away", shown(file)));
 }
 
 void remove_candidate(const fs::path& report, const std::string& name) {
+  require_own_candidate(report, name);
   std::error_code ignored;
   fs::remove(description_file(report, name), ignored);
-  fs::remove_all(report / name / "candidate", ignored);
+  remove_golden(report / name / "candidate");
 }
 
 std::vector<Candidate> find_candidates(const fs::path& report, const std::vector<std::string>& wanted) {
-  std::vector<Candidate> all;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(report, error)) {
-    const fs::path file = description_file(report, entry.path().filename().string());
-    if (fs::exists(file, error)) all.push_back(read_candidate(file));
-  }
+  require_links_inside(report);
+  std::vector<Candidate> all = listed_candidates(report);
   if (all.empty()) {
-    throw UsageError(fmt::format("{}: there is nothing to accept: this check found no scene changed", report.string()));
+    throw UsageError(fmt::format("{}: there is nothing to accept: this check found no scene changed", shown(report)));
   }
   std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.name < b.name; });
   if (wanted.empty()) return all;
@@ -129,7 +196,7 @@ std::vector<Candidate> find_candidates(const fs::path& report, const std::vector
       return candidate.name == name || candidate.scene_file == name;
     });
     if (found == all.end()) {
-      throw UsageError(fmt::format("{}: there is nothing to accept of '{}'{}", report.string(), name,
+      throw UsageError(fmt::format("{}: there is nothing to accept of '{}'{}", shown(report), shown(name),
                                    did_you_mean(name, names, "there is")));
     }
     chosen.push_back(*found);

@@ -18,6 +18,7 @@
 #include "check/picture.hpp"
 #include "check/record_motion.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "run/outputs.hpp"
 
 namespace drape {
@@ -68,7 +69,7 @@ class SceneCheck {
  private:
   void miss() {
     result_.verdict = SceneVerdict::missing;
-    if (options_.update == UpdateMode::none) {
+    if (options_.update == UpdateMode::none || overridden()) {
       result_.findings.push_back("there is no golden to compare with");
     } else if (options_.update == UpdateMode::missing) {
       bless_scene(scene_, settings_, options_.backend, stop_, progress_);
@@ -92,7 +93,7 @@ class SceneCheck {
     result_.recorded_at = golden_.date;
     result_.recorded_on = golden_.machine;
     result_.ignored = covered_part(settings_.ignore, golden_.size);
-    result_.scene_changed = golden_.scene_digest != scene_.digest;
+    result_.scene_changed = golden_.scene_digest != digest_of_file();
 
     const std::string another_motion = motion_mismatch(scene_, golden_);
     const std::string other_pictures = picture_mismatch(scene_, settings_, golden_, !options_.frames.empty());
@@ -114,12 +115,25 @@ class SceneCheck {
     conclude();
   }
 
+  [[nodiscard]] bool overridden() const { return !options_.overrides.empty(); }
+
+  /// Digest of what the scene file gives without overrides. Where that alone is no scene, the file cannot be told from
+  /// the one that was recorded.
+  [[nodiscard]] std::string digest_of_file() const {
+    if (!overridden()) return scene_.digest;
+    try {
+      return load_scene(scene_.file).digest;
+    } catch (const UsageError&) {
+      return golden_.scene_digest;
+    }
+  }
+
   void check_precision() const {
     if (settings_.motion_tolerance > 0 && settings_.motion_tolerance < 2 * golden_.quanta.compared) {
       throw UsageError(
           fmt::format("{} stores positions to {:.2g} m, which is too coarse for a motion_tolerance of {:g} m; bless "
                       "the scene with that tolerance, or set it to 0 for the same bits",
-                      result_.golden.string(), golden_.quanta.compared, settings_.motion_tolerance));
+                      shown(result_.golden), golden_.quanta.compared, settings_.motion_tolerance));
     }
   }
 
@@ -235,13 +249,17 @@ class SceneCheck {
     if (changed && result_.scene_changed) {
       result_.findings.push_back("the scene file has changed since the golden was recorded");
     }
+    if (changed && overridden()) {
+      result_.findings.push_back(fmt::format(
+          "it was checked with {}: to make that golden, edit the scene and check it again", options_.overrides));
+    }
     if (!changed || options_.artefacts.empty()) return;
     if (!stop_.stop_requested()) {
       DifferenceAnimation made = difference_animation(scene_, golden_, result_, options_.backend, options_.artefacts);
       result_.animation = std::move(made.gif);
       result_.stills = std::move(made.stills);
     }
-    if (!stop_.stop_requested()) keep_candidate();
+    if (!stop_.stop_requested() && !overridden()) keep_candidate();
   }
 
   /// What bless would record now. Where it cannot, because the motion diverges, there is nothing to accept.
@@ -253,8 +271,8 @@ class SceneCheck {
       result_.findings.push_back(fmt::format("there is nothing to accept: {}", diverged.what()));
     }
     if (!recording) return;
-    write_candidate(options_.artefacts, result_.name, scene_, recording->golden, recording->pictures);
-    result_.has_candidate = true;
+    result_.candidate =
+        write_candidate(options_.artefacts, result_.name, scene_, recording->golden, recording->pictures);
   }
 
   const Scene& scene_;

@@ -30,6 +30,8 @@ struct CheckOptions {
   std::size_t threads = 0;  ///< that compute windows; 0: as many as the processor has
   /// The report's folder, for the animation of a failed scene and what it would be accepted as; empty: neither is made.
   std::filesystem::path artefacts = {};
+  /// The scenes have other values than their files, as "--set cloth.mass=2": what they give cannot become golden.
+  std::string overrides = {};
 };
 
 /// What bless did.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/text.hpp"
 #include "html/markdown.hpp"
 
 namespace drape {
@@ -15,7 +16,7 @@ namespace {
 /// @param property whether it is the value of one, where ':' and ',' mean something
 std::string command_text(std::string_view text, bool property) {
   std::string escaped;
-  for (const char c : text) {
+  for (const char c : escape_controls(text)) {
     const bool special = c == '%' || c == '\r' || c == '\n' || (property && (c == ':' || c == ','));
     escaped += special ? fmt::format("%{:02X}", static_cast<unsigned>(c)) : std::string(1, c);
   }
@@ -37,10 +38,11 @@ std::string github_summary(const CheckReport& report) {
     const Comparison& windows = scene->windows;
     text += fmt::format("| {} | {} {} | {} | {} | {} |\n", markdown(scene->file.string()), scene->passed() ? "✅" : "❌",
                         verdict_name(scene->verdict), windows.windows.empty() ? "–" : verdict_name(windows.motion),
-                        windows.frames.empty() ? "–" : verdict_name(windows.picture),
+                        windows.frames.empty() ? "–" : picture_verdict(*scene, windows),
                         markdown(fmt::format("{}", fmt::join(scene->findings, "; "))));
   }
-  if (!report.accept_command.empty()) text += fmt::format("\nTo accept all of it: `{}`\n", report.accept_command);
+  if (!report.accept_command.empty())
+    text += fmt::format("\nTo accept all of it: {}\n", markdown_code(report.accept_command));
   return text;
 }
 

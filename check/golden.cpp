@@ -11,6 +11,7 @@
 #include "check/motion_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;
@@ -114,7 +115,7 @@ std::vector<GoldenFrame> chosen_frames(const Golden& golden, const std::vector<i
       std::vector<int> known;
       for (const GoldenFrame& frame : golden.frames) known.push_back(frame.frame);
       throw UsageError(
-          fmt::format("--frames: {} has no frame {}, only {}", folder.string(), number, fmt::join(known, ", ")));
+          fmt::format("--frames: {} has no frame {}, only {}", shown(folder), number, fmt::join(known, ", ")));
     }
     frames.push_back(*found);
   }

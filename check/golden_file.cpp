@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;
@@ -17,7 +18,7 @@ const std::string remedy = "; restore it, or record it again with drape bless";
 }  // namespace
 
 void fail_to_read(const fs::path& file, const std::string& problem) {
-  throw UsageError(file.string() + ": " + problem + remedy);
+  throw UsageError(shown(file) + ": " + problem + remedy);
 }
 
 std::string read_golden_file(const fs::path& file, std::uintmax_t most) {

@@ -18,13 +18,14 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void refuse(const fs::path& place, std::string_view what) {
-  throw UsageError(fmt::format("{}: {}; drape will not replace it: move it away", place.string(), what));
+  throw UsageError(fmt::format("{}: {}; drape will not replace it: move it away", shown(place), what));
 }
 
 /// Whether a name in the folder of the frames is one that golden_picture() gives: "0040.png".
@@ -32,6 +33,14 @@ bool names_picture(const fs::path& name) {
   const std::string stem = name.stem().string();
   return name.extension() == ".png" && stem.size() >= 4 &&
          std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Whether something in a golden's folder is the golden's.
+/// @param place relative to the folder
+bool is_own(const fs::path& place) {
+  const bool in_frames = place.parent_path() == "frames";
+  return in_frames ? names_picture(place.filename())
+                   : place == "manifest.json" || place == "motion.bin" || place == "frames";
 }
 
 /// Whether a file holds some words within its first bytes.
@@ -71,7 +80,7 @@ void require_own_files(const fs::path& folder) {
 }
 
 [[noreturn]] void fail_to_write(const fs::path& folder, const std::error_code& error) {
-  throw OutputError(fmt::format("cannot write {}: {}", folder.string(), error.message()));
+  throw OutputError(fmt::format("cannot write {}: {}", shown(folder), error.message()));
 }
 
 std::error_code last_error() { return {errno, std::generic_category()}; }
@@ -169,14 +178,31 @@ bool has_golden(const fs::path& folder) {
   if (named == fs::file_type::not_found) return false;
   const fs::file_type type = fs::status(folder, error).type();
   if (type == fs::file_type::not_found) refuse(folder, "is a broken link, where the golden should be");
-  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", shown(folder), error.message()));
   if (type != fs::file_type::directory) refuse(folder, "is a file, where the golden should be a folder");
   const bool empty = fs::is_empty(folder, error);
-  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", shown(folder), error.message()));
   if (empty) return false;
   if (!is_golden(folder)) refuse(folder, "is not a golden: it contains other files");
   require_own_files(folder);
   return true;
+}
+
+void require_only_golden(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::is_symlink(fs::symlink_status(folder, ignored))) refuse(folder, "is a link");
+  if (!has_golden(folder)) return;
+  for (const fs::path& place : {folder, folder / "frames"}) {
+    for (const auto& entry : fs::directory_iterator(place, ignored)) {
+      if (!is_own(entry.path().lexically_relative(folder))) refuse(entry.path(), "is not a part of a golden");
+    }
+  }
+}
+
+void remove_golden(const fs::path& folder) {
+  require_only_golden(folder);
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
 }
 
 std::uintmax_t write_golden(const fs::path& folder, const Golden& golden, const std::vector<Png>& pictures) {

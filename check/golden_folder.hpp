@@ -13,6 +13,13 @@ namespace drape {
 ///         somebody's own, a link in the place of one of the golden's files
 bool has_golden(const std::filesystem::path& folder);
 
+/// Makes sure that a folder, if it is there and not empty, holds a golden and nothing else.
+/// @throws UsageError as has_golden(), and if it is a link or holds something else beside the golden
+void require_only_golden(const std::filesystem::path& folder);
+
+/// Removes such a folder. @throws UsageError likewise
+void remove_golden(const std::filesystem::path& folder);
+
 /// Writes a whole golden. What was there before is replaced in one go, so that at any moment there is one or the other.
 /// Files and folders in it that are not drape's are kept, and so are permissions; of a link to a folder, that folder is
 /// replaced.

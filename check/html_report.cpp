@@ -72,6 +72,11 @@ std::string headline(const CheckReport& report) {
 
 std::string anchor(std::size_t index) { return fmt::format("scene-{}", index); }
 
+Markup pictures_badge(const SceneResult& scene) {
+  const std::string verdict = picture_verdict(scene, scene.windows);
+  return verdict == verdict_name(scene.windows.picture) ? verdict_badge(scene.windows.picture) : Markup(verdict);
+}
+
 Markup overview(const std::vector<const SceneResult*>& scenes) {
   html::Table table{"Checked scenes",
                     {{"Scene"},
@@ -89,7 +94,7 @@ Markup overview(const std::vector<const SceneResult*>& scenes) {
     table.rows.push_back({html::link(fmt::format("#{}", anchor(i)), scene.name), verdict_badge(scene.verdict),
                           moved ? verdict_badge(c.motion) : Markup("–"),
                           moved ? readable_length(largest_deviation(c)) : "–",
-                          drawn ? verdict_badge(c.picture) : Markup("–"),
+                          drawn ? pictures_badge(scene) : Markup("–"),
                           drawn ? fmt::format("{:.3f}", largest_flip(c)) : "–", fmt::format("{:.1f}", scene.seconds)});
   }
   return html::table(table);
@@ -98,7 +103,7 @@ Markup overview(const std::vector<const SceneResult*>& scenes) {
 Markup introduction(const CheckReport& report) {
   return html::paragraph(html::element("time", {{"datetime", report.date}}, report.date) +
                          fmt::format(", {:.1f} s", report.seconds)) +
-         (report.command.empty() ? Markup() : html::command("Run this check again", report.command)) +
+         (report.command.empty() ? Markup() : html::command("Run this check again", full_command(report))) +
          (report.accept_command.empty() ? Markup() : html::command("Accept all changes", report.accept_command));
 }
 

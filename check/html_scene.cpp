@@ -55,7 +55,7 @@ Markup viewer(const SceneResult& scene, const Comparison& comparison, const std:
     if (frame.difference.verdict != PictureVerdict::exact) moment.worst = frame.difference.worst_pixel;
     // A picture belongs to its motion: where that is another one, both are accepted together.
     const bool alone =
-        scene.has_candidate && &comparison == &scene.windows && comparison.motion != MotionVerdict::changed;
+        scene.has_candidate() && &comparison == &scene.windows && comparison.motion != MotionVerdict::changed;
     if (alone && frame.difference.verdict == PictureVerdict::changed) {
       moment.action =
           html::command("Accept this picture", fmt::format("{} --frames {}", scene.accept_command, frame.frame));

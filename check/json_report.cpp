@@ -79,6 +79,7 @@ Json to_json(const SceneResult& scene) {
             {"recorded_on", to_json(scene.recorded_on)},
             {"rerun", scene.rerun_command},
             {"accept", scene.accept_command},
+            {"candidate", scene.candidate},
             {"seconds", scene.seconds},
             {"windows", to_json(scene, scene.windows, "")}};
   if (scene.end_to_end) json["end_to_end"] = to_json(scene, *scene.end_to_end, "end_to_end.");
@@ -107,7 +108,7 @@ std::string json_report(const CheckReport& report) {
   for (const SceneResult& scene : report.scenes) scenes.push_back(to_json(scene));
   const Json json{{"format", 1},
                   {"passed", report.passed()},
-                  {"command", report.command},
+                  {"command", full_command(report)},
                   {"date", report.date},
                   {"seconds", report.seconds},
                   {"machine", to_json(report.machine)},

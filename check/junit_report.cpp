@@ -36,7 +36,7 @@ Case motion_case(const SceneResult& scene, const Comparison& comparison, const c
 }
 
 Case picture_case(const SceneResult& scene, const Comparison& comparison, const char* name) {
-  Case test{&scene, name, {}, verdict_name(comparison.picture)};
+  Case test{&scene, name, {}, picture_verdict(scene, comparison)};
   if (comparison.picture != PictureVerdict::changed) return test;
   for (const FrameResult& frame : comparison.frames) {
     if (!frame.judged || frame.difference.verdict != PictureVerdict::changed) continue;
@@ -72,8 +72,9 @@ void write(tinyxml2::XMLPrinter& xml, const Case& test) {
   if (!test.failure.empty()) {
     xml.OpenElement(test.is_error() ? "error" : "failure");
     xml.PushAttribute("message", printable(test.failure).c_str());
+    const std::string& accept = test.scene->accept_command;
     xml.PushText(printable(sentences(*test.scene) + "rerun: " + test.scene->rerun_command +
-                           "\naccept: " + test.scene->accept_command)
+                           (accept.empty() ? "" : "\naccept: " + accept))
                      .c_str());
     xml.CloseElement();
   } else if (!test.output.empty()) {

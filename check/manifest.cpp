@@ -10,6 +10,7 @@
 #include "check/json_fields.hpp"
 #include "check/machine.hpp"
 #include "core/hash.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -79,13 +80,14 @@ View view_from(const Fields& fields) {
 }
 
 Machine machine_from(const Fields& fields) {
-  return {.drape = fields.text("drape"),
-          .compiler = fields.text("compiler"),
-          .system = fields.text("system"),
-          .processor = fields.text("processor"),
-          .cpu_flags = fields.text("cpu_flags"),
-          .kernels = fields.text("kernels"),
-          .renderer = fields.text("renderer")};
+  const auto text = [&](const char* key) { return shown(fields.text(key)); };
+  return {.drape = text("drape"),
+          .compiler = text("compiler"),
+          .system = text("system"),
+          .processor = text("processor"),
+          .cpu_flags = text("cpu_flags"),
+          .kernels = text("kernels"),
+          .renderer = text("renderer")};
 }
 
 std::vector<GoldenFrame> frames_from(const std::vector<Fields>& list) {
@@ -94,7 +96,7 @@ std::vector<GoldenFrame> frames_from(const std::vector<Fields>& list) {
     const int least = frames.empty() ? 0 : frames.back().frame + 1;
     frames.push_back({.frame = fields.whole<int>("frame", least, std::numeric_limits<int>::max() - 1),
                       .time = fields.number("time"),
-                      .why = fields.text("why"),
+                      .why = shown(fields.text("why")),
                       .view = view_from(fields.object("view")),
                       .x = {},
                       .pixels = fields.text("pixels")});
@@ -116,7 +118,7 @@ Manifest manifest_from(const Fields& fields) {
   Manifest manifest;
   Golden& golden = manifest.golden;
   golden.scene_digest = fields.text("scene_hash");
-  golden.date = fields.text("date");
+  golden.date = shown(fields.text("date"));
   golden.machine = machine_from(fields.object("machine"));
   golden.size = fields.pixels("size");
   golden.step = fields.positive("step");

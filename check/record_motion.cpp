@@ -10,6 +10,7 @@
 #include "check/chained_motion.hpp"
 #include "check/survey_motion.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "render/camera_path.hpp"
 #include "run/frame_sampler.hpp"
 #include "run/frame_tape.hpp"
@@ -99,7 +100,7 @@ std::optional<RecordPlan> plan_recording(const Scene& scene, const CheckSettings
   plan.quanta = quanta_for(scene.simulation, settings.motion_tolerance);
   for (const int frame : settings.frames) {
     if (frame > film.frames.last) {
-      throw UsageError(fmt::format("{}: frame {} cannot be compared: the film ends with frame {}", scene.file.string(),
+      throw UsageError(fmt::format("{}: frame {} cannot be compared: the film ends with frame {}", shown(scene.file),
                                    frame, film.frames.last));
     }
     plan.frames.push_back({frame, "named by the scene"});

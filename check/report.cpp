@@ -24,6 +24,12 @@ std::string describe_ignored(const SceneResult& scene) {
   return part + (part.empty() || whole.empty() ? "" : " and ") + whole + (several ? " are ignored" : " is ignored");
 }
 
+std::string picture_verdict(const SceneResult& scene, const Comparison& comparison) {
+  const bool judged = scene.ignored < 1 && std::ranges::any_of(comparison.frames, &FrameResult::judged);
+  const bool compared = !comparison.frames.empty() && comparison.picture != PictureVerdict::changed;
+  return compared && !judged ? "not judged" : verdict_name(comparison.picture);
+}
+
 const char* verdict_name(MotionVerdict verdict) {
   switch (verdict) {
     case MotionVerdict::same_bits:

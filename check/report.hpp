@@ -118,15 +118,19 @@ struct SceneResult {
   bool scene_changed = false;  ///< the scene file has changed since it was recorded
   std::string recorded_at;     ///< "2026-01-31T12:00:00Z"; empty without a golden
   Machine recorded_on;
-  std::string renderer;        ///< what drew the pictures now
-  std::array<int, 2> size{};   ///< of the pictures [pixels]
-  std::string animation;       ///< a GIF's bytes: expected, actual and difference side by side, looping around the
-                               ///< first bad frame; empty if there is none
-  std::string stills;          ///< some of its moments for paper: a PNG's bytes
-  bool has_candidate = false;  ///< what it is now is kept beside the report, and can be accepted
+  std::string renderer;       ///< what drew the pictures now
+  std::array<int, 2> size{};  ///< of the pictures [pixels]
+  std::string animation;      ///< a GIF's bytes: expected, actual and difference side by side, looping around the
+                              ///< first bad frame; empty if there is none
+  std::string stills;         ///< some of its moments for paper: a PNG's bytes
+  std::string candidate;      ///< hash of the candidate that is kept beside the report; empty: there is none
   std::string rerun_command;
-  std::string accept_command;  ///< makes what it is now the golden: drape accept, or drape bless without a candidate
+  std::string accept_command;  ///< makes what it is now the golden: drape accept, or drape bless without a candidate;
+                               ///< empty: no command does, because the check was given other values than the file's
   double seconds = 0;          ///< that the check took
+
+  /// Whether what it is now is kept beside the report, and can be accepted.
+  [[nodiscard]] bool has_candidate() const { return !candidate.empty(); }
 
   /// Whether it is as its golden, or has become it.
   [[nodiscard]] bool passed() const { return verdict == SceneVerdict::passed || verdict == SceneVerdict::updated; }
@@ -134,7 +138,8 @@ struct SceneResult {
 
 /// A run of `drape check`.
 struct CheckReport {
-  std::string command;         ///< as it was typed
+  std::string command;         ///< as it was typed, but for where and how fast it ran
+  std::string run_options;     ///< the rest of it: " --report out/ci --jobs 4"; empty in a merged report
   std::string accept_command;  ///< makes everything that changed golden; empty: there is nothing
   std::string date;            ///< "2026-01-31T12:00:00Z"
   Machine machine;
@@ -145,8 +150,14 @@ struct CheckReport {
   [[nodiscard]] bool passed() const;
 };
 
+/// The command as it was typed.
+inline std::string full_command(const CheckReport& report) { return report.command + report.run_options; }
+
 /// "2.1 % of the picture and frame 40 are ignored"; empty if nothing is.
 std::string describe_ignored(const SceneResult& scene);
+
+/// What came out of the pictures of a comparison: verdict_name(), or "not judged" where all of them are ignored.
+std::string picture_verdict(const SceneResult& scene, const Comparison& comparison);
 
 /// "same bits", "within tolerance", "changed".
 const char* verdict_name(MotionVerdict verdict);

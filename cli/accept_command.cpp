@@ -7,7 +7,9 @@
 #include "cli/check_results.hpp"
 #include "cli/command_line.hpp"
 #include "cli/frame_list.hpp"
+#include "core/console.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -25,7 +27,7 @@ void require_report(const std::filesystem::path& folder) {
   if (std::filesystem::exists(folder / check_report_files.front(), error)) return;
   throw UsageError(fmt::format(
       "{}: {}; expected the report folder of a check: drape check SCENE writes out/check, or what --report says",
-      folder.string(),
+      shown(folder),
       !std::filesystem::exists(status)        ? "no such folder"
       : std::filesystem::is_directory(status) ? "there is no report of drape check in this folder"
                                               : "this is a file"));
@@ -39,8 +41,9 @@ ExitCode accept(const AcceptArguments& arguments, const CommonOptions& common) {
   for (const Candidate& candidate : candidates) {
     const std::filesystem::path folder = accept_candidate(candidate, frames);
     if (common.quiet) continue;
-    fmt::print("{}: accepted{}\n", folder.string(),
-               frames.empty() ? "" : fmt::format(": the pictures of the frames {}", arguments.frames));
+    print_text(stdout,
+               fmt::format("{}: accepted{}\n", shown(folder),
+                           frames.empty() ? "" : fmt::format(": the pictures of the frames {}", arguments.frames)));
   }
   return ExitCode::ok;
 }

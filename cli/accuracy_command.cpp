@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 
+#include "cli/line_option.hpp"
 #include "cli/number_option.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/studies.hpp"
@@ -91,7 +92,7 @@ std::string numbers(const char* option, const std::vector<double>& values) {
 /// The command line again.
 std::string command_line(const AccuracyArguments& arguments) {
   std::string text = "drape study accuracy";
-  for (const std::string& scene : arguments.scenes) text += " " + shell_word(scene);
+  for (const std::string& scene : arguments.scenes) text += " " + shell_file(scene);
   for (const std::string& value : arguments.options.overrides) text += " --set " + shell_word(value);
   if (!arguments.methods.empty()) text += " --methods " + joined(arguments.methods);
   text += numbers("--tolerances", arguments.options.tolerances) + numbers("--steps", arguments.options.steps) +
@@ -213,7 +214,8 @@ void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& c
       "What varies between the panels of the animations: tolerances (default), methods, steps, or none"));
   add_backend_option(*sub, options.backend);
   sub->add_option("--runs", options.runs, runs_help)->check(whole_number_in({1, 1000}));
-  sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/accuracy");
+  sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/accuracy")
+      ->check(on_one_line());
   sub->add_option("--patience", options.patience,
                   "Computing time in s after which a motion of 'asked' is given up; default 20")
       ->check(number_in(positive));

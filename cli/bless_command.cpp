@@ -9,6 +9,8 @@
 #include "cli/frame_list.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/watched.hpp"
+#include "core/console.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -31,12 +33,12 @@ ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
       blessing = bless_scene(scene, settings, arguments.backend, stop, progress);
     });
     if (!blessing) {
-      spdlog::error("interrupted: {} is unchanged", golden_folder(scene.file).string());
+      spdlog::error("interrupted: {} is unchanged", shown(golden_folder(scene.file)));
       return ExitCode::interrupted;
     }
     if (!common.quiet) {
-      fmt::print("{}: recorded {} frames, {} kB\n", blessing->folder.string(), blessing->frames,
-                 (blessing->size + 500) / 1000);
+      print_text(stdout, fmt::format("{}: recorded {} frames, {} kB\n", shown(blessing->folder), blessing->frames,
+                                     (blessing->size + 500) / 1000));
     }
   }
   return ExitCode::ok;

@@ -12,6 +12,7 @@
 #include "check/machine.hpp"
 #include "cli/check_results.hpp"
 #include "cli/frame_list.hpp"
+#include "cli/line_option.hpp"
 #include "cli/number_option.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/watched.hpp"
@@ -19,6 +20,7 @@
 #include "core/nearest.hpp"
 #include "core/parallel.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 #include "run/shard.hpp"
 #include "sweep/estimate.hpp"
 #include "sweep/merge.hpp"
@@ -60,16 +62,40 @@ CheckSettings settings_of(const Scene& scene, const CheckArguments& arguments) {
   return settings;
 }
 
-std::string command_options(const CheckArguments& arguments) {
+/// "--set cloth.mass=2 --set look.color=red"
+std::string override_options(const CheckArguments& arguments) {
   std::string text;
-  for (const std::string& value : arguments.overrides) text += " --set " + shell_word(value);
+  for (const std::string& value : arguments.overrides) {
+    text += (text.empty() ? "--set " : " --set ") + shell_word(value);
+  }
+  return text;
+}
+
+/// The options that decide what a check finds.
+std::string command_options(const CheckArguments& arguments) {
+  std::string text = override_options(arguments);
+  if (!text.empty()) text.insert(0, " ");
   if (!arguments.frames.empty()) text += " --frames " + arguments.frames;
   if (arguments.end_to_end) text += " --end-to-end";
+  if (arguments.update != CheckArguments().update) text += " --update " + arguments.update;
   if (arguments.backend != GlBackend::automatic) text += fmt::format(" --backend {}", backend_name(arguments.backend));
   if (arguments.motion_tolerance) text += fmt::format(" --motion-tolerance {}", *arguments.motion_tolerance);
   if (arguments.channel) text += fmt::format(" --channel-limit {}", *arguments.channel);
   if (arguments.pixels) text += fmt::format(" --pixel-limit {}", *arguments.pixels);
   if (arguments.flip) text += fmt::format(" --flip-limit {}", *arguments.flip);
+  return text;
+}
+
+std::string report_option(const CheckArguments& arguments) {
+  return arguments.report == CheckArguments().report ? "" : " --report " + shell_word(arguments.report);
+}
+
+/// The options that do not: where the report goes, and what is done at once.
+std::string run_options(const CheckArguments& arguments) {
+  std::string text = report_option(arguments);
+  if (arguments.threads > 0) text += fmt::format(" --threads {}", arguments.threads);
+  if (arguments.jobs > 1) text += fmt::format(" --jobs {}", arguments.jobs);
+  if (!arguments.shard.empty()) text += " --shard " + arguments.shard;
   return text;
 }
 
@@ -94,12 +120,13 @@ class Judge {
     } catch (const std::bad_alloc&) {
       result = unjudged_scene(scene, names_[place], settings, UsageError("there is not enough memory for this"));
     }
-    const std::string file = shell_word(scene.file.string());
-    result.rerun_command = "drape check " + file + command_options(arguments_);
-    // What was checked with other values than the file's is not what the file gives.
-    result.has_candidate = result.has_candidate && arguments_.overrides.empty();
-    result.accept_command = result.has_candidate ? accept_command(options_.artefacts) + " " + shell_word(result.name)
-                                                 : "drape bless " + file;
+    const std::string file = shell_file(scene.file.string());
+    result.rerun_command = "drape check " + file + command_options(arguments_) + report_option(arguments_);
+    if (result.has_candidate()) {
+      result.accept_command = accept_command(options_.artefacts) + " " + shell_word(result.name);
+    } else if (arguments_.overrides.empty()) {
+      result.accept_command = "drape bless " + file;
+    }
     return result;
   }
 
@@ -118,7 +145,7 @@ class Judge {
 bool check_all(const Judge& judge, const std::vector<std::size_t>& places, std::size_t jobs,
                const CommonOptions& common, Verdicts& verdicts, CheckReport& report) {
   const auto add = [&](SceneResult result) {
-    if (result.has_candidate) report.accept_command = accept_command(judge.folder());
+    if (result.has_candidate()) report.accept_command = accept_command(judge.folder());
     tell(result, common, verdicts);
     if (!result.renderer.empty()) report.machine.renderer = result.renderer;
     report.scenes.push_back(std::move(result));
@@ -161,6 +188,22 @@ std::size_t threads_of(const CheckArguments& arguments) {
   return std::max<std::size_t>(1, std::thread::hardware_concurrency() / arguments.jobs);
 }
 
+/// @throws UsageError if the report's folder is a golden, which the report's files would damage
+void require_no_golden(const std::filesystem::path& report) {
+  std::error_code ignored;
+  const bool is_golden = report.filename().extension() == ".golden" ||
+                         std::filesystem::exists(report / "manifest.json", ignored) ||
+                         std::filesystem::exists(report / "motion.bin", ignored);
+  if (!is_golden) return;
+  throw UsageError(fmt::format("--report {}: this is the folder of a golden; name another one", shown(report)));
+}
+
+/// @throws UsageError if goldens are to be recorded of other values than the scene files'
+void require_golden_values(const CheckOptions& options) {
+  if (options.update != UpdateMode::all || options.overrides.empty()) return;
+  throw UsageError("--update all records what the scene files say: edit them instead of giving " + options.overrides);
+}
+
 ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   const auto begin = std::chrono::steady_clock::now();
   const Shard shard = arguments.shard.empty() ? Shard{} : parse_shard(arguments.shard);
@@ -170,7 +213,10 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
                              .end_to_end = arguments.end_to_end,
                              .update = parse_update(arguments.update),
                              .threads = threads_of(arguments),
-                             .artefacts = folder};
+                             .artefacts = folder,
+                             .overrides = override_options(arguments)};
+  require_golden_values(options);
+  require_no_golden(arguments.report);
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, arguments.overrides);
   for (const char* file : check_report_files) const PartialFile writable(folder / file);  // or it throws
 
@@ -178,8 +224,9 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   CheckReport& report = part.report;
   report.date = utc_now();
   report.command = "drape check";
-  for (const std::string& scene : arguments.scenes) report.command += " " + shell_word(scene);
+  for (const std::string& scene : arguments.scenes) report.command += " " + shell_file(scene);
   report.command += command_options(arguments);
+  report.run_options = run_options(arguments);
   Verdicts verdicts;
   const Judge judge(scenes, arguments, options);
   if (check_all(judge, part.places, arguments.jobs, common, verdicts, report)) {
@@ -216,7 +263,8 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
                   "Which goldens to write; default missing, and such a check still fails")
       ->type_name("all|missing|none");
   add_backend_option(*sub, arguments->backend);
-  sub->add_option("--report", arguments->report, "Folder for the report (HTML, JSON, JUnit); default out/check");
+  sub->add_option("--report", arguments->report, "Folder for the report (HTML, JSON, JUnit); default out/check")
+      ->check(on_one_line());
   sub->add_option("--threads", arguments->threads, "Number of windows of motion computed at once")
       ->check(whole_number_in({1, 1024}));
   sub->add_option("--jobs", arguments->jobs, "How many scenes are checked at once; default 1")

@@ -17,7 +17,9 @@
 #include "check/scene_charts.hpp"
 #include "cli/terminal.hpp"
 #include "core/atomic_file.hpp"
+#include "core/console.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 #include "core/wrap.hpp"
 #include "sweep/merge.hpp"
 
@@ -26,18 +28,18 @@ namespace {
 
 /// One line about a scene.
 std::string describe(const SceneResult& scene) {
-  const std::string file = scene.file.string();
+  const std::string file = shown(scene.file);
   if (scene.verdict != SceneVerdict::passed) {
     return fmt::format("{}: {}: {}", file, verdict_name(scene.verdict), fmt::join(scene.findings, "; "));
   }
   std::string text =
       fmt::format("{}: passed: motion {}, {} {}", file, verdict_name(scene.windows.motion), scene.windows.frames.size(),
                   scene.windows.frames.size() == 1 ? "picture" : "pictures");
-  text += fmt::format(" {}", verdict_name(scene.windows.picture));
+  text += " " + picture_verdict(scene, scene.windows);
   if (const std::string ignored = describe_ignored(scene); !ignored.empty()) text += fmt::format(" ({})", ignored);
   if (scene.end_to_end) {
     text += fmt::format("; end to end {}, {}", verdict_name(scene.end_to_end->motion),
-                        verdict_name(scene.end_to_end->picture));
+                        picture_verdict(scene, *scene.end_to_end));
   }
   return text + fmt::format(" ({:.1f} s)", scene.seconds);
 }
@@ -48,9 +50,9 @@ Ink ink_of(SceneVerdict verdict) {
 }
 
 /// A line for the terminal, in which the verdict has a colour.
-std::string shown(const SceneResult& result, const CommonOptions& common) {
+std::string colored(const SceneResult& result, const CommonOptions& common) {
   const Terminal where = terminal(stdout, common.color);
-  std::string line = wrapped(describe(result), where.width, 2);
+  std::string line = wrapped(escape_controls(describe(result)), where.width, 2);
   const std::string verdict = verdict_name(result.verdict);
   const std::size_t at = line.find(": " + verdict + ":");
   if (at == std::string::npos) return line;
@@ -82,7 +84,7 @@ void tell_github(const CheckReport& report, Verdicts& verdicts) {
 }  // namespace
 
 void Verdicts::print(const std::string& line) {
-  if (std::fputs((line + "\n").c_str(), stdout) >= 0 && std::fflush(stdout) == 0) return;
+  if (print_unescaped(stdout, line + "\n")) return;
   if (reason_.empty()) reason_ = std::generic_category().message(errno);
 }
 
@@ -95,7 +97,7 @@ void tell(const SceneResult& result, const CommonOptions& common, Verdicts& verd
   if (result.verdict == SceneVerdict::error) {
     spdlog::error(describe(result));
   } else if (!common.quiet || !good) {
-    verdicts.print(shown(result, common));
+    verdicts.print(colored(result, common));
   }
   for (const WindowResult& window : result.windows.windows) {
     spdlog::debug("steps {} to {}: {}", window.first_step, window.last_step, verdict_name(window.verdict));
@@ -110,7 +112,7 @@ void tell(const SceneResult& result, const CommonOptions& common, Verdicts& verd
 ExitCode conclude_check(const CheckShard& shard, const std::filesystem::path& folder, const CommonOptions& common,
                         Verdicts& verdicts) {
   write_reports(shard, folder);
-  if (!common.quiet) verdicts.print((folder / check_report_files.front()).string());
+  if (!common.quiet) verdicts.print(shown(folder / check_report_files.front()));
   tell_github(shard.report, verdicts);
   ExitCode code = exit_code(shard.report);
   if (const std::size_t missing = shard.missing(); missing > 0) {

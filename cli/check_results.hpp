@@ -15,6 +15,7 @@ inline constexpr std::array<const char*, 3> check_report_files{"report.html", "r
 /// Prints the verdicts, and remembers if one could not be printed.
 class Verdicts {
  public:
+  /// @param line escaped, see escape_controls()
   void print(const std::string& line);
 
   /// Why not all of them could be printed; empty: they could.

@@ -63,6 +63,19 @@ void name_values(CLI::App& app) {
   for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) name_values(*subcommand);
 }
 
+/// An option that takes a value does not take an empty one for its absence. What says so itself is left to it.
+void refuse_empty_values(CLI::App& app) {
+  const auto problem = [](const std::string& value) {
+    return value.empty() ? std::string("expected a value, found an empty text") : std::string();
+  };
+  for (CLI::Option* option : app.get_options()) {
+    const bool own = option->check_lname("set") || option->check_lname("vary") || option->check_lname("output") ||
+                     option->check_lname("threads");
+    if (option->get_type_size() > 0 && !option->get_positional() && !own) option->check(CLI::Validator(problem, ""));
+  }
+  for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) refuse_empty_values(*subcommand);
+}
+
 void print_help(const CLI::App& of, const std::string& name, const CommonOptions& common) {
   // Not of.help(), which is that of the subcommand that was chosen.
   const std::string help = of.get_formatter()->make_help(&of, name, CLI::AppFormatMode::Normal);
@@ -85,6 +98,26 @@ void add_help_command(CLI::App& app, const CommonOptions& common, Command& comma
       return ExitCode::ok;
     };
   });
+}
+
+/// What drape can do, where nothing is asked of it.
+void print_commands(const CLI::App& app) {
+  std::string text = app.get_description() + "\n\nUsage: drape COMMAND ...\n\n";
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    if (command->get_group().empty()) continue;
+    text += fmt::format("  {:<10}{}\n", command->get_name(), command->get_description());
+  }
+  text += "\nBegin with: drape render SCENE.toml\nOptions and examples of a command: drape help COMMAND\n";
+  constexpr std::size_t descriptions_at = 12;
+  print_text(stdout, wrapped(text, terminal(stdout, ColorMode::never).width, descriptions_at - 2));
+}
+
+/// The code, or that of an error of writing where what was printed is lost.
+ExitCode unless_lost(ExitCode code) {
+  const int error = lost_output();
+  if (error == 0) return code;
+  spdlog::error("cannot write to standard output: {}", std::generic_category().message(error));
+  return std::max(code, ExitCode::output);
 }
 
 /// The command whose --help was asked for: the last one that was named.
@@ -151,33 +184,34 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   add_manual_command(app, command);
   add_examples(app);
   name_values(app);
+  refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     const CLI::App& of = command_of_help(app);
-    print_help(of, full_name(of), common);
-    return ExitCode::ok;
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) {
-      app.exit(error);  // --version: printed, and all is well
-      return ExitCode::ok;
-    }
     set_up_logging(common);
+    print_help(of, full_name(of), common);
+    return unless_lost(ExitCode::ok);
+  } catch (const CLI::CallForVersion& version) {
+    set_up_logging(common);
+    print_text(stdout, std::string(version.what()) + "\n");
+    return unless_lost(ExitCode::ok);
+  } catch (const CLI::ParseError& error) {
+    set_up_logging(common);
+    if (argc <= 1) {
+      print_commands(app);
+      return unless_lost(ExitCode::usage);
+    }
     spdlog::error(explain(app, error, std::span(argv, static_cast<std::size_t>(argc)).subspan(1)));
     return ExitCode::usage;
   }
 
   set_up_logging(common);
   const bool diagnosed = app.got_subcommand("doctor");  // what is wrong with the environment is a finding of its own
-  const ExitCode code = reported([&] {
+  return unless_lost(reported([&] {
     if (!diagnosed) use_environment();
     return command();
-  });
-  if (const int error = lost_output()) {
-    spdlog::error("cannot write to standard output: {}", std::generic_category().message(error));
-    return std::max(code, ExitCode::output);
-  }
-  return code;
+  }));
 }
 
 ExitCode reported(const std::function<ExitCode()>& work) {

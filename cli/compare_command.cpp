@@ -9,15 +9,18 @@
 #include "cli/frame_list.hpp"
 #include "cli/grid_option.hpp"
 #include "cli/interruption.hpp"
+#include "cli/line_option.hpp"
 #include "cli/motion_runs.hpp"
 #include "cli/number_option.hpp"
 #include "cli/output_clashes.hpp"
 #include "cli/run_arguments.hpp"
+#include "cli/scene_files.hpp"
 #include "cli/summary.hpp"
+#include "cli/terminal.hpp"
 #include "cli/watched.hpp"
 #include "compare/compare_scenes.hpp"
-#include "core/console.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
 #include "sweep/variation.hpp"
@@ -44,30 +47,26 @@ std::pair<std::vector<Scene>, std::vector<std::shared_ptr<MotionReader>>> load_v
     const CompareArguments& arguments) {
   std::vector<Scene> scenes;
   std::vector<std::shared_ptr<MotionReader>> recorded;
-  std::string problems;
-  const auto load = [&](const std::string& file, const std::vector<std::string>& overrides) {
+  SceneProblems problems;
+  const auto load = [&](const std::string& file, const std::vector<std::string>& some) {
+    std::vector<std::string> overrides = arguments.overrides;
+    overrides.insert(overrides.end(), some.begin(), some.end());
     try {
       SceneToRun found = open_scene(file, overrides);
       if (found.recorded) require_steps(file, found.recorded->last_step(), arguments.options.steps);
       scenes.push_back(std::move(found.scene));
       recorded.push_back(std::move(found.recorded));
     } catch (const UsageError& error) {
-      const std::string problem = error.what();  // of a file, which may be that of all its variations
-      if (problems.find(problem) == std::string::npos) problems += (problems.empty() ? "" : "\n") + problem;
+      problems.add(file, as_varied(error.what(), some));
     }
   };
   std::vector<Variation> varied;
   for (const std::string& text : arguments.varied) varied.push_back(parse_variation(text));
   const std::vector<std::vector<std::string>> all = combinations(varied);
   for (const std::string& file : arguments.scenes) {
-    for (const std::vector<std::string>& values : all) {
-      std::vector<std::string> overrides = arguments.overrides;
-      const std::vector<std::string> some = overrides_of(varied, values);
-      overrides.insert(overrides.end(), some.begin(), some.end());
-      load(file, overrides);
-    }
+    for (const std::vector<std::string>& values : all) load(file, overrides_of(varied, values));
   }
-  if (!problems.empty()) throw UsageError(problems);
+  problems.throw_if_any(arguments.scenes);
   constexpr std::size_t most = 36;
   if (scenes.size() > most) {
     throw UsageError(fmt::format("{} motions cannot be shown side by side; the limit is {}", scenes.size(), most));
@@ -77,7 +76,7 @@ std::pair<std::vector<Scene>, std::vector<std::shared_ptr<MotionReader>>> load_v
 
 std::string command_line(const CompareArguments& arguments) {
   std::string text = "drape compare";
-  for (const std::string& scene : arguments.scenes) text += " " + shell_word(scene);
+  for (const std::string& scene : arguments.scenes) text += " " + shell_file(scene);
   for (const std::string& value : arguments.overrides) text += " --set " + shell_word(value);
   for (const std::string& value : arguments.varied) text += " --vary " + shell_word(value);
   for (const std::string& path : arguments.options.outputs) text += " -o " + shell_word(path);
@@ -129,7 +128,7 @@ ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& com
   require_comparison(scenes, options);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     if (const auto& motion = options.recorded[i]) {
-      warn_of_gaps(scenes[i].file.string(), *motion, compared_extent(scenes, options, i));
+      warn_of_gaps(shown(scenes[i].file), *motion, compared_extent(scenes, options, i));
     }
   }
 
@@ -139,7 +138,7 @@ ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& com
   });
   if (!common.quiet) {
     for (const ComparedMotion& motion : result.motions) spdlog::info(motion.label);
-    if (!result.outputs.empty()) print_text(stderr, describe_files(result.outputs) + "\n");
+    if (!result.outputs.empty()) print_wrapped(stderr, describe_files(result.outputs) + "\n");
   }
   return conclude(result);
 }
@@ -154,12 +153,13 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
   sub->add_option("SCENE", arguments->scenes, "Scene files (TOML), or motions (.drape) recorded by drape simulate")
       ->required();
   one_each(sub->add_option(
-      "-o,--output", options.outputs,
-      fmt::format(
-          "Output file; its extension selects the format (repeatable; default out/compare.gif).\n.html a "
-          "self-contained page: the motions in step, their figures and differences; its diagrams as files are in "
-          "NAME-diagrams\n{}",
-          output_help(true))));
+                  "-o,--output", options.outputs,
+                  fmt::format(
+                      "Output file; its extension selects the format (repeatable; default out/compare.gif).\n.html a "
+                      "self-contained page: the motions in step, their figures and differences; its diagrams as files "
+                      "are in NAME-diagrams\n{}",
+                      output_help(FormatKinds::drawn)))
+               ->check(on_one_line()));
   one_each(
       sub->add_option("--set", arguments->overrides, "Override a value of all scenes: key.path=value; repeatable"));
   one_each(sub->add_option(

@@ -1,14 +1,21 @@
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "check/candidate.hpp"
 #include "cli/check_results.hpp"
+#include "cli/interruption.hpp"
+#include "cli/line_option.hpp"
 #include "cli/studies.hpp"
 #include "cli/sweep_results.hpp"
 #include "core/error.hpp"
+#include "core/names_in_folders.hpp"
 #include "core/read_file.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 #include "study/stability_runs.hpp"
 #include "sweep/merge.hpp"
 
@@ -22,6 +29,20 @@ struct MergeArguments {
   std::string output;
 };
 
+/// Copies folders and what links lead to; leaves out what is neither file nor folder.
+void copy_files(const fs::path& from, const fs::path& to, std::error_code& error) {
+  fs::create_directories(to, error);
+  for (const auto& entry : fs::directory_iterator(from, error)) {
+    const fs::path target = to / entry.path().filename();
+    if (entry.is_directory(error) && !entry.is_symlink(error)) {
+      copy_files(entry.path(), target, error);
+    } else if (entry.is_regular_file(error)) {
+      fs::copy_file(entry.path(), target, fs::copy_options::overwrite_existing, error);
+    }
+    if (error) return;
+  }
+}
+
 /// Brings what a shard has found of a scene, its pictures and what can be accepted, into the folder of the whole.
 void take_over(const fs::path& part, const fs::path& folder, const std::string& name) {
   std::error_code error;
@@ -29,21 +50,46 @@ void take_over(const fs::path& part, const fs::path& folder, const std::string& 
   fs::create_directories(folder, error);
   remove_candidate(folder, name);  // of an older check
   if (!fs::exists(part / name, error)) return;
-  fs::copy(part / name, folder / name, fs::copy_options::recursive | fs::copy_options::overwrite_existing, error);
-  if (error) throw OutputError(fmt::format("cannot write {}: {}", (folder / name).string(), error.message()));
+  copy_files(part / name, folder / name, error);
+  if (error) throw OutputError(fmt::format("cannot write {}: {}", shown(folder / name), error.message()));
+}
+
+/// Whether a person has asked for an end. What is merged so far is complete, and merging again goes on.
+bool interrupted() {
+  if (!interruption().stop_requested()) return false;
+  spdlog::error("interrupted: the same command completes it");
+  return true;
+}
+
+/// @throws UsageError if it is damaged, or names something that is not in its folder
+CheckShard read_shard(const fs::path& part) {
+  constexpr std::size_t most_bytes = std::size_t{1} << 32;
+  const fs::path file = part / check_mark;
+  require_links_inside(part);
+  CheckShard shard = unpack_shard(read_file(file, most_bytes), file);
+  for (const SceneResult& scene : shard.report.scenes) {
+    if (std::ranges::find(check_report_files, scene.name) == check_report_files.end()) continue;
+    throw UsageError(fmt::format("{}: a scene is called as the report's {}", shown(file), scene.name));
+  }
+  return shard;
 }
 
 ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder, const CommonOptions& common) {
-  constexpr std::size_t most_bytes = std::size_t{1} << 32;
   std::vector<CheckShard> shards;
+  std::vector<std::pair<fs::path, std::string>> found;  // the parts, and the scenes in them
   for (const fs::path& part : parts) {
-    shards.push_back(unpack_shard(read_file(part / check_mark, most_bytes), part / check_mark));
-    for (const SceneResult& result : shards.back().report.scenes) take_over(part, folder, result.name);
+    shards.push_back(read_shard(part));
+    for (const SceneResult& result : shards.back().report.scenes) found.emplace_back(part, result.name);
   }
   CheckShard whole = merge_shards(std::move(shards), parts);
+  for (const auto& [part, name] : found) require_own_candidate(folder, name);
+  for (const auto& [part, name] : found) {
+    if (interrupted()) return ExitCode::interrupted;
+    take_over(part, folder, name);
+  }
   Verdicts verdicts;
   for (SceneResult& result : whole.report.scenes) {
-    if (result.has_candidate) {
+    if (result.has_candidate()) {
       whole.report.accept_command = accept_command(folder);
       result.accept_command = accept_command(folder) + " " + shell_word(result.name);
     }
@@ -59,10 +105,12 @@ const char* mark_in(const fs::path& folder) {
     if (!parts_in(folder, mark).empty()) return mark;
   }
   throw UsageError(
-      fmt::format("{}: there is no sweep, check or study of stability in it, nor a shard of one", folder.string()));
+      fmt::format("{}: there is no sweep, check or study of stability in it, nor a shard of one", shown(folder)));
 }
 
 ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
+  interruption();  // from here on, a signal ends it between two files
+  for (const std::string& folder : arguments.folders) require_links_inside(folder);
   const char* mark = mark_in(arguments.folders.front());
   std::vector<fs::path> parts;
   for (const std::string& folder : arguments.folders) {
@@ -78,7 +126,8 @@ ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
   const fs::path folder = arguments.output.empty() ? arguments.folders.front() : arguments.output;
   if (mark == check_mark) return merge_checks(parts, folder, common);
   if (mark == stability_runs_name) return merge_stability_study(parts, folder, common);
-  SweepFile whole = merge_sweeps(parts, folder);
+  SweepFile whole = merge_sweeps(parts, folder, interruption().get_token());
+  if (interrupted()) return ExitCode::interrupted;
   return conclude_sweep(read_results(folder, std::move(whole)), folder, common);
 }
 
@@ -88,7 +137,8 @@ void add_merge_command(CLI::App& app, const CommonOptions& common, Command& comm
   auto arguments = std::make_shared<MergeArguments>();
   CLI::App* sub = app.add_subcommand("merge", "Merge the shards of a sweep, check or study");
   sub->add_option("DIR", arguments->folders, "Folders of shards, or a folder with shards in it")->required();
-  sub->add_option("-o,--output", arguments->output, "Folder for the merged result; default the first DIR");
+  sub->add_option("-o,--output", arguments->output, "Folder for the merged result; default the first DIR")
+      ->check(on_one_line());
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return merge(*arguments, common); }; });
 }

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "cli/film_times.hpp"
 #include "core/build_info.hpp"
 #include "core/error.hpp"
 #include "motion/scene_folder.hpp"
@@ -99,13 +100,15 @@ std::optional<RunToGoOn> find_run_to_go_on(const std::string& file, const std::v
                    scene_to_draw(file, motion->folder, overrides, look)};
 }
 
-RecordedSteps parse_every(const std::string& text) {
+RecordedSteps parse_every(const std::string& text, double step) {
   if (text == "frames") return {.every = std::nullopt};
+  if (is_time(text)) return {.every = steps_in("--every", text, step)};
   std::int64_t every = 0;
   const char* const end = text.data() + text.size();
   const auto read = std::from_chars(text.data(), end, every);
   if (read.ec != std::errc() || read.ptr != end || every < 1 || every > 1'000'000'000) {
-    throw UsageError(fmt::format("--every takes a number of steps of at least 1, or frames; found '{}'", text));
+    throw UsageError(
+        fmt::format("--every takes a number of steps of at least 1, a time such as 0.1s, or frames; found '{}'", text));
   }
   return {.every = every};
 }

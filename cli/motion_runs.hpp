@@ -48,9 +48,10 @@ struct RunToGoOn {
 std::optional<RunToGoOn> find_run_to_go_on(const std::string& file, const std::vector<std::string>& overrides,
                                            const std::string& look);
 
-/// "N", or "frames": nothing.
-/// @throws UsageError if it is neither
-RecordedSteps parse_every(const std::string& text);
+/// "N", "0.1s", or "frames": nothing.
+/// @param step of the scene [s]
+/// @throws UsageError if it is none of them
+RecordedSteps parse_every(const std::string& text, double step);
 
 /// @throws UsageError if a motion of so many steps has fewer than asked for
 void require_steps(const std::string& file, std::int64_t last_step, const std::optional<std::int64_t>& steps);

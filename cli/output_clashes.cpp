@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/file_identity.hpp"
+#include "core/text.hpp"
 #include "run/outputs.hpp"
 
 namespace drape {
@@ -27,7 +28,9 @@ std::vector<Writer> writers(std::size_t number, const Scene& scene, const RunOpt
   for (const std::string& path : options.outputs) {
     result.push_back({number, "-o " + path, output_files(path, film)});
   }
-  if (options.poster) result.push_back({number, "--poster", poster_files(options.outputs, film)});
+  for (const std::string& path : options.poster ? options.outputs : std::vector<std::string>()) {
+    result.push_back({number, "the poster of " + path, poster_files({path}, film)});
+  }
   if (options.motion) {
     const std::string& path = options.motion->path;
     result.push_back({number, "-o " + path, {path, growing_name(path).string(), checkpoint_name(path).string()}});
@@ -55,7 +58,7 @@ class Clashes {
       const std::string identity = file_identity(file);
       const auto reader = readers_.find(identity);
       if (reader != readers_.end()) {
-        return fmt::format("{} would overwrite {}, an input of {}", writer.option, file, reader->second->file.string());
+        return fmt::format("{} would overwrite {}, an input of {}", writer.option, file, shown(reader->second->file));
       }
       const auto [other, free] = writers_.emplace(identity, Claim{writer.scene, writer.option, file});
       if (!free && problem.empty()) problem = describe(writer, file, other->second);
@@ -75,10 +78,10 @@ class Clashes {
                          file == other.file ? "" : fmt::format(": {} is {}", file, other.file));
     }
     const Scene &first = scenes_[other.scene], &second = scenes_[writer.scene];
-    return fmt::format(
-        "'{}' would be written for {} and again for {}: {}", file, first.file.string(), second.file.string(),
-        first.name == second.name ? "they have the same name, so render them one at a time, to different files"
-                                  : "put {scene} into the name");
+    return fmt::format("'{}' would be written for {} and again for {}: {}", file, shown(first.file), shown(second.file),
+                       first.name == second.name
+                           ? "they have the same name, so render them one at a time, to different files"
+                           : "put {scene} into the name");
   }
 
   const std::vector<Scene>& scenes_;

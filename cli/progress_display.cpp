@@ -14,7 +14,8 @@ namespace drape {
 namespace {
 
 constexpr int bar_width = 24;
-constexpr std::chrono::seconds line_interval{5};
+constexpr std::chrono::seconds line_interval{5};  // at first
+constexpr int lines_in_all = 10;                  // that the time so far may have had
 
 std::string minutes(double seconds) {
   const auto whole = std::lround(std::min(seconds, 359999.0));
@@ -36,9 +37,10 @@ void ProgressDisplay::update() {
   const auto now = Clock::now();
   if (stage != stage_) {
     stage_ = stage;
-    stage_begin_ = last_line_ = now;
+    stage_begin_ = now;
   }
-  if (style_ == Style::lines && now - last_line_ < line_interval) return;
+  const auto interval = std::max<Clock::duration>(line_interval, (now - begin_) / lines_in_all);
+  if (style_ == Style::lines && now - last_line_ < interval) return;
 
   const double seconds = std::chrono::duration<double>(now - stage_begin_).count();
   const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
@@ -49,21 +51,18 @@ void ProgressDisplay::update() {
   }
   if (style_ == Style::lines) {
     last_line_ = now;
-    print_text(stderr, text + "\n");
+    print_unescaped(stderr, text + "\n");
     return;
   }
-  const std::size_t width = terminal(stderr, ColorMode::never).width, taken = bar_width + 4;
-  if (width != unlimited_width) text.resize(std::min(text.size(), width > taken ? width - taken : 0));
+  const std::size_t width = terminal(stderr, ColorMode::never).width;
   const auto filled = static_cast<std::size_t>(bar_width * done / total);
-  print_text(stderr,
-             fmt::format("\r\x1b[K[{}{}] {}", std::string(filled, '#'), std::string(bar_width - filled, ' '), text));
-  bar_shown_ = true;
+  std::string line = fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(bar_width - filled, ' '), text);
+  if (line.size() >= width) line.resize(width - 1);  // one that is continued below would stay there
+  show_passing_line(line);
 }
 
 void ProgressDisplay::clear() {
-  if (!bar_shown_) return;
-  print_text(stderr, "\r\x1b[K");
-  bar_shown_ = false;
+  if (style_ == Style::bar) clear_passing_line();
 }
 
 }  // namespace drape

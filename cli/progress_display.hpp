@@ -6,7 +6,8 @@
 
 namespace drape {
 
-/// Shows on standard error how far a run is: a bar on a terminal, now and then a plain line elsewhere.
+/// Shows on standard error how far a run is: a bar on a terminal, elsewhere a plain line now and
+/// then, which comes less often the longer a run takes.
 class ProgressDisplay {
  public:
   enum class Style { none, bar, lines };
@@ -28,8 +29,7 @@ class ProgressDisplay {
   const Progress& progress_;
   Style style_;
   const char* stage_ = nullptr;
-  Clock::time_point stage_begin_, last_line_;
-  bool bar_shown_ = false;
+  Clock::time_point begin_ = Clock::now(), stage_begin_, last_line_ = begin_;
 };
 
 }  // namespace drape

@@ -7,6 +7,7 @@
 #include "cli/byte_count.hpp"
 #include "cli/frame_list.hpp"
 #include "cli/grid_option.hpp"
+#include "cli/line_option.hpp"
 #include "cli/motion_runs.hpp"
 #include "cli/number_option.hpp"
 #include "core/error.hpp"
@@ -28,8 +29,9 @@ int parse_threads(const std::string& text) {
 }
 
 /// Sets the outputs: films and frames, and the motion file apart from them.
-void set_outputs(const RunArguments& arguments, const auto& expanded, RunOptions& options) {
-  const RecordedSteps every = arguments.every.empty() ? RecordedSteps{} : parse_every(arguments.every);
+void set_outputs(const RunArguments& arguments, const Scene& scene, const auto& expanded, RunOptions& options) {
+  const RecordedSteps every =
+      arguments.every.empty() ? RecordedSteps{} : parse_every(arguments.every, scene.simulation.step);
   if (!arguments.every.empty()) options.every = every.every;
   for (const std::string& output : arguments.outputs) {
     if (!is_motion_file(output)) {
@@ -53,7 +55,7 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
     return path.path(scene.name, 0, 1);
   };
   RunOptions options;
-  set_outputs(arguments, expanded, options);
+  set_outputs(arguments, scene, expanded, options);
   options.records = {.stats = expanded(arguments.records.stats),
                      .energies = expanded(arguments.records.energies),
                      .positions = expanded(arguments.records.positions),
@@ -105,10 +107,12 @@ void add_shared_options(CLI::App& command, RunArguments& arguments, const char* 
       command.add_option("--set", arguments.overrides, "Override a value of the scene: key.path=value; repeatable"));
   command.add_option("--steps", arguments.steps, "Simulate this many steps instead of the scene's duration")
       ->check(whole_number_in({0, 1e9}));
-  command.add_option("--frames", arguments.frames, "Only these frames of the film: A..B");
+  add_film_times(command, arguments.times,
+                 command.add_option("--frames", arguments.frames, "Only these frames of the film: A..B"));
   command.add_option("--every", arguments.every,
                      "N: a frame after every N steps instead of by [video] fps and speed; a .drape stores every step "
-                     "by default, and with N every Nth. frames: store only what the film's frames need in a .drape");
+                     "by default, and with N every Nth. 0.1s: the same in time. frames: store only what the film's "
+                     "frames need in a .drape");
   command
       .add_option("--checkpoint", arguments.checkpoint_seconds,
                   "Interval between checkpoints of a .drape: the most work lost if the run is killed, in s")
@@ -133,7 +137,8 @@ void add_outputs(CLI::App& command, RunArguments& arguments, const std::string& 
           fmt::format(
               "Output file; its extension selects the format ({}).\nA run that ends early, by Ctrl-C or divergence, "
               "writes NAME.partial.EXT instead, and for a .drape NAME.drape.partial, which --resume continues.\n{}",
-              usage, output_help(drawn)))
+              usage, output_help(drawn ? FormatKinds::all : FormatKinds::undrawn)))
+      ->check(on_one_line())
       ->allow_extra_args(false);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/film_times.hpp"
 #include "run/run_scene.hpp"
 
 namespace drape {
@@ -16,6 +17,7 @@ struct RunArguments {
   std::vector<std::string> outputs;
   std::string look;  ///< a scene that says how motions are drawn
   std::string frames, every, resume, max_size, keep, sheet;
+  FilmTimes times;  ///< as frames, in seconds
   bool poster = false;
   std::optional<std::int64_t> steps;
   double checkpoint_seconds = MotionOptions{}.checkpoint_seconds;

@@ -12,11 +12,15 @@
 #include "cli/motion_runs.hpp"
 #include "cli/output_clashes.hpp"
 #include "cli/run_arguments.hpp"
+#include "cli/scene_files.hpp"
 #include "cli/scene_run.hpp"
+#include "core/console.hpp"
+#include "core/text.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
 #include "render/texture_image.hpp"
 #include "run/annotations.hpp"
+#include "run/motion_records.hpp"
 #include "run/outputs.hpp"
 #include "run/run_scene.hpp"
 #include "scene/scene.hpp"
@@ -70,7 +74,8 @@ ExitCode run(const Scene& scene, const RunOptions& options, const RunArguments& 
 /// @throws UsageError if what is said of outputs is said where there are none
 void require_something_to_make(const RunArguments& arguments) {
   if (!arguments.outputs.empty()) return;
-  if (arguments.overrides.empty() && !arguments.steps && arguments.frames.empty() && arguments.every.empty()) return;
+  const bool frames = !arguments.frames.empty() || arguments.times.any() || !arguments.every.empty();
+  if (arguments.overrides.empty() && !arguments.steps && !frames) return;
   throw UsageError(
       fmt::format("--resume {} continues the run as it began; --set, --steps, --frames and --every apply to outputs of "
                   "the whole motion, and there is no -o",
@@ -81,14 +86,19 @@ void require_something_to_make(const RunArguments& arguments) {
 ExitCode make_of_motion(const std::string& file, const RunArguments& arguments, const CommonOptions& common) {
   const SceneToRun found = open_motion(file, arguments.overrides, arguments.look);
   RunOptions options = run_options(arguments, found.scene, common.verbose);
+  require_files_of_their_own({found.scene}, {options});
+  const RecordPaths records = std::exchange(options.records, {});
   limit_to_motion(file, found.recorded->last_step(), options);
-  if (arguments.outputs.empty()) {
-    spdlog::info("{} is complete", file);
-    return ExitCode::ok;
-  }
+  choose_frames(arguments.times, found.scene, options);
   options.recorded = found.recorded;
-  look_ahead({found.scene}, {options});
-  return run(found.scene, options, arguments, common);
+  if (!arguments.outputs.empty()) look_ahead({found.scene}, {options});
+  const std::vector<std::string> written = write_records(*found.recorded, found.scene, records);
+  for (const std::string& record : written) {
+    if (!common.quiet) print_text(stdout, record + "\n");
+  }
+  if (!arguments.outputs.empty()) return run(found.scene, options, arguments, common);
+  if (written.empty()) spdlog::info("{} is complete", file);
+  return ExitCode::ok;
 }
 
 /// Goes on with a run that ended early, and makes what is asked for of the whole motion.
@@ -110,6 +120,7 @@ ExitCode go_on(const RunArguments& arguments, const CommonOptions& common) {
   afterwards.records = {};
   RunOptions later = run_options(afterwards, found->drawn, common.verbose);
   limit_to_motion(file, *found->options.steps, later);
+  choose_frames(arguments.times, found->drawn, later);
   look_ahead({found->drawn}, {later});
 
   RunOptions options = found->options;
@@ -128,7 +139,7 @@ ExitCode go_on(const RunArguments& arguments, const CommonOptions& common) {
 
 std::vector<SceneToRun> load_all(const RunArguments& arguments) {
   std::vector<SceneToRun> all;
-  std::string problems;
+  SceneProblems problems;
   for (const std::string& file : arguments.scenes) {
     if (is_motion_file(file) && !arguments.drawing) {
       throw UsageError(fmt::format("{} is already a motion: use drape render to draw it", file));
@@ -136,10 +147,10 @@ std::vector<SceneToRun> load_all(const RunArguments& arguments) {
     try {
       all.push_back(open_scene(file, arguments.overrides, arguments.look));
     } catch (const UsageError& error) {
-      problems += (problems.empty() ? "" : "\n") + std::string(error.what());
+      problems.add(file, error.what());
     }
   }
-  if (!problems.empty()) throw UsageError(problems);
+  problems.throw_if_any(arguments.scenes);
   return all;
 }
 
@@ -158,7 +169,7 @@ ExitCode run_each(const std::vector<Scene>& scenes, const std::vector<RunOptions
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     if (i > 0 && interruption().stop_requested()) {
       end_last();
-      if (worst != ExitCode::interrupted) spdlog::error("interrupted before {}", scenes[i].file.string());
+      if (worst != ExitCode::interrupted) spdlog::error("interrupted before {}", shown(scenes[i].file));
       return ExitCode::interrupted;
     }
     auto next = std::make_unique<SceneRun>(scenes[i], options[i], arguments, common);
@@ -189,8 +200,9 @@ ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
   for (SceneToRun& found : load_all(arguments)) {
     options.push_back(run_options(arguments, found.scene, common.verbose));
     if (found.recorded) {
-      limit_to_motion(found.scene.file.string(), found.recorded->last_step(), options.back());
+      limit_to_motion(shown(found.scene.file), found.recorded->last_step(), options.back());
     }
+    choose_frames(arguments.times, found.scene, options.back());
     options.back().recorded = found.recorded;
     scenes.push_back(std::move(found.scene));
   }

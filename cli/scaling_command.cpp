@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "cli/line_option.hpp"
 #include "cli/number_option.hpp"
 #include "cli/studies.hpp"
 #include "study/scaling_report.hpp"
@@ -26,7 +27,8 @@ void add_scaling_study(CLI::App& study, const CommonOptions& common, Command& co
   sub->add_option("--largest", arguments->options.largest, "Cells per side of the largest grid; default 80")
       ->check(whole_number_in({10, 10000}));
   sub->add_option("--runs", arguments->options.runs, runs_help)->check(whole_number_in({1, 1000}));
-  sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/scaling");
+  sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/scaling")
+      ->check(on_one_line());
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_scaling(*arguments, common); }; });
 }

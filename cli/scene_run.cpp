@@ -11,8 +11,9 @@
 #include "cli/interruption.hpp"
 #include "cli/motion_runs.hpp"
 #include "cli/summary.hpp"
-#include "core/console.hpp"
+#include "cli/terminal.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 #include "run/motion_space.hpp"
 #include "run/outputs.hpp"
 #include "sim/make_system.hpp"
@@ -40,7 +41,10 @@ SceneRun::SceneRun(const Scene& scene, RunOptions options, const RunArguments& a
       arguments_(arguments),
       common_(common),
       quiet_(common.quiet || arguments.step_by_step),
-      pause_(interruption()) {
+      pause_(interruption()),
+      slow_(film_extent(scene, options_).steps, needs_drawing(options_),
+            [&scene](const std::string& text) { spdlog::info("{}: {}", shown(scene.file), text); }) {
+  options_.observer = &slow_;
   if (arguments.step_by_step) options_.observer = &pause_;
 }
 
@@ -49,19 +53,19 @@ void SceneRun::announce() const {
   for (const std::string& doubt : scene_.doubts) spdlog::warn(doubt);
   if (scene_.simulation.integrator.allow_unstable) {
     if (const auto problem = stability_problem(scene_.simulation, make_system(scene_.simulation))) {
-      spdlog::warn("{}: {}", scene_.file.string(), *problem);
+      spdlog::warn("{}: {}", shown(scene_.file), *problem);
     }
   }
   if (!options_.recorded) {
     for (const StartOverlap& overlap : start_overlaps(scene_.simulation)) {
-      spdlog::warn("{}: {}", scene_.file.string(), describe(overlap));
+      spdlog::warn("{}: {}", shown(scene_.file), describe(overlap));
     }
   }
   if (options_.motion) {
     const MotionSpace space = motion_space(scene_, options_);
     if (space.most > space.free) spdlog::warn(space.text(options_.motion->path));
   }
-  if (options_.recorded) warn_of_gaps(scene_.file.string(), *options_.recorded, film_extent(scene_, options_));
+  if (options_.recorded) warn_of_gaps(shown(scene_.file), *options_.recorded, film_extent(scene_, options_));
 }
 
 void SceneRun::begin() {
@@ -77,9 +81,9 @@ ExitCode SceneRun::end() {
   if (!result_.renderer.empty()) spdlog::debug("drawn by {}", result_.renderer);
   if (common_.verbose) spdlog::debug(effect_shares(result_.statistics));
   if (!common_.quiet && (result_.statistics.steps() > 0 || options_.recorded)) {
-    print_text(stderr, summarize(result_) + "\n");
+    print_wrapped(stderr, summarize(result_) + "\n");
   }
-  for (const std::string& doubt : doubts(result_)) spdlog::warn("{}: {}", scene_.file.string(), doubt);
+  for (const std::string& doubt : doubts(result_)) spdlog::warn("{}: {}", shown(scene_.file), doubt);
   return conclude();
 }
 
@@ -94,7 +98,7 @@ ExitCode SceneRun::conclude() const {
                     describe_end(result_, resume_command(arguments_, result_.motion ? result_.motion->file : "")));
       return ExitCode::interrupted;
     case Outcome::diverged:
-      spdlog::error("{}: {}", scene_.file.string(), result_.divergence);
+      spdlog::error("{}: {}", shown(scene_.file), result_.divergence);
       spdlog::error("ended {}", describe_end(result_));
       return std::max(outputs, ExitCode::diverged);
   }

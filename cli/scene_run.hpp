@@ -7,6 +7,7 @@
 #include "cli/step_by_step.hpp"
 #include "cli/watched.hpp"
 #include "run/run_scene.hpp"
+#include "run/slow_run.hpp"
 #include "scene/scene.hpp"
 
 namespace drape {
@@ -38,6 +39,7 @@ class SceneRun {
   const CommonOptions& common_;
   bool quiet_;
   StepByStep pause_;
+  SlowRun slow_;
   RunResult result_;
   std::optional<WatchedWork> work_;  // last: it is waited for before the others go
 };

@@ -4,11 +4,13 @@
 #include <memory>
 #include <string>
 
+#include "cli/line_option.hpp"
 #include "cli/number_option.hpp"
 #include "cli/studies.hpp"
 #include "cli/watched.hpp"
 #include "core/atomic_file.hpp"
 #include "core/console.hpp"
+#include "core/text.hpp"
 #include "study/stability_report.hpp"
 #include "study/stability_runs.hpp"
 #include "sweep/merge.hpp"
@@ -36,7 +38,7 @@ ExitCode run_shard(const StabilityArguments& arguments, const Shard& shard, cons
     return ExitCode::interrupted;
   }
   write_file_atomically(file, stability_runs(study, shard));
-  if (!common.quiet) print_text(stdout, fmt::format("{} runs\n{}\n", parts.size(), file.string()));
+  if (!common.quiet) print_text(stdout, fmt::format("{} runs\n{}\n", parts.size(), shown(file)));
   return ExitCode::ok;
 }
 
@@ -67,7 +69,8 @@ void add_stability_study(CLI::App& study, const CommonOptions& common, Command& 
   auto arguments = std::make_shared<StabilityArguments>();
   StabilityDetail& detail = arguments->detail;
   CLI::App* stability = study.add_subcommand("stability", "Map where each method is stable, converges or blows up");
-  stability->add_option("-o,--output", arguments->folder, "Folder for the results; default out/stability");
+  stability->add_option("-o,--output", arguments->folder, "Folder for the results; default out/stability")
+      ->check(on_one_line());
   stability->add_option("--per-decade", detail.per_decade, "Time steps and stiffnesses per factor of ten; default 3")
       ->check(whole_number_in({1, 20}));
   stability->add_option("--steps", detail.steps, "Steps of every run; default 100")

@@ -4,11 +4,14 @@
 #include <memory>
 #include <optional>
 
+#include "cli/line_option.hpp"
 #include "cli/number_option.hpp"
 #include "cli/studies.hpp"
+#include "cli/terminal.hpp"
 #include "cli/watched.hpp"
 #include "core/atomic_file.hpp"
 #include "core/console.hpp"
+#include "core/text.hpp"
 #include "study/homework_report.hpp"
 
 namespace drape {
@@ -29,7 +32,8 @@ void add_homework_study(CLI::App& study, const CommonOptions& common, Command& c
   auto arguments = std::make_shared<HomeworkArguments>();
   CLI::App* homework =
       study.add_subcommand("homework", "Measure the homework's tables again and compare with its report");
-  homework->add_option("-o,--output", arguments->folder, "Folder for the results; default out/homework");
+  homework->add_option("-o,--output", arguments->folder, "Folder for the results; default out/homework")
+      ->check(on_one_line());
   homework->add_option("--runs", arguments->runs, runs_help)->check(whole_number_in({1, 1000}));
   homework->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_homework(*arguments, common); }; });
@@ -53,8 +57,9 @@ ExitCode conclude_study(const StudyReport& report, const std::filesystem::path& 
   const std::string problem = write_report(report, folder);
   if (!problem.empty()) spdlog::warn(problem);
   if (!common.quiet) {
-    print_text(stdout, fmt::format("{}\n{}\n", to_text(report, terminal(stdout, common.color).width),
-                                   (folder / report_page).string()));
+    const std::size_t width = terminal(stdout, common.color).width;
+    const std::string text = common.verbose ? to_text(report, width) + "\n" : to_summary(report, width);
+    print_text(stdout, text + shown(folder / report_page) + "\n");
   }
   return ExitCode::ok;
 }

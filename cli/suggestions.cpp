@@ -42,13 +42,21 @@ std::vector<std::string> subcommand_names(const CLI::App& app) {
   return names;
 }
 
-/// The keys of a scene that have this name, with their tables: "video.size", "caption.size".
-std::vector<std::string> keys_named(std::string name) {
+/// A key of a scene with its table, "caption.size", and whether it takes two whole numbers.
+struct NamedKey {
+  std::string path;
+  bool pair;
+};
+
+std::vector<NamedKey> keys_named(std::string name) {
   std::replace(name.begin(), name.end(), '-', '_');
-  std::vector<std::string> paths;
+  std::vector<NamedKey> found;
   const auto look = [&](const TableType& table) {
     for (const Key& key : table.keys.all()) {
-      if (key.name == name) paths.push_back(table.name + "." + key.name);
+      if (key.name != name) continue;
+      const bool pair = std::holds_alternative<Eigen::Vector2i*>(key.target) ||
+                        std::holds_alternative<std::optional<Eigen::Vector2i>*>(key.target);
+      found.push_back({table.name + "." + key.name, pair});
     }
   };
   ClothTable cloth;
@@ -58,7 +66,24 @@ std::vector<std::string> keys_named(std::string name) {
     Effect effect = type.make();
     look(effect_table(type, effect));
   }
-  return paths;
+  return found;
+}
+
+/// "640x480" or "640,480" as an array of a scene, "[640,480]"; other texts as they are.
+std::string as_pair(const std::string& text) {
+  const std::size_t between = text.find_first_of("x,");
+  const auto whole = [](std::string_view part) {
+    return !part.empty() && part.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  if (between == std::string::npos) return text;
+  const std::string first = text.substr(0, between), second = text.substr(between + 1);
+  return whole(first) && whole(second) ? fmt::format("[{},{}]", first, second) : text;
+}
+
+/// "'--set video.fps=30'", which a shell takes as it is written between the outer quotes.
+std::string set_option(const std::string& assignment) {
+  const std::string word = shell_word(assignment);
+  return word == assignment ? fmt::format("'--set {}'", word) : fmt::format("--set {}", word);
 }
 
 /// What was given to an option: behind its '=', or the word after it.
@@ -75,12 +100,19 @@ std::optional<std::string> key_instead(const CLI::App& app, const std::string& w
                                        std::span<const char* const> words) {
   if (!word.starts_with("--") || chosen_command(app).get_option_no_throw("--set") == nullptr) return std::nullopt;
   const std::string name = word.substr(0, word.find('='));
-  const std::vector<std::string> paths = keys_named(name.substr(2));
-  if (paths.empty()) return std::nullopt;
+  const std::vector<NamedKey> keys = keys_named(name.substr(2));
+  if (keys.empty()) return std::nullopt;
+  const std::string given = value_of(word, words), pair = as_pair(given);
+  const bool is_pair = pair.starts_with("[");
+  const auto takes = [is_pair](const NamedKey& key) { return key.pair == is_pair; };
+  const bool any = std::ranges::any_of(keys, takes);  // or the form of the value was not meant
   constexpr std::size_t most = 3;
+  std::size_t told = 0;
   std::string meant;
-  for (std::size_t i = 0; i < std::min(paths.size(), most); ++i) {
-    meant += fmt::format("{}'--set {}'", i == 0 ? "" : " or ", shell_word(paths[i] + "=" + value_of(word, words)));
+  for (const NamedKey& key : keys) {
+    if ((any && !takes(key)) || told == most) continue;
+    const std::string value = key.pair && !is_pair ? "[640,480]" : key.pair ? pair : given;
+    meant += (told++ == 0 ? "" : " or ") + set_option(key.path + "=" + value);
   }
   return fmt::format("'{}' is a key of the scene, not an option; did you mean {}?", name, meant);
 }

@@ -31,8 +31,8 @@ std::string out_of_balance(const Exactness::Unbalanced& unbalanced) {
 
 /// Of the files of an output.
 std::string name(const std::vector<OutputFile>& files) {
-  const std::string first = files.front().path.string();
-  return files.size() == 1 ? first : fmt::format("{} … {}", first, files.back().path.string());
+  const std::string first = shown(files.front().path);
+  return files.size() == 1 ? first : fmt::format("{} … {}", first, shown(files.back().path));
 }
 
 }  // namespace
@@ -43,11 +43,11 @@ std::string describe(const Scene& scene, const RunOptions& options) {
   if (options.recorded) {
     const MotionReader& motion = *options.recorded;
     return fmt::format("{}: motion of {}, {} vertices, {} steps of {:g} s ({:g} s), {} states stored",
-                       scene.file.string(), motion.header().name, motion.header().vertices, motion.last_step(), s.step,
-                       static_cast<double>(motion.last_step()) * s.step, motion.states());
+                       shown(scene.file), shown(motion.header().name), motion.header().vertices, motion.last_step(),
+                       s.step, static_cast<double>(motion.last_step()) * s.step, motion.states());
   }
   std::string text =
-      fmt::format("{}: {}, {} vertices, {} springs, {}, {} steps of {:g} s ({:g} s)", scene.file.string(),
+      fmt::format("{}: {}, {} vertices, {} springs, {}, {} steps of {:g} s ({:g} s)", shown(scene.file),
                   step_method_name(s.integrator.step_method()), s.cloth.vertex_count(), s.cloth.springs.size(),
                   shape_of(s.cloth).text(), steps, s.step, static_cast<double>(steps) * s.step);
   for (const Effect& effect : s.effects) text += ", " + std::string(effect.name());
@@ -160,7 +160,7 @@ std::string summarize(const RunResult& result) {
   text += fmt::format(", total {}", duration(result.elapsed_seconds));
   if (!result.outputs.empty()) text += "\n" + describe_files(result.outputs);
   if (result.motion && result.motion->complete) {
-    text += fmt::format("\n{}  {}", result.motion->complete->path.string(), bytes(result.motion->complete->size));
+    text += fmt::format("\n{}  {}", shown(result.motion->complete->path), bytes(result.motion->complete->size));
   }
   for (const std::string& record : result.records) text += "\n" + record;
   return text;

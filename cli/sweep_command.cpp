@@ -6,11 +6,15 @@
 #include <memory>
 
 #include "cli/interruption.hpp"
+#include "cli/line_option.hpp"
 #include "cli/number_option.hpp"
 #include "cli/sweep_results.hpp"
+#include "cli/terminal.hpp"
 #include "cli/watched.hpp"
 #include "core/console.hpp"
+#include "core/names_in_folders.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 #include "sweep/merge.hpp"
 #include "sweep/report.hpp"
 #include "sweep/run_sweep.hpp"
@@ -72,10 +76,11 @@ void require_same_program(const SweepOptions& options, const SweepPlan& plan) {
   throw UsageError(
       fmt::format("{} was made by {}, but this is {}, whose runs may differ in their bits: continue with that program, "
                   "or choose another folder with -o",
-                  options.folder.string(), before->plan.program, plan.program));
+                  shown(options.folder), shown(before->plan.program), plan.program));
 }
 
 ExitCode report_again(const SweepArguments& arguments, const CommonOptions& common) {
+  require_links_inside(arguments.folder);
   std::optional<SweepFile> file = read_sweep_file(arguments.folder);
   if (!file) throw UsageError(fmt::format("{}: contains no sweep", arguments.folder));
   return conclude_sweep(read_results(arguments.folder, std::move(*file)), arguments.folder, common);
@@ -94,11 +99,11 @@ ExitCode write_jobs(const SweepArguments& arguments, const SweepPlan& plan, cons
        .tasks = tasks,
        .options = arguments.slurm_options});
   if (!common.quiet) {
-    print_text(stdout, fmt::format("{} runs in {} tasks\n{}\n", plan.runs.size(), tasks, submit.string()));
+    print_text(stdout, fmt::format("{} runs in {} tasks\n{}\n", plan.runs.size(), tasks, shown(submit)));
   }
   if (!arguments.submit) return ExitCode::ok;
   if (const int status = std::system(("sh " + shell_word(submit.string())).c_str()); status != 0) {
-    throw OutputError(fmt::format("{}: Slurm did not take it", submit.string()));
+    throw OutputError(fmt::format("{}: Slurm did not take it", shown(submit)));
   }
   return ExitCode::ok;
 }
@@ -111,7 +116,11 @@ ExitCode sweep(const SweepArguments& arguments, const CommonOptions& common) {
   if (!arguments.shard.empty()) options.shard = parse_shard(arguments.shard);
   options.folder = shard_place(arguments.folder, options.shard);
   const SweepPlan plan = make_plan(complete_request(arguments));
-  if (arguments.resume) require_same_program(options, plan);
+  if (arguments.resume) {
+    require_links_inside(options.folder);
+    require_same_program(options, plan);
+    for (const PlannedRun& run : plan.runs) read_run(options.folder, run.key);  // or it throws
+  }
   if (arguments.dry_run) return list_runs(plan, options);
   if (arguments.tasks > 0) return write_jobs(arguments, plan, common);
 
@@ -130,7 +139,7 @@ ExitCode conclude_sweep(const SweepResults& results, const std::filesystem::path
   for (const std::string& trouble : results.troubles()) spdlog::error(trouble);
   if (const std::string problem = write_sweep_report(results, folder); !problem.empty()) spdlog::warn(problem);
   if (!common.quiet) {
-    print_text(stdout, fmt::format("{}\n{}\n", results.headline(), (folder / sweep_page_name).string()));
+    print_wrapped(stdout, fmt::format("{}\n{}\n", results.headline(), shown(folder / sweep_page_name)));
   }
   if (const std::size_t left = results.count(RunOutcome::not_run); left > 0) {
     spdlog::error("{} of {} runs were not run: --resume continues", left, results.rows.size());
@@ -155,7 +164,8 @@ void add_sweep_command(CLI::App& app, const CommonOptions& common, Command& comm
   one_each(sub->add_option("--film", request.films, "Make a film of every run: gif, webp, mp4…; repeatable"));
   sub->add_flag("--motion", request.motion, "Keep every run's motion, as .drape");
   add_backend_option(*sub, request.backend);
-  sub->add_option("-o,--output", arguments->folder, "Folder for the runs and the report; default out/sweep");
+  sub->add_option("-o,--output", arguments->folder, "Folder for the runs and the report; default out/sweep")
+      ->check(on_one_line());
   sub->add_option("--jobs", arguments->jobs, "Runs at once; default 1, which is the only way to measure times well")
       ->check(whole_number_in({1, 1024}));
   sub->add_option("--threads", arguments->threads,
@@ -167,7 +177,9 @@ void add_sweep_command(CLI::App& app, const CommonOptions& common, Command& comm
                                        "Run nothing; write jobs for Slurm: an array of N shards, and their merge");
   slurm->check(whole_number_in({1, 100'000}))->excludes("--shard");
   one_each(sub->add_option("--slurm-option", arguments->slurm_options,
-                           "Option of sbatch for these jobs, such as --partition=short; repeatable"));
+                           "Option of sbatch for these jobs, such as --partition=short; repeatable")
+               ->check(on_one_line())
+               ->needs(slurm));
   sub->add_flag("--submit", arguments->submit, "Submit these jobs")->needs(slurm);
   sub->add_flag("--dry-run", arguments->dry_run, "Check everything and list the runs with estimated times");
   sub->add_flag("--report-only", arguments->report_only, "Run nothing; write the report again from the folder");

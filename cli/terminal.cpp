@@ -5,13 +5,16 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <charconv>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
 
 #include "core/console.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -21,15 +24,22 @@ std::string_view environment(const char* name) {
   return value == nullptr ? std::string_view() : std::string_view(value);
 }
 
+/// The smaller of what COLUMNS says and of what a terminal has.
 std::size_t width_of(int descriptor, bool is_terminal) {
+  constexpr std::size_t usual_width = 80;  // of a terminal that does not say
   const std::string_view columns = environment("COLUMNS");
   std::size_t width = 0;
   const auto read = std::from_chars(columns.data(), columns.data() + columns.size(), width);
-  if (read.ec == std::errc() && width > 0) return width;
+  if (read.ec != std::errc() || width == 0) width = unlimited_width;
   winsize size{};
-  if (is_terminal && ::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
-  return unlimited_width;
+  if (is_terminal && ::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+    return std::min<std::size_t>(width, size.ws_col);
+  }
+  return is_terminal && width == unlimited_width ? usual_width : width;
 }
+
+/// Whether standard error ends in a line that shall not stay.
+std::atomic<bool> passing_line_shown = false;
 
 /// Standard error, a message in a line of its own or in as many as its width asks for.
 class TerminalSink : public spdlog::sinks::base_sink<std::mutex> {
@@ -40,11 +50,12 @@ class TerminalSink : public spdlog::sinks::base_sink<std::mutex> {
   void sink_it_(const spdlog::details::log_msg& message) override {
     constexpr std::string_view prefix = "drape:";
     const std::string_view payload(message.payload.data(), message.payload.size());
-    const std::string text = wrapped(std::string(prefix) + " " + std::string(payload), where_.width, 2);
-    std::string shown(prefix);
-    if (message.level >= spdlog::level::err) shown = inked(prefix, Ink::red, where_);
-    if (message.level == spdlog::level::warn) shown = inked(prefix, Ink::yellow, where_);
-    print_text(stderr, shown + text.substr(prefix.size()) + "\n");
+    const std::string text = wrapped(std::string(prefix) + " " + escape_controls(payload), where_.width, 2);
+    std::string head(prefix);
+    if (message.level >= spdlog::level::err) head = inked(prefix, Ink::red, where_);
+    if (message.level == spdlog::level::warn) head = inked(prefix, Ink::yellow, where_);
+    const std::string cleared = passing_line_shown.exchange(false) ? "\r\x1b[K" : "";
+    print_unescaped(stderr, cleared + head + text.substr(prefix.size()) + "\n");
   }
   void flush_() override {}
 
@@ -70,6 +81,19 @@ std::string inked(std::string_view text, Ink ink, const Terminal& where) {
       .append("m")
       .append(text)
       .append("\x1b[0m");
+}
+
+void print_wrapped(std::FILE* stream, std::string_view lines) {
+  print_unescaped(stream, wrapped(escape_controls(lines), terminal(stream, ColorMode::never).width, 2));
+}
+
+void show_passing_line(std::string_view line) {
+  passing_line_shown = true;
+  print_unescaped(stderr, "\r\x1b[K" + escape_controls(line));
+}
+
+void clear_passing_line() {
+  if (passing_line_shown.exchange(false)) print_unescaped(stderr, "\r\x1b[K");
 }
 
 void log_to_terminal(ColorMode mode) {

@@ -4,7 +4,7 @@
 
 namespace drape {
 
-/// Codecs::begin_animation, by FFmpeg's libraries themselves: OpenCV asks them for no animation.
-AnimationPen begin_animation(const std::string& file, const std::string& form, double fps, cv::Size size);
+/// Codecs::begin_animation of an APNG, by FFmpeg's libraries themselves: OpenCV asks them for no animation.
+AnimationPen begin_apng(const std::string& file, double fps, cv::Size size);
 
 }  // namespace drape

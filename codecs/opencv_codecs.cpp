@@ -6,6 +6,7 @@
 #include "codecs/codecs.hpp"
 #include "codecs/libav_animation.hpp"
 #include "codecs/quiet.hpp"
+#include "codecs/webp_animation.hpp"
 
 // The module: what drape links nothing of, and finds by the one name at the end.
 
@@ -35,6 +36,10 @@ VideoPen begin_video(const std::string& file, const std::string& fourcc, double 
   silence_ffmpeg();  // OpenCV turns its messages on when it is first used
   if (!opened) return {};
   return [writer](const cv::Mat& bgr) mutable { writer.write(bgr); };
+}
+
+AnimationPen begin_animation(const std::string& file, const std::string& form, double fps, cv::Size size) {
+  return form == "webp" ? begin_webp(file, fps, size) : begin_apng(file, fps, size);
 }
 
 cv::VideoCapture opened(const std::string& file) {

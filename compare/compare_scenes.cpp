@@ -240,7 +240,7 @@ void require_comparison(const std::vector<Scene>& scenes, const CompareOptions& 
   for (const Scene& scene : scenes) {
     if (!options.difference || scene.simulation.cloth.vertex_count() == vertices) continue;
     throw UsageError(fmt::format("--difference compares vertex by vertex, but {} has {} vertices and {} has {}",
-                                 scenes.front().file.string(), vertices, scene.file.string(),
+                                 shown(scenes.front().file), vertices, shown(scene.file),
                                  scene.simulation.cloth.vertex_count()));
   }
   for (const Scene& scene : scenes) require_texture(scene);

@@ -14,13 +14,14 @@
 
 #include "core/error.hpp"
 #include "core/file_identity.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void fail_to_write(const fs::path& file, std::string_view reason) {
-  throw OutputError(fmt::format("cannot write {}: {}", file.string(), reason));
+  throw OutputError(fmt::format("cannot write {}: {}", shown(file), reason));
 }
 
 /// Temporary files of one target are numbered from 0 on: several processes and threads may write it at once.
@@ -82,6 +83,8 @@ fs::path partial_name(const fs::path& file) {
 
 PartialFile::PartialFile(const fs::path& file) : file_(file) {
   if (!file.has_filename()) fail_to_write(file, "a file name is missing");
+  // The system would take such a name for what is before the zero.
+  if (file.native().find('\0') != std::string::npos) fail_to_write(file, "its name has a zero byte");
   try {
     target_ = link_target(file);
     partial_ = partial_name(fs::is_symlink(file) ? target_ : file);

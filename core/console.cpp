@@ -6,6 +6,8 @@
 #include <atomic>
 #include <cerrno>
 
+#include "core/text.hpp"
+
 namespace drape {
 namespace {
 
@@ -20,12 +22,15 @@ void open_standard_streams() {
   }
 }
 
-void print_text(std::FILE* stream, std::string_view text) {
+void print_text(std::FILE* stream, std::string_view text) { print_unescaped(stream, escape_controls(text)); }
+
+bool print_unescaped(std::FILE* stream, std::string_view text) {
   const std::scoped_lock lock(console_mutex());
   errno = 0;
   const bool printed = std::fwrite(text.data(), 1, text.size(), stream) == text.size() && std::fflush(stream) == 0;
   int none = 0;
   if (!printed && stream == stdout) first_error.compare_exchange_strong(none, errno == 0 ? EIO : errno);
+  return printed;
 }
 
 std::mutex& console_mutex() {

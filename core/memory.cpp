@@ -72,11 +72,15 @@ double memory_left(const fs::path& root) {
   const Held taken = held(root, page_size);
   double left = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * page_size - taken.resident;
   left = std::min(left, left_in_groups(root));
-  rlimit address_space{};
-  if (getrlimit(RLIMIT_AS, &address_space) == 0 && address_space.rlim_cur != RLIM_INFINITY) {
-    left = std::min(left, static_cast<double>(address_space.rlim_cur) - taken.mapped);
+  return std::max(0.0, std::min(left, address_space_left(root)));
+}
+
+double address_space_left(const fs::path& root) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
+    return std::numeric_limits<double>::infinity();
   }
-  return std::max(0.0, left);
+  return static_cast<double>(limit.rlim_cur) - held(root, static_cast<double>(sysconf(_SC_PAGESIZE))).mapped;
 }
 
 void require_memory(const std::string& what, double bytes, const std::string& remedy) {

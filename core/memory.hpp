@@ -12,6 +12,9 @@ namespace drape {
 /// @param root  where /proc and /sys are
 double memory_left(const std::filesystem::path& root = "/");
 
+/// What this process may still map, where that is limited (RLIMIT_AS, ulimit -v) [bytes]; infinite where it is not.
+double address_space_left(const std::filesystem::path& root = "/");
+
 /// Refuses what cannot fit before it is begun, so that it fails with a figure and not after minutes of swapping.
 /// @param what   the subject of the message: "a sparse factor of 1000000 rows"
 /// @param bytes  what it will take beside what the process holds already

@@ -17,7 +17,7 @@ namespace drape {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& message) {
-  throw UsageError(escape_controls(file.string() + ": " + message));
+  throw UsageError(shown(file) + ": " + escape_controls(message));
 }
 
 [[noreturn]] void fail_by_system(const std::filesystem::path& file) {

@@ -17,4 +17,6 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
+std::string shell_file(const std::string& file) { return shell_word(file.starts_with('-') ? "./" + file : file); }
+
 }  // namespace drape

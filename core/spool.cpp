@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -28,13 +29,13 @@ int open_nameless(const std::filesystem::path& folder) {
 
 Spool::Spool(const PartialFile& output, std::string kept)
     : problem_(fmt::format("cannot write {}: {} have to be kept in its folder until the last one is there",
-                           output.file().string(), kept)) {
+                           shown(output.file()), kept)) {
   open(output.temporary().parent_path());
 }
 
 Spool::Spool(std::string kept) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  problem_ = fmt::format("cannot keep {} in {}", kept, folder.string());
+  problem_ = fmt::format("cannot keep {} in {}", kept, shown(folder));
   open(folder);
 }
 

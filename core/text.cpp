@@ -12,22 +12,49 @@ namespace {
 
 constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
 
-/// The bytes of the character that a text begins with; 0 if that is no UTF-8 (RFC 3629), or not allowed.
-std::size_t character_length(std::string_view text) {
+struct Character {
+  std::size_t length = 0;  // bytes; 0: no UTF-8 (RFC 3629)
+  std::uint32_t code = 0;
+};
+
+/// The character that a text begins with.
+Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
   const std::uint32_t first = byte(0);
-  if (first < 0x80) return (first >= 0x20 && first != 0x7F) || first == '\n' || first == '\t' ? 1 : 0;
+  if (first < 0x80) return {1, first};
   const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4 || length > text.size()) return 0;
+  if (first < 0xC2 || first > 0xF4 || length > text.size()) return {};
   std::uint32_t code = first & (0x7FU >> length);
   for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) return 0;
+    if ((byte(i) & 0xC0U) != 0x80U) return {};
     code = code << 6 | (byte(i) & 0x3FU);
   }
-  constexpr std::array<std::uint32_t, 5> smallest{0, 0, 0xA0, 0x800,
-                                                  0x10000};  // below 0xA0 are more control characters
-  const bool surrogate = code >= 0xD800 && code <= 0xDFFF, nothing = (code & 0xFFFEU) == 0xFFFE;
-  return code < smallest[length] || code > 0x10FFFF || surrogate || nothing ? 0 : length;
+  constexpr std::array<std::uint32_t, 5> smallest{0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+  return code < smallest[length] || code > 0x10FFFF || surrogate ? Character{} : Character{length, code};
+}
+
+/// Characters without a shape of their own, which end lines or turn the direction of writing (Unicode, annex 9).
+bool is_unseen(std::uint32_t code) {
+  return code == 0x061C || code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
+         (code >= 0x2066 && code <= 0x2069);
+}
+
+bool is_control(std::uint32_t code) { return code < 0x20 || (code >= 0x7F && code < 0xA0); }
+
+bool is_printable(const Character& c) {
+  if (c.length == 0 || is_unseen(c.code) || (c.code & 0xFFFEU) == 0xFFFE) return false;
+  return c.code == '\n' || c.code == '\t' || !is_control(c.code);
+}
+
+/// Whether a build server may take what begins here for a command: GitHub "::" at the begin of a line and "##[", Azure
+/// "##vso[".
+bool is_command(std::string_view text, std::size_t at) {
+  const std::string_view here = text.substr(at);
+  if (here.starts_with("##[") || here.starts_with("##vso[")) return true;
+  if (!here.starts_with("::")) return false;
+  const std::size_t last = text.substr(0, at).find_last_not_of(" \t");
+  return last == std::string_view::npos || text[last] == '\n';
 }
 
 }  // namespace
@@ -36,9 +63,13 @@ std::string printable(std::string_view text) {
   std::string result;
   result.reserve(text.size());
   while (!text.empty()) {
-    const std::size_t length = character_length(text);
-    result += length == 0 ? replacement : text.substr(0, length);
-    text.remove_prefix(std::max<std::size_t>(length, 1));
+    const Character c = first_character(text);
+    const std::size_t length = std::max<std::size_t>(c.length, 1);
+    result += is_printable(c) ? text.substr(0, length) : replacement;
+    if (!is_printable(c) && c.length > 1) {
+      for (std::size_t i = 1; i < c.length; ++i) result += replacement;  // one for each byte
+    }
+    text.remove_prefix(length);
   }
   return result;
 }
@@ -46,16 +77,28 @@ std::string printable(std::string_view text) {
 std::string escape_controls(std::string_view text) {
   std::string result;
   result.reserve(text.size());
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte < 0x20 && c != '\n') || byte == 0x7F) {
-      result += fmt::format("\\x{:02x}", byte);
+  for (std::size_t at = 0; at < text.size();) {
+    const Character c = first_character(text.substr(at));
+    const auto byte = static_cast<unsigned char>(text[at]);
+    if (c.length == 0 || is_command(text, at) || (is_control(c.code) && c.code != '\n')) {
+      result += fmt::format("\\x{:02x}", c.length == 0 ? byte : c.code);
+    } else if (is_unseen(c.code)) {
+      result += fmt::format("\\u{:04x}", c.code);
     } else {
-      result += c;
+      result += text.substr(at, c.length);
     }
+    at += std::max<std::size_t>(c.length, 1);
   }
   return result;
 }
+
+std::string shown(std::string_view name) {
+  std::string result = escape_controls(name);
+  for (std::size_t at = 0; (at = result.find('\n', at)) != std::string::npos;) result.replace(at, 1, "\\x0a");
+  return result;
+}
+
+std::string shown(const std::filesystem::path& file) { return shown(std::string_view(file.native())); }
 
 std::string readable_length(double metres) {
   if (metres == 0) return "0";

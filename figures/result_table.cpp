@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -15,11 +16,25 @@
 namespace drape {
 namespace {
 
-std::string quoted(const std::string& cell) {
+/// Whether a spreadsheet computes a cell with such a begin, apostrophes aside.
+bool begins_formula(std::string_view cell) {
+  const std::size_t first = cell.find_first_not_of('\'');
+  return first != std::string_view::npos && std::string_view("=+-@\t\r").find(cell[first]) != std::string_view::npos;
+}
+
+bool is_number(std::string_view cell) {
+  if (cell.starts_with('+') && !cell.starts_with("+-")) cell.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return error != std::errc::invalid_argument && end == cell.data() + cell.size();
+}
+
+std::string quoted(const std::string& text) {
+  const std::string cell = begins_formula(text) && !is_number(text) ? "'" + text : text;
   if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
-  std::string text = "\"";
-  for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return text + "\"";
+  std::string result = "\"";
+  for (const char c : cell) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
 }
 
 /// How many columns from the first on tell the rows apart: they are there in every part of a table.
@@ -80,6 +95,11 @@ std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
   for (std::size_t c = 0; c < cells.size(); ++c) line.append(c == 0 ? "" : ",").append(quoted(cells[c]));
   return line + "\n";
+}
+
+std::string csv_text(std::string cell) {
+  if (cell.starts_with('\'') && begins_formula(cell)) cell.erase(0, 1);
+  return cell;
 }
 
 std::string to_text(const ResultTable& table, std::size_t width) {
@@ -149,8 +169,9 @@ void write_set_table(const ResultTable& table, const std::filesystem::path& fold
   write_file_atomically(folder / (table.name + ".tex"), to_latex(table));
 }
 
-html::Markup to_html(const ResultTable& table) {
+html::Markup to_html(const ResultTable& table, bool cards) {
   html::Table shown{table.title, {}, {}};
+  if (cards) shown.card_labels = table.columns;
   for (std::size_t c = 0; c < table.columns.size(); ++c)
     shown.columns.push_back({table.columns[c], is_numeric(table, c)});
   for (const auto& row : table.rows) shown.rows.emplace_back(row.begin(), row.end());

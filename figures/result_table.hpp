@@ -21,8 +21,11 @@ struct ResultTable {
 /// A cell with three digits, or all before the point: "2.35", "23.5", "2347"; "–" for what is no number.
 std::string three_digits(double value);
 
-/// Cells as a line of RFC 4180, quoted where they have to be.
+/// Cells as a line of RFC 4180, quoted where they have to be. A text that a spreadsheet would compute, as it begins
+/// with = + - or @ and is no number, is written with an apostrophe before it.
 std::string csv_line(const std::vector<std::string>& cells);
+/// The cell that csv_line() wrote so.
+std::string csv_text(std::string cell);
 
 /// For a terminal: columns in line, those that are numbers to the right. A table wider than `width` comes in parts,
 /// each of which begins with the columns that tell its rows apart.
@@ -41,6 +44,7 @@ void write_table(const ResultTable& table, const std::filesystem::path& folder);
 /// Writes NAME.md and NAME.tex alone.
 /// @throws OutputError
 void write_set_table(const ResultTable& table, const std::filesystem::path& folder);
-html::Markup to_html(const ResultTable& table);
+/// @param cards whether its rows are cards in a narrow window
+html::Markup to_html(const ResultTable& table, bool cards = false);
 
 }  // namespace drape

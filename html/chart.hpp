@@ -42,6 +42,7 @@ struct Chart {
   std::vector<ChartSeries> series;
   std::vector<ChartLevel> levels;
   std::vector<std::string> x_names = {};  ///< of the places 0, 1, 2… where the horizontal axis has no numbers
+  std::vector<double> x_holds = {}, y_holds = {};  ///< values that an axis has in any case
 };
 
 /// A chart as inline SVG with a legend. A point that is pointed at, or reached with the arrow keys, shows its label

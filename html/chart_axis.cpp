@@ -12,6 +12,7 @@ namespace {
 constexpr int wanted_ticks = 6;        // of decades
 constexpr std::size_t most_ticks = 7;  // of a linear axis
 constexpr std::size_t fewest_ticks = 3;
+constexpr double room_around = 0.05;                // values, as a part of an axis
 constexpr double room_for_zero = 0.1, near = 0.02;  // as parts of an axis
 constexpr double rounding = 1e-9;                   // by which a value may be beyond a tick that is meant to be it
 
@@ -83,7 +84,7 @@ std::string power_of_ten(int exponent, bool plain) { return factor_and_power(1, 
 
 std::string short_number(double value) { return fmt::format("{:.4g}", value); }
 
-AxisMap::AxisMap(Scale scale, const std::vector<double>& values) : scale_(scale) {
+AxisMap::AxisMap(Scale scale, const std::vector<double>& values) : scale_(scale), room_(room_around) {
   double low = INFINITY, high = -INFINITY;
   bool zero = false;
   for (const double value : values) {
@@ -101,7 +102,7 @@ AxisMap::AxisMap(Scale scale, const std::vector<double>& values) : scale_(scale)
     return;
   }
   floor_ = zero ? room_for_zero : 0;
-  if (zero) ticks_.push_back({0, "0"});
+  if (zero) ticks_.push_back({place(0), "0"});
   make_logarithmic(std::log10(low), std::log10(high));
 }
 
@@ -149,9 +150,10 @@ void AxisMap::make_logarithmic(double low, double high) {
 }
 
 double AxisMap::place(double value) const {
-  if (scale_ == Scale::linear) return (value - low_) / (high_ - low_);
-  if (!(value > 0)) return 0;
-  return floor_ + (1 - floor_) * std::clamp((std::log10(value) - low_) / (high_ - low_), 0.0, 1.0);
+  const double between = 1 - 2 * room_;
+  if (scale_ == Scale::linear) return room_ + between * (value - low_) / (high_ - low_);
+  if (!(value > 0)) return room_;
+  return room_ + between * (floor_ + (1 - floor_) * std::clamp((std::log10(value) - low_) / (high_ - low_), 0.0, 1.0));
 }
 
 }  // namespace drape::html

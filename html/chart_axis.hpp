@@ -7,7 +7,7 @@ namespace drape::html {
 
 enum class Scale { linear, logarithmic };
 
-/// Where values lie on an axis, which ends where they end, and its ticks at round numbers. A
+/// Where values lie on an axis, with room before the first and after the last, and its ticks at round numbers. A
 /// logarithmic axis has, where values of zero or less occur, a place for them below the smallest other.
 class AxisMap {
  public:
@@ -32,7 +32,8 @@ class AxisMap {
 
   Scale scale_;
   double low_ = 0, high_ = 1;  // of the values, or of their decimal logarithms
-  double floor_ = 0;           // the part of the axis that is kept for zero
+  double floor_ = 0;           // the part of what is between the rooms that is kept for zero
+  double room_ = 0;            // the part of the axis on either side where no value is
   std::vector<Tick> ticks_;
 };
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <climits>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace drape::html {
 namespace {
@@ -26,7 +28,7 @@ struct Frame {
 };
 
 Frame frame_of(const Chart& chart) {
-  std::vector<double> xs, ys;
+  std::vector<double> xs = chart.x_holds, ys = chart.y_holds;
   for (const ChartSeries& series : chart.series) {
     for (const ChartPoint& point : series.points) {
       xs.push_back(point.x);
@@ -76,12 +78,71 @@ Markup axes(const Chart& chart, const Frame& frame) {
   return parts + element("g", {{"class", "title"}}, svg_text(left + span / 2, height - 8, "middle", chart.x_title));
 }
 
+/// A rectangle of the drawing.
+struct Box {
+  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+/// Whether the way from one point to another leads through a box (Liang and Barsky 1984).
+bool crosses(const Box& box, double x0, double y0, double x1, double y1) {
+  double from = 0, to = 1;
+  const auto clip = [&](double step, double room) {  // step·t ≤ room
+    if (step == 0) return room >= 0;
+    const double t = room / step;
+    if (step > 0) to = std::min(to, t);
+    if (step < 0) from = std::max(from, t);
+    return from <= to;
+  };
+  const double dx = x1 - x0, dy = y1 - y0;
+  return clip(-dx, x0 - box.x0) && clip(dx, box.x1 - x0) && clip(-dy, y0 - box.y0) && clip(dy, box.y1 - y0);
+}
+
+/// How many pieces of curves are in a box.
+int curves_in(const Box& box, const Chart& chart, const Frame& frame) {
+  int count = 0;
+  for (const ChartSeries& series : chart.series) {
+    const ChartPoint* before = nullptr;
+    for (const ChartPoint& point : series.points) {
+      const bool seen = std::isfinite(point.x) && std::isfinite(point.y);
+      const ChartPoint& from = before != nullptr ? *before : point;
+      if (seen && crosses(box, frame.across(from.x), frame.down(from.y), frame.across(point.x), frame.down(point.y))) {
+        ++count;
+      }
+      before = seen ? &point : nullptr;
+    }
+  }
+  return count;
+}
+
+/// The label of a level, above or below its line, where the fewest curves are in its way: at the right if that is as
+/// good as elsewhere.
+Markup level_label(const Chart& chart, const ChartLevel& level, const Frame& frame) {
+  constexpr double size = 12, wide = 0.56, gap = 4;  // see diagram.css
+  constexpr int places = 12;
+  const double y = frame.down(level.y), length = wide * size * letters(level.label);
+  const double first = left + gap, last = std::max(first, width - right - gap - length);
+  int fewest = INT_MAX;
+  std::pair<double, double> best;
+  bool at_end = false;  // where the label may be as wide as the reader's letters are
+  for (const double base : {y - 5, y + 14}) {
+    if (base - size < top || base > height - bottom) continue;
+    for (int k = places; k >= 0; --k) {
+      const double x = first + (last - first) * k / places;
+      const int found = curves_in({x - gap, base - size, x + length + gap, base + gap}, chart, frame);
+      if (found >= fewest) continue;
+      fewest = found;
+      best = {x, base};
+      at_end = k == places;
+    }
+  }
+  return svg_text(at_end ? width - right - gap : best.first, best.second, at_end ? "end" : "start", level.label);
+}
+
 Markup levels(const Chart& chart, const Frame& frame) {
   Markup parts;
   for (const ChartLevel& level : chart.levels) {
     const double y = frame.down(level.y);
-    parts += svg_text(width - right - 4, y > top + 16 ? y - 5 : y + 14, "end", level.label) +
-             svg_line("level", left, y, width - right, y);
+    parts += level_label(chart, level, frame) + svg_line("level", left, y, width - right, y);
   }
   return element("g", {{"class", "levels"}}, parts);
 }

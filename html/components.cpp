@@ -64,8 +64,11 @@ Markup table(const Table& table) {
     Attributes attributes;
     if (tag == "th") attributes.push_back({"scope", "col"});
     if (table.columns[column].numeric) attributes.push_back({"class", "number"});
+    if (tag == "td" && !table.card_labels.empty()) attributes.push_back({"data-column", table.card_labels.at(column)});
     return element(tag, attributes, content);
   };
+  std::string style = table.columns.size() > narrow ? "wide" : "";
+  if (!table.card_labels.empty()) style += style.empty() ? "cards" : " cards";
   Markup head, body;
   for (std::size_t c = 0; c < table.columns.size(); ++c) head += cell("th", c, table.columns[c].title);
   for (const std::vector<Markup>& cells : table.rows) {
@@ -77,7 +80,7 @@ Markup table(const Table& table) {
   // What scrolls must be reachable by keyboard, and then it needs a name.
   return element(
       "div", {{"class", "scroll"}, {"role", "region"}, {"tabindex", "0"}, {"aria-label", table.caption}},
-      element("table", table.columns.size() > narrow ? Attributes{{"class", "wide"}} : Attributes{},
+      element("table", style.empty() ? Attributes{} : Attributes{{"class", style}},
               element("caption", table.caption) + element("thead", element("tr", head)) + element("tbody", body)) +
           copies({"CSV", "Markdown", "LaTeX"}, table.caption));
 }

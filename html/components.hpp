@@ -45,6 +45,8 @@ struct Table {
   std::string caption;  ///< what it shows, for everybody
   std::vector<Column> columns;
   std::vector<std::vector<Markup>> rows;
+  /// What each cell is called in a narrow window, where a row is a card: the columns; empty: the table stays one.
+  std::vector<std::string> card_labels = {};
 };
 /// A table that scrolls sideways where it does not fit, and can be copied for LaTeX, Markdown and spreadsheets.
 Markup table(const Table& table);

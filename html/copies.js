@@ -6,11 +6,14 @@
   const latex = (text) => [...text].map((sign) => latexSigns[sign] || sign).join("");
 
   const forms = {
-    CSV: (table) =>
-      cells(table).map((row) => row.map((text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text))
-        .join(",") + "\n").join(""),
+    CSV: (table) => {
+      // A spreadsheet would compute a text with such a begin.
+      const plain = (text) => (/^'*[=+\-@\t\r]/.test(text) && Number.isNaN(Number(text)) ? `'${text}` : text);
+      const cell = (text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+      return cells(table).map((row) => row.map((text) => cell(plain(text))).join(",") + "\n").join("");
+    },
     Markdown: (table) => {
-      const line = (row) => `| ${row.map((text) => text.replaceAll("|", "\\|")).join(" | ")} |\n`;
+      const line = (row) => `| ${row.map((text) => text.replace(/[\\`*_[\]<>|&$~]|:(?=[!-~])/g, "\\$&")).join(" | ")} |\n`;
       const [head, ...rows] = cells(table);
       return line(head) + line(numeric(table).map((right) => (right ? "---:" : "---"))) + rows.map(line).join("");
     },

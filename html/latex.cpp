@@ -6,6 +6,8 @@
 #include <array>
 #include <utility>
 
+#include "core/text.hpp"
+
 namespace drape::html {
 namespace {
 
@@ -22,6 +24,10 @@ constexpr auto signs = std::to_array<std::pair<std::string_view, std::string_vie
     {"_", "\\_"},
     {"{", "\\{"},
     {"}", "\\}"},
+    {"--", "-{}-"},  // else a dash
+    {"[", "{[}"},    // after a line's end it would be an option
+    {"]", "{]}"},
+    {"*", "{*}"},
     {"<", "\\textless{}"},
     {">", "\\textgreater{}"},
     {"|", "$|$"},
@@ -73,7 +79,9 @@ std::string quoted(std::string_view text) {
 
 }  // namespace
 
-std::string latex(std::string_view text) {
+std::string latex(std::string_view name) {
+  const std::string whole = escape_controls(name);
+  std::string_view text = whole;
   std::string result;
   while (!text.empty()) {
     const auto* const found =

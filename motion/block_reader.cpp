@@ -67,7 +67,7 @@ Block BlockReader::block(std::uint64_t begin) const {
 }
 
 void BlockReader::fail(const std::string& message) const {
-  throw UsageError(escape_controls(file_.string() + ": " + message));
+  throw UsageError(shown(file_) + ": " + escape_controls(message));
 }
 
 }  // namespace drape

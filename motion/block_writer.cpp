@@ -11,6 +11,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "motion/packing.hpp"
 
 namespace drape {
@@ -23,7 +24,7 @@ std::uint32_t checksum(std::uint32_t before, std::string_view bytes) {
 /// Where files cannot be locked, nobody is kept out.
 void lock_blocks(int descriptor, const std::filesystem::path& file) {
   if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  throw UsageError(fmt::format("{} is being written by another process", file.string()));
+  throw UsageError(fmt::format("{} is being written by another process", shown(file)));
 }
 
 }  // namespace
@@ -43,7 +44,7 @@ void remove_unless_written(const std::filesystem::path& file) {
 
 BlockWriter::BlockWriter(std::filesystem::path file, std::string_view magic)
     : file_(std::move(file)), descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) {
-  if (descriptor_ < 0 && errno == EEXIST) throw UsageError(fmt::format("{} already exists", file_.string()));
+  if (descriptor_ < 0 && errno == EEXIST) throw UsageError(fmt::format("{} already exists", shown(file_)));
   if (descriptor_ < 0) fail(errno);
   lock_blocks(descriptor_, file_);
   write(magic);
@@ -81,7 +82,7 @@ void BlockWriter::complete_as(const std::filesystem::path& name) {
 }
 
 void BlockWriter::fail(int error_number) const {
-  throw OutputError(fmt::format("cannot write {}: {}", file_.string(), std::generic_category().message(error_number)));
+  throw OutputError(fmt::format("cannot write {}: {}", shown(file_), std::generic_category().message(error_number)));
 }
 
 }  // namespace drape

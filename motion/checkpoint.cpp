@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "motion/block_writer.hpp"
 #include "motion/packing.hpp"
 #include "motion/writer.hpp"
@@ -57,6 +60,22 @@ Numbers unpack_numbers(std::string_view payload) {
   return numbers;
 }
 
+/// Whether a growing file has the states that a run has written until a step.
+bool has_states_until(const MotionReader& partial, std::int64_t step) {
+  if (partial.states() == 0 || partial.last_step() > step) return false;
+  const std::optional<std::int64_t> every = partial.header().recorded.every;
+  return !every || static_cast<std::int64_t>(partial.states()) == step / *every + 1;
+}
+
+bool is_finite(const Resumption& found) {
+  const Restraint& restraint = found.checkpoint.state.restraint;
+  const std::optional<EnergyMemory>& books = found.checkpoint.books;
+  const bool known =
+      !books || (std::isfinite(books->explained) && std::isfinite(books->work) && books->looked_at.allFinite());
+  return known && restraint.acceleration.allFinite() && restraint.tensions.allFinite() &&
+         std::ranges::all_of(found.microseconds, [](float time) { return std::isfinite(time); });
+}
+
 /// What is in the blocks after the first.
 void read_blocks(const BlockReader& blocks, std::uint64_t begin, Resumption& found) {
   const MotionHeader& header = found.partial->header();
@@ -85,7 +104,9 @@ void read_blocks(const BlockReader& blocks, std::uint64_t begin, Resumption& fou
                      (found.rows.empty() || found.rows.front().step == in_blocks) &&
                      in_blocks + static_cast<std::int64_t>(found.rows.size()) == step + 1 &&
                      found.microseconds.size() == static_cast<std::size_t>(step) && step < header.steps;
-  if (!whole) throw std::invalid_argument("does not go with the file that grows");
+  if (!whole || !has_states_until(*found.partial, step) || !is_finite(found)) {
+    throw std::invalid_argument("does not go with the file that grows");
+  }
 }
 
 }  // namespace
@@ -116,11 +137,11 @@ std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double ste
 Resumption read_resumption(const fs::path& file) {
   const fs::path growing = growing_name(file), checkpoint = checkpoint_name(file);
   if (!fs::exists(growing)) {
-    throw UsageError(fmt::format("{}: nothing to resume: no {}", file.string(), growing.string()));
+    throw UsageError(fmt::format("{}: nothing to resume: no {}", shown(file), shown(growing)));
   }
   if (!fs::exists(checkpoint)) {
-    throw UsageError(fmt::format("{}: cannot be resumed, because there is no {}: simulate again", growing.string(),
-                                 checkpoint.string()));
+    throw UsageError(fmt::format("{}: cannot be resumed, because there is no {}: simulate again", shown(growing),
+                                 shown(checkpoint)));
   }
   const BlockReader blocks(checkpoint, checkpoint_magic, "checkpoint");
   try {
@@ -130,6 +151,7 @@ Resumption read_resumption(const fs::path& file) {
     found.length = ByteReader(size.payload).whole();
     found.partial = std::make_shared<MotionReader>(growing, found.length);
     if (found.partial->size() != found.length) throw std::invalid_argument("is of a longer file than there is");
+    found.partial->verify();  // or the complete file could not be read
     read_blocks(blocks, size.end, found);
     return found;
   } catch (const std::invalid_argument& error) {

@@ -137,6 +137,19 @@ std::string pack_rows(const std::vector<StepRow>& rows) {
       .text();
 }
 
+namespace {
+
+constexpr std::size_t error_column = 6, estimate_column = 8;  // which are not known of every step
+
+double number_of_row(std::uint64_t word, std::size_t column) {
+  const auto number = std::bit_cast<double>(word);
+  const bool unknown = std::isnan(number) && (column == error_column || column == estimate_column);
+  if (!std::isfinite(number) && !unknown) throw std::invalid_argument("holds a number that is not finite");
+  return number;
+}
+
+}  // namespace
+
 std::vector<StepRow> unpack_rows(std::string_view payload, const MotionHeader& header) {
   ByteReader reader(payload);
   const std::uint64_t first = reader.whole(), size = reader.whole();
@@ -147,7 +160,7 @@ std::vector<StepRow> unpack_rows(std::string_view payload, const MotionHeader& h
   const std::vector<std::uint64_t> words = unpack_planes(reader.rest(), columns * size);
   std::vector<StepRow> rows(size);
   for (std::size_t i = 0; i < size; ++i) {
-    const auto number = [&](std::size_t column) { return std::bit_cast<double>(words[column * size + i]); };
+    const auto number = [&](std::size_t column) { return number_of_row(words[column * size + i], column); };
     StepRow& row = rows[i];
     row.step = static_cast<std::int64_t>(first + i);
     row.energies = {.kinetic = number(0), .gravity = number(1), .elastic = number(2)};
@@ -155,10 +168,10 @@ std::vector<StepRow> unpack_rows(std::string_view payload, const MotionHeader& h
     row.iterations = static_cast<int>(number(3));
     row.converged = number(4) != 0;
     row.residual = number(5);
-    if (!std::isnan(number(6))) row.error = number(6);
+    if (!std::isnan(number(error_column))) row.error = number(error_column);
     if (!(number(7) >= 1 && number(7) < 1e9)) throw std::invalid_argument("has a number of substeps that cannot be");
     row.substeps = static_cast<std::int64_t>(number(7));
-    if (!std::isnan(number(8))) row.estimate = number(8);
+    if (!std::isnan(number(estimate_column))) row.estimate = number(estimate_column);
     for (std::size_t c = 0; c < header.colliders.size(); ++c) {
       const std::size_t at = own_columns + columns_of_collider * c;
       row.colliders.push_back(

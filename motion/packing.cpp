@@ -52,9 +52,10 @@ std::string pack(std::string_view bytes) { return packed(bytes, Z_DEFAULT_STRATE
 
 std::string pack_planes(const std::vector<std::uint64_t>& words) { return packed(byte_planes(words), Z_RLE); }
 
-std::string unpack(std::string_view packed) {
+std::string unpack(std::string_view packed, std::uint64_t most) {
   ByteReader reader(packed);
   const std::uint64_t size = reader.whole();
+  if (size > most) throw std::invalid_argument("has a part of another size than it should have");
   packed = reader.rest();
   if (size / most_packed > packed.size())
     throw std::invalid_argument("says of a part that it is larger than it can be");
@@ -84,7 +85,7 @@ std::string unpack(std::string_view packed) {
 }
 
 std::vector<std::uint64_t> unpack_planes(std::string_view packed, std::size_t count) {
-  const std::string bytes = unpack(packed);
+  const std::string bytes = unpack(packed, 8 * std::uint64_t{count});
   if (bytes.size() / 8 != count || bytes.size() % 8 != 0) {
     throw std::invalid_argument("has a part of another size than it should have");
   }

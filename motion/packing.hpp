@@ -15,8 +15,9 @@ std::string pack(std::string_view bytes);
 /// For words whose bytes, laid in planes, are either all alike or noise: much faster, and hardly larger.
 std::string pack_planes(const std::vector<std::uint64_t>& words);
 
-/// The inverses. Nothing larger is made than the packed bytes can be.
-std::string unpack(std::string_view packed);
+/// The inverses. Nothing larger is made than the packed bytes can be, or than there may be.
+/// @param most bytes
+std::string unpack(std::string_view packed, std::uint64_t most = UINT64_MAX);
 /// @param count how many words there must be
 std::vector<std::uint64_t> unpack_planes(std::string_view packed, std::size_t count);
 

@@ -5,22 +5,25 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/names_in_folders.hpp"
 #include "motion/packing.hpp"
 
 namespace drape {
 namespace {
 
 constexpr std::uint64_t end_size = 16;
+/// A scene's places and velocities are up to 1e90, see scene/values.hpp; this has room for where they lead [m, m/s].
+constexpr double largest = 1e100;
 const std::string magic = motion_magic;
 
 }  // namespace
 
 template <class Work>
-auto MotionReader::understood(const Work& work) const {
+auto MotionReader::understood(const char* tag, std::uint64_t begin, const Work& work) const {
   try {
     return work();
   } catch (const std::invalid_argument& error) {
-    blocks_.fail(std::string("the file ") + error.what());
+    blocks_.fail(fmt::format("the file {} (block {} at byte {})", error.what(), tag, begin));
   }
 }
 
@@ -30,7 +33,9 @@ MotionReader::MotionReader(const std::filesystem::path& file, std::uint64_t leng
     : blocks_(file, magic, "motion", length) {
   const Block head = blocks_.block(magic.size());
   if (head.tag != header_tag) blocks_.fail("the file has no head");
-  header_ = understood([&] { return unpack_header(head.payload); });
+  header_ = understood(header_tag, magic.size(), [&] { return unpack_header(head.payload); });
+  name_in_folder(header_.name, file, "block HEAD: name");
+  for (const std::string& name : header_.files) name_in_folder(name, file, "block HEAD: files");
   first_ = head.end;
   for (std::size_t k = 0; k <= header_.files.size(); ++k) {
     const bool named = k < header_.files.size();  // whose checksum is looked at when it is needed
@@ -59,7 +64,7 @@ void MotionReader::read_index() {
   const std::uint64_t begin = ByteReader(end).whole();
   const std::string packed = payload(begin, index_tag);
   if (blocks_.first_bytes(begin, 0).end != blocks_.size() - end_size) blocks_.fail("the file goes on after its index");
-  understood([&] {
+  understood(index_tag, begin, [&] {
     const std::string index = unpack(packed);
     ByteReader reader(index);
     const std::uint64_t state_count = reader.whole(), rows_count = reader.whole();
@@ -81,13 +86,19 @@ void MotionReader::scan(std::uint64_t begin) {
     const Block block = blocks_.first_bytes(begin, 8);
     const bool state = block.tag == state_tag;
     if (!state && block.tag != rows_tag) blocks_.fail("the file has a part that does not belong there");
-    understood([&] {
+    understood(state ? state_tag : rows_tag, begin, [&] {
       auto& index = state ? state_index_ : rows_index_;
       index.insert(index.end(), {ByteReader(block.payload).whole(), begin});
     });
     begin = block.end;
   }
-  understood([&] { check_index(); });
+  understood(state_tag, first_, [&] { check_index(); });
+}
+
+void MotionReader::verify() {
+  for (std::uint64_t begin = magic.size(); begin < blocks_.size();) begin = blocks_.block(begin).end;
+  for (std::size_t i = 0; i < states(); ++i) state(i);
+  for (std::int64_t step = 0; step < rows(); ++step) row(step);
 }
 
 void MotionReader::check_index() {
@@ -102,12 +113,16 @@ void MotionReader::check_index() {
     throw std::invalid_argument("has steps that are not in order");
   }
   if (rows_index_.empty()) return;
-  const std::string last = payload(rows_index_.back(), rows_tag);
-  row_count_ = static_cast<std::int64_t>(rows_index_[rows_index_.size() - 2] + unpack_rows(last, header_).size());
+  for (std::size_t i = 0; i < rows_index_.size(); i += 2) {
+    if (rows_index_[i] != i / 2 * rows_in_block) throw std::invalid_argument("does not have the rows of all steps");
+  }
+  const std::uint64_t first = rows_index_[rows_index_.size() - 2], begin = rows_index_.back();
+  const auto last = understood(rows_tag, begin, [&] { return unpack_rows(payload(begin, rows_tag), header_); });
+  row_count_ = static_cast<std::int64_t>(first + last.size());
 }
 
 std::string MotionReader::scene_file(std::size_t k) const {
-  return understood([&] { return unpack(payload(files_[k], file_tag)); });
+  return understood(file_tag, files_[k], [&] { return unpack(payload(files_[k], file_tag)); });
 }
 
 const State& MotionReader::state(std::size_t i) {
@@ -115,10 +130,14 @@ const State& MotionReader::state(std::size_t i) {
   const std::size_t group = i - i % states_in_group;
   if (decoded_ <= group || decoded_ > i) decoded_ = group;
   for (; decoded_ <= i; ++decoded_) {
-    const std::string bytes = payload(state_index_[2 * decoded_ + 1], state_tag);
-    understood([&] {
+    const std::uint64_t begin = state_index_[2 * decoded_ + 1];
+    const std::string bytes = payload(begin, state_tag);
+    understood(state_tag, begin, [&] {
       if (decoded_ % states_in_group == 0) codec_->begin_group();
       state_ = codec_->decode(bytes);
+      if (!(state_.x.cwiseAbs().maxCoeff() <= largest && state_.v.cwiseAbs().maxCoeff() <= largest)) {
+        throw std::invalid_argument("holds a place or velocity that cannot be");
+      }
       if (state_.step != step(decoded_)) throw std::invalid_argument("has a state of another step than its index says");
     });
   }
@@ -130,7 +149,8 @@ const StepRow& MotionReader::row(std::int64_t step) {
   if (rows_.empty() || step < rows_.front().step || step > rows_.back().step) {
     std::size_t block = rows_index_.size() / 2 - 1;
     while (block > 0 && rows_index_[2 * block] > static_cast<std::uint64_t>(step)) --block;
-    rows_ = understood([&] { return unpack_rows(payload(rows_index_[2 * block + 1], rows_tag), header_); });
+    const std::uint64_t begin = rows_index_[2 * block + 1];
+    rows_ = understood(rows_tag, begin, [&] { return unpack_rows(payload(begin, rows_tag), header_); });
   }
   const bool there = !rows_.empty() && step >= rows_.front().step && step <= rows_.back().step;
   if (!there) blocks_.fail(fmt::format("the file has no row for step {}", step));

@@ -39,6 +39,8 @@ class MotionReader {
 
   // For who goes on with the file:
 
+  /// Reads every block to its end. @throws UsageError if one is damaged
+  void verify();
   /// As it is after the last state.
   const StateCodec& codec();
   [[nodiscard]] const std::vector<std::uint64_t>& state_index() const { return state_index_; }
@@ -50,9 +52,9 @@ class MotionReader {
   void check_index();
   /// The payload of the block at a place, which must have this tag.
   [[nodiscard]] std::string payload(std::uint64_t begin, const char* tag) const;
-  /// Does a thing with a payload, and says of which file it is if that is wrong.
+  /// Does a thing with a block's payload, and names the file and the block if that is wrong.
   template <class Work>
-  auto understood(const Work& work) const;
+  auto understood(const char* tag, std::uint64_t begin, const Work& work) const;
 
   BlockReader blocks_;
   MotionHeader header_;

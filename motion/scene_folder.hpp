@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/temporary_folder.hpp"
 #include "motion/reader.hpp"
 #include "scene/scene.hpp"
 
@@ -15,9 +16,6 @@ class MotionScene {
   /// @throws UsageError  if the scene is not that of the motion any more
   /// @throws OutputError if there is no room for it
   explicit MotionScene(const MotionReader& motion);
-  ~MotionScene();
-  MotionScene(const MotionScene&) = delete;
-  MotionScene& operator=(const MotionScene&) = delete;
 
   /// As it was when the motion was computed.
   [[nodiscard]] const Scene& scene() const { return scene_; }
@@ -25,7 +23,8 @@ class MotionScene {
   [[nodiscard]] Scene load(const std::vector<std::string>& overrides) const;
 
  private:
-  std::filesystem::path folder_, file_;
+  TemporaryFolder folder_;
+  std::filesystem::path file_;
   Scene scene_;
 };
 

@@ -7,7 +7,9 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/file_identity.hpp"
+#include "core/names_in_folders.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 #include "motion/checkpoint.hpp"
 #include "motion/packing.hpp"
 #include "scene/physics.hpp"
@@ -21,7 +23,7 @@ constexpr std::size_t most_bytes = std::size_t{1} << 31;  // of a file that a sc
 MotionHeader complete(MotionHeader header, const Scene& scene) {
   const Cloth& cloth = scene.simulation.cloth;
   header.program = this_program();
-  header.name = scene.name;
+  header.name = as_name_in_folder(scene.name);
   header.scene = scene.portable.text;
   for (const PortableScene::File& file : scene.portable.files) header.files.push_back(file.name);
   header.physics = physics_hash(physics_values(scene));
@@ -32,8 +34,10 @@ MotionHeader complete(MotionHeader header, const Scene& scene) {
   return header;
 }
 
-fs::path free_growing_name(const fs::path& file) {
+/// @throws UsageError also if a file of the scene has a name with which the motion could not be read
+fs::path free_growing_name(const fs::path& file, const PortableScene& scene) {
   require_not_growing(file);
+  for (const PortableScene::File& input : scene.files) name_in_folder(input.name, input.place, "a scene's file");
   if (file.has_parent_path()) fs::create_directories(file.parent_path());
   fs::path growing = growing_name(file);
   // Killed before there was anything to go on with, or right after the file was complete.
@@ -53,12 +57,12 @@ void require_not_growing(const fs::path& file) {
   throw UsageError(fmt::format(
       "{} exists, from a run in progress or ended early: drape simulate --resume {} completes it; to start over, "
       "remove it",
-      growing.string(), file.string()));
+      shown(growing), shown(file)));
 }
 
 MotionFileWriter::MotionFileWriter(fs::path file, MotionHeader header, const Scene& scene)
     : file_(std::move(file)),
-      blocks_(free_growing_name(file_), motion_magic),
+      blocks_(free_growing_name(file_, scene.portable), motion_magic),
       header_(complete(std::move(header), scene)),
       codec_(header_.vertices, header_.step) {
   blocks_.add(header_tag, pack_header(header_));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
@@ -16,14 +17,14 @@ double rate_of_animation(const std::filesystem::path& file, double fps) {
   throw UsageError(
       fmt::format("cannot write {} at {} frames per second: an animated picture takes 0.01 to 90, because browsers "
                   "slow down frames of ten milliseconds or less; choose another fps, or write .mp4 or .webm",
-                  file.string(), fps));
+                  shown(file), fps));
 }
 
-OutputFormat animation_format(const std::string& form, const std::string& help) {
+OutputFormat animation_format(const std::string& form, const std::string& made_by, const std::string& help) {
   return {.extension = "." + form,
           .help = help,
-          .made_by = "FFmpeg",
-          .packages = "libopencv-dev",  // which brings FFmpeg's libraries
+          .made_by = made_by,
+          .packages = "libopencv-dev",  // which brings these libraries
           .make = FilmMaker<Image>([form](const std::filesystem::path& file, const FilmInfo& film) {
             return std::make_unique<AnimationEncoder>(file, form, film.fps, film.width, film.height);
           })};
@@ -37,7 +38,7 @@ AnimationEncoder::AnimationEncoder(const std::filesystem::path& file, std::strin
   attempt([&] { codecs().begin_animation(file_.temporary().string(), form_, fps_, {width, height}); });
 }
 
-/// Does what FFmpeg may fail at.
+/// Does what the library may fail at.
 template <class Work>
 void AnimationEncoder::attempt(Work work) {
   try {
@@ -46,7 +47,7 @@ void AnimationEncoder::attempt(Work work) {
     throw;
   } catch (const std::runtime_error& error) {
     file_.require_space();
-    throw OutputError(fmt::format("cannot write {}: {}", file_.file().string(), error.what()));
+    throw OutputError(fmt::format("cannot write {}: {}", shown(file_.file()), error.what()));
   }
 }
 
@@ -72,9 +73,11 @@ std::vector<OutputFile> AnimationEncoder::finish(Ending ending) {
 }
 
 OutputFormat webp_format() {
-  return animation_format("webp", "looping animation in full colour, half the size of a GIF");
+  return animation_format("webp", "libwebp", "looping animation in full colour, two thirds of the size of a GIF");
 }
 
-OutputFormat apng_format() { return animation_format("apng", "looping animation with exactly the drawn pixels"); }
+OutputFormat apng_format() {
+  return animation_format("apng", "FFmpeg", "looping animation with exactly the drawn pixels");
+}
 
 }  // namespace drape

@@ -8,9 +8,9 @@
 
 namespace drape {
 
-/// An animated picture of all colours that repeats for ever, by FFmpeg: WebP, whose pixels are nearly those that were
-/// drawn, or APNG, whose are exactly. Frame k is shown from k/fps on, to the millisecond in which WebP counts. What
-/// libwebp holds until the last frame, it holds compressed.
+/// An animated picture of all colours that repeats for ever: WebP, whose pixels are nearly those that were drawn, and
+/// right to two of 255 where nothing moves, or APNG, whose are exactly. Frame k is shown from k/fps on, to the
+/// millisecond in which WebP counts.
 class AnimationEncoder final : public Encoder {
  public:
   /// @param form as Codecs::begin_animation() has it

@@ -5,6 +5,7 @@
 #include <string>
 #include <type_traits>
 
+#include "core/error.hpp"
 #include "sim/mesh.hpp"
 
 namespace drape {
@@ -18,11 +19,20 @@ void append_number(std::string& bytes, std::type_identity_t<Number> number) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
+/// @throws OutputError if numbers were too large for single precision, in which they are infinite
+template <class Singles>
+void require_single_precision(const Singles& numbers) {
+  if (numbers.allFinite()) return;
+  throw OutputError("a position beyond 3.4e38 m does not fit into the single precision of .pc2 and .usda files");
+}
+
 /// Vertices one after the other, x, y, z of each.
 /// @tparam Number of the file
+/// @throws OutputError if one is too large for it
 template <class Number>
 std::string vertex_bytes(const Vertices& vertices) {
   const Eigen::Matrix<Number, Eigen::Dynamic, 3, Eigen::RowMajor> rows = vertices.template cast<Number>();
+  if constexpr (std::is_same_v<Number, float>) require_single_precision(rows);
   return {reinterpret_cast<const char*>(rows.data()), static_cast<std::size_t>(rows.size()) * sizeof(Number)};
 }
 

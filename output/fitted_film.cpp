@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "output/scaled_image.hpp"
 
 namespace drape {
@@ -124,7 +125,7 @@ std::string FittedFilm::changes(const Trial& kept) const {
 void FittedFilm::fail(const Trial& smallest) const {
   const std::string given_up = changes(smallest);
   throw OutputError(
-      fmt::format("cannot write {} with at most {} bytes: with {} it still has {}; {}", file_.file().string(),
+      fmt::format("cannot write {} with at most {} bytes: with {} it still has {}; {}", shown(file_.file()),
                   limit_.bytes, given_up.empty() ? "all that it has to keep" : given_up, smallest.bytes,
                   limit_.keeps == FilmKeeps::nothing ? "use fewer frames, with --frames" : "omit --keep"));
 }

@@ -8,6 +8,7 @@
 
 #include "codecs/codecs.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "output/gif/film_writer.hpp"
 #include "output/gif/palette.hpp"
 #include "output/video_check.hpp"
@@ -20,11 +21,11 @@ double checked_rate(const std::filesystem::path& file, double fps) {
     throw UsageError(fmt::format(
         "cannot write {} at {} frames per second: a GIF can play at most 50, because it counts in hundredths of a "
         "second and browsers slow down frames shorter than two; choose fps = 50 or less, or write .mp4 or .webm",
-        file.string(), fps));
+        shown(file), fps));
   }
   if (!(fps >= 0.01)) {
     throw UsageError(
-        fmt::format("cannot write {} at {} frames per second: a GIF can play at least 0.01", file.string(), fps));
+        fmt::format("cannot write {} at {} frames per second: a GIF can play at least 0.01", shown(file), fps));
   }
   return fps;
 }

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "core/error.hpp"
+#include "core/names_in_folders.hpp"
 #include "core/nearest.hpp"
 
 namespace drape {
@@ -69,7 +70,7 @@ std::string PathTemplate::path(std::string_view scene, int frame, int default_wi
         result += piece.text;
         break;
       case Piece::Kind::scene:
-        result += scene;
+        result += name_in_folder(scene, text_, "{scene}");
         break;
       case Piece::Kind::frame:
         result += fmt::format("{:0{}}", frame, piece.width ? piece.width : default_width);

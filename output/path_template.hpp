@@ -16,6 +16,7 @@ class PathTemplate {
   [[nodiscard]] bool has_frame() const;
 
   /// @param default_width digits of a {frame} that does not say how many; larger numbers get as many as they need
+  /// @throws UsageError if the scene's name leads out of a folder, see name_in_folder()
   [[nodiscard]] std::string path(std::string_view scene, int frame, int default_width) const;
 
  private:

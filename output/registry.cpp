@@ -76,11 +76,11 @@ const OutputFormat& format_of(std::string_view path) {
                   nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest), quoted_list(valid)));
 }
 
-std::string output_help(bool drawn) {
+std::string output_help(FormatKinds kinds) {
   std::string text;
   std::vector<std::string> of_frames;
   for (const OutputFormat& format : output_formats()) {
-    if (format.drawn() && !drawn) continue;
+    if (kinds == (format.drawn() ? FormatKinds::undrawn : FormatKinds::drawn)) continue;
     text += fmt::format("{:<7}{}\n", format.extension, format.help);
     if (format.file_per_frame()) of_frames.push_back(format.extension);
   }

@@ -18,9 +18,10 @@ const OutputFormat* find_format(std::string_view path);
 /// @throws UsageError that names the nearest extension and all valid ones
 const OutputFormat& format_of(std::string_view path);
 
-/// What may stand after -o, a line for each format.
-/// @param drawn whether those that must be drawn are among them
-std::string output_help(bool drawn);
+enum class FormatKinds { all, drawn, undrawn };
+
+/// What may stand after -o, a line for each format of these kinds.
+std::string output_help(FormatKinds kinds);
 
 /// The table of docs/outputs.md.
 std::string output_reference();

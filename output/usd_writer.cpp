@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/rotation.hpp"
+#include "output/bytes.hpp"
 #include "output/usd_material.hpp"
 
 namespace drape {
@@ -16,6 +17,7 @@ namespace {
 /// The shortest that is read back as the same number in single precision.
 std::string point(const Eigen::RowVector3d& x) {
   const Eigen::RowVector3f p = x.cast<float>();
+  require_single_precision(p);
   return fmt::format("({}, {}, {})", p[0], p[1], p[2]);
 }
 

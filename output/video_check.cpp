@@ -4,6 +4,7 @@
 
 #include "codecs/codecs.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 
@@ -14,7 +15,7 @@ void require_frames(PartialFile& file, int count) {
   if (found == count) return;
   file.require_space();
   throw OutputError(
-      fmt::format("cannot write {}: of {} frames, {} can be read back", file.file().string(), count, found));
+      fmt::format("cannot write {}: of {} frames, {} can be read back", shown(file.file()), count, found));
 }
 
 }  // namespace drape

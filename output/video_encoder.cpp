@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "output/video_check.hpp"
 
 namespace drape {
@@ -16,8 +17,7 @@ namespace {
 double checked_rate(const std::filesystem::path& file, double fps) {
   // The containers count time in thousandths of a second or finer.
   if (fps >= 0.01 && fps <= 1000) return fps;
-  throw UsageError(
-      fmt::format("cannot write {} at {} frames per second: a video has 0.01 to 1000", file.string(), fps));
+  throw UsageError(fmt::format("cannot write {} at {} frames per second: a video has 0.01 to 1000", shown(file), fps));
 }
 
 /// @param codecs in the order to try
@@ -55,12 +55,12 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& file, double fps, const 
     throw OutputError(
         fmt::format("cannot write {}: OpenCV's {} encoder makes no video of {}x{} pixels at {} frames per second; it "
                     "does with more of them, and a .gif or a .png sequence takes any",
-                    file.string(), tried, width, height, fps));
+                    shown(file), tried, width, height, fps));
   }
   throw OutputError(
       fmt::format("cannot write {}: OpenCV has no {} encoder; is it built with FFmpeg? A .gif or a .png "
                   "sequence needs none",
-                  file.string(), tried));
+                  shown(file), tried));
 }
 
 bool VideoEncoder::open(cv::Size size) {
@@ -84,7 +84,7 @@ void VideoEncoder::add(const Image& image) {
     if (!open(size)) {
       file_.require_space();
       throw OutputError(fmt::format("cannot write {}: OpenCV's {} encoder does not take pictures of {}x{}",
-                                    file_.file().string(), codec_.name, size.width, size.height));
+                                    shown(file_.file()), codec_.name, size.width, size.height));
     }
   }
   if (size != size_) throw std::invalid_argument("the frames of a film must have one size");

@@ -39,4 +39,14 @@ std::vector<Tick> ticks(double from, double to, int about) {
   return marks;
 }
 
+std::vector<Tick> thinned(const std::vector<Tick>& marks, const LabelColumns& columns, int gap) {
+  for (double every = 1; every < static_cast<double>(marks.size()); every = round_up(1.5 * every)) {
+    std::vector<Tick> kept;
+    for (std::size_t i = 0; i < marks.size(); i += static_cast<std::size_t>(every)) kept.push_back(marks[i]);
+    const auto touch = [&](const Tick& a, const Tick& b) { return columns(b).first < columns(a).second + gap; };
+    if (std::ranges::adjacent_find(kept, touch) == kept.end()) return kept;
+  }
+  return {marks.begin(), marks.begin() + std::min<std::ptrdiff_t>(1, std::ssize(marks))};
+}
+
 }  // namespace drape

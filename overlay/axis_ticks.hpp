@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drape {
@@ -17,5 +19,11 @@ double round_up(double number);
 /// Marks at multiples of such a number between two values, both included, as many as are asked for or a few
 /// more.
 std::vector<Tick> ticks(double from, double to, int about);
+
+/// The columns that a mark's label takes, from the first to the one after the last [pixels].
+using LabelColumns = std::function<std::pair<int, int>(const Tick& mark)>;
+
+/// The first mark and every second, fifth, tenth … after it, the most whose labels stand so far apart [pixels].
+std::vector<Tick> thinned(const std::vector<Tick>& marks, const LabelColumns& columns, int gap);
 
 }  // namespace drape

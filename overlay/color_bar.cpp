@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "overlay/color_map.hpp"
 
@@ -19,12 +20,17 @@ Image color_bar(Pen& pen, int width, int size, const std::string& title, const s
     Pen::fill(band, {bar.left + x, bar.top, 1, bar.height},
               viridis(static_cast<double>(x) / std::max(1, bar.width - 1)));
   }
-  for (const Tick& mark : marks) {
-    const int x = bar.left + static_cast<int>(std::lround(mark.value * (bar.width - 1)));
-    Pen::fill(band, {x, bar.bottom(), 1, std::max(2, size / 4)}, band_ink);
-    const int label = pen.width(mark.label, size);
-    pen.write(band, std::clamp(x - label / 2, 0, std::max(0, width - label)), bar.bottom() + size + size / 3,
-              mark.label, size, band_ink);
+  const auto column = [&](const Tick& mark) {
+    return bar.left + static_cast<int>(std::lround(mark.value * (bar.width - 1)));
+  };
+  const LabelColumns label = [&](const Tick& mark) {
+    const int taken = pen.width(mark.label, size);
+    const int left = std::clamp(column(mark) - taken / 2, 0, std::max(0, width - taken));
+    return std::pair{left, left + taken};
+  };
+  for (const Tick& mark : thinned(marks, label, size / 2)) {
+    Pen::fill(band, {column(mark), bar.bottom(), 1, std::max(2, size / 4)}, band_ink);
+    pen.write(band, label(mark).first, bar.bottom() + size + size / 3, mark.label, size, band_ink);
   }
   return band;
 }

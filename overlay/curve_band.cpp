@@ -32,13 +32,19 @@ void CurveBand::draw_axes(Pen& pen, Image& band, const PictureBox& area) const {
     pen.write(band, area.left - size_ / 2 - pen.width(mark.label, size_), row + size_ / 3, mark.label, size_, band_ink);
   }
   const double end = times_.back() - times_.front();
-  for (const Tick& mark : ticks(times_.front(), times_.back(), std::clamp(area.width / (5 * size_), 2, 10))) {
+  const auto column = [&](const Tick& mark) {
     const double along = end > 0 ? (mark.value - times_.front()) / end : 0;
-    const int x = area.left + static_cast<int>(std::lround(along * (area.width - 1)));
-    Pen::fill(band, {x, area.bottom(), 1, std::max(2, size_ / 4)}, band_ink);
-    const std::string label = mark.label + " s";
-    const int width = pen.width(label, size_);
-    pen.write(band, std::min(x - width / 2, width_ - width), area.bottom() + size_ + size_ / 3, label, size_, band_ink);
+    return area.left + static_cast<int>(std::lround(along * (area.width - 1)));
+  };
+  const LabelColumns label = [&](const Tick& mark) {
+    const int width = pen.width(mark.label + " s", size_);
+    const int left = std::clamp(column(mark) - width / 2, 0, std::max(0, width_ - width));
+    return std::pair{left, left + width};
+  };
+  const std::vector<Tick> marks = ticks(times_.front(), times_.back(), std::clamp(area.width / (5 * size_), 2, 10));
+  for (const Tick& mark : thinned(marks, label, size_ / 2)) {
+    Pen::fill(band, {column(mark), area.bottom(), 1, std::max(2, size_ / 4)}, band_ink);
+    pen.write(band, label(mark).first, area.bottom() + size_ + size_ / 3, mark.label + " s", size_, band_ink);
   }
 }
 

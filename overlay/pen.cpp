@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "render/color.hpp"
 
@@ -35,6 +36,63 @@ void blend(Image& image, int x, int y, const Eigen::Vector3f& light, float part)
     const double mixed = std::lerp(light_of_bytes()[pixel[c]], light[c], std::min(part, 1.0F));
     pixel[c] = static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(std::clamp(mixed, 0.0, 1.0))));
   }
+}
+
+/// Replaces each f(q) by the least (p − q)² + f(p): the lower envelope of parabolas (P. Felzenszwalb and D.
+/// Huttenlocher 2012, Distance Transforms of Sampled Functions, algorithm 1).
+class SquaredDistances {
+ public:
+  explicit SquaredDistances(int longest)
+      : values_(static_cast<std::size_t>(longest)), centres_(values_.size()), begins_(values_.size() + 1) {}
+
+  /// @param stride from one of the count numbers to the next
+  void along(double* f, std::size_t count, std::size_t stride) {
+    for (std::size_t q = 0; q < count; ++q) values_[q] = f[q * stride];
+    std::size_t last = 0;
+    centres_[0] = 0;
+    begins_[0] = -std::numeric_limits<double>::infinity();
+    for (std::size_t q = 1; q < count; ++q) {
+      double begin = meet(q, centres_[last]);
+      while (begin <= begins_[last]) begin = meet(q, centres_[--last]);
+      centres_[++last] = q;
+      begins_[last] = begin;
+    }
+    begins_[last + 1] = std::numeric_limits<double>::infinity();
+    for (std::size_t q = 0, k = 0; q < count; ++q) {
+      while (begins_[k + 1] < static_cast<double>(q)) ++k;
+      const double away = static_cast<double>(q) - static_cast<double>(centres_[k]);
+      f[q * stride] = away * away + values_[centres_[k]];
+    }
+  }
+
+  static constexpr double far = 1e12;  // beyond every square of a distance in a picture
+
+ private:
+  /// Where the parabola around q, which lies further along, goes below the one around p.
+  [[nodiscard]] double meet(std::size_t q, std::size_t p) const {
+    const auto at_q = static_cast<double>(q), at_p = static_cast<double>(p);
+    return (values_[q] - values_[p] + at_q * at_q - at_p * at_p) / (2 * (at_q - at_p));
+  }
+
+  std::vector<double> values_;
+  std::vector<std::size_t> centres_;  // of the parabolas of the envelope
+  std::vector<double> begins_;        // of their parts of it
+};
+
+/// How far each pixel is from those that letters cover; one that they cover partly is as far from them as the part that
+/// they leave.
+std::vector<double> distances_from(const std::vector<float>& coverage, int width, int height) {
+  std::vector<double> distances(coverage.size());
+  for (std::size_t i = 0; i < coverage.size(); ++i) {
+    const double left = 1 - coverage[i];
+    distances[i] = coverage[i] > 0 ? left * left : SquaredDistances::far;
+  }
+  SquaredDistances squared(std::max(width, height));
+  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  for (std::size_t x = 0; x < columns; ++x) squared.along(distances.data() + x, rows, columns);
+  for (std::size_t y = 0; y < rows; ++y) squared.along(distances.data() + y * columns, columns, 1);
+  for (double& distance : distances) distance = std::sqrt(distance);
+  return distances;
 }
 
 double luminance(const Rgb& color) {
@@ -106,25 +164,13 @@ Pen::Mask Pen::mask(const std::string& line, int size, int rim) {
   return mask;
 }
 
-/// Every pixel gets the most that letters cover within the radius, less towards its edge.
+/// Every pixel gets what is left at its distance from the letters: all of it beside them, less towards the radius.
 Pen::Mask Pen::widened(const Mask& letters, int radius) {
   Mask wide{letters.box, std::vector<float>(letters.coverage.size(), 0)};
-  const int width = letters.box.width, height = letters.box.height;
-  const auto reach = static_cast<double>(radius);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const float covered = letters.coverage[place(x, y, width)];
-      if (covered == 0) continue;
-      for (int dy = -radius; dy <= radius; ++dy) {
-        for (int dx = -radius; dx <= radius; ++dx) {
-          const int column = x + dx, row = y + dy;
-          if (column < 0 || row < 0 || column >= width || row >= height) continue;
-          const double fade = std::clamp(1.6 * (1 - std::hypot(dx, dy) / (reach + 1)), 0.0, 1.0);
-          float& to = wide.coverage[place(column, row, width)];
-          to = std::max(to, covered * static_cast<float>(fade));
-        }
-      }
-    }
+  const double reach = radius + 1;
+  const std::vector<double> distances = distances_from(letters.coverage, letters.box.width, letters.box.height);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    wide.coverage[i] = static_cast<float>(std::clamp(1.6 * (1 - distances[i] / reach), 0.0, 1.0));
   }
   return wide;
 }

@@ -2,6 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "core/build_info.hpp"
+#include "python/lock.hpp"
 #include "python/simulation.hpp"
 #include "sim/instruction_set.hpp"
 
@@ -52,6 +53,7 @@ void add_functions(py::module_& module) {
 PYBIND11_MODULE(_drape, module) {
   module.doc() = "Mass-spring cloth: simulated, and drawn offscreen.";
   module.attr("__version__") = drape::build_info().version;
+  drape::python::watch_end();
   drape::python::add_errors(module);
   drape::python::add_simulation(module);
   drape::python::add_functions(module);

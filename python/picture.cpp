@@ -1,3 +1,4 @@
+#include "python/lock.hpp"
 #include "python/simulation.hpp"
 #include "render/renderer.hpp"
 
@@ -37,11 +38,17 @@ Image draw(const Scene& scene, const PictureWishes& wishes, const Frame& frame) 
 }  // namespace
 
 py::array render(SceneSimulation& simulation, const PictureWishes& wishes) {
+  simulation.require_made();
   const Frame frame = simulation.with([](const Simulation& s) {
     return Frame{.time = s.time(), .positions = s.state().x, .colliders = s.colliders(s.time())};
   });
+  constexpr double furthest = 1e90;  // as of a scene's meshes [m]
+  if (!frame.positions.allFinite() || frame.positions.cwiseAbs().maxCoeff() > furthest) {
+    throw DivergedError(
+        "the cloth cannot be drawn: vertices are farther away than 1e90 m; restore() a state before that");
+  }
   const Image image = [&] {
-    const py::gil_scoped_release free;
+    const WithoutLock free;
     return draw(simulation.scene(), wishes, frame);
   }();
   py::array_t<std::uint8_t> pixels({image.height, image.width, 3});

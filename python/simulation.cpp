@@ -7,6 +7,7 @@
 #include <chrono>
 #include <utility>
 
+#include "python/lock.hpp"
 #include "python/values.hpp"
 #include "scene/method_names.hpp"
 
@@ -40,8 +41,8 @@ Vertices vertices_of(const Numbers& numbers, const char* name) {
   return vertices;
 }
 
-Simulation::Checkpoint make_state(const Numbers& positions, const Numbers& velocities, std::int64_t step) {
-  Simulation::Checkpoint made;
+State make_state(const Numbers& positions, const Numbers& velocities, std::int64_t step) {
+  State made;
   made.state = {vertices_of(positions, "positions"), vertices_of(velocities, "velocities"), step};
   if (made.state.x.rows() != made.state.v.rows()) {
     throw UsageError(fmt::format("velocities: expected {}, as there are positions, found {}", made.state.x.rows(),
@@ -60,7 +61,7 @@ std::unique_ptr<SceneSimulation> make_simulation(const py::object& scene, const 
   const std::vector<std::string> overrides = to_overrides(set);
   const auto make = [&](const auto& read) {
     try {
-      const py::gil_scoped_release free;
+      const WithoutLock free;
       Scene made = read();
       made.simulation.threads = threads;
       return std::make_unique<SceneSimulation>(std::move(made));
@@ -100,7 +101,7 @@ SceneSimulation::SceneSimulation(Scene scene)
       velocities_(simulation_.state().v) {}
 
 std::unique_lock<std::mutex> SceneSimulation::wait() {
-  const py::gil_scoped_release free;
+  const WithoutLock free;
   return std::unique_lock(mutex_);
 }
 
@@ -114,16 +115,16 @@ bool SceneSimulation::signalled() {
   const auto now = std::chrono::steady_clock::now();
   if (now - looked_ < patience) return false;
   looked_ = now;
-  const py::gil_scoped_acquire held;
-  return PyErr_CheckSignals() != 0;
+  return with_lock([] { return PyErr_CheckSignals() != 0; });
 }
 
 StepReport SceneSimulation::step(std::int64_t count) {
+  require_made();
   if (count < 0) throw UsageError(fmt::format("count: expected at least 0, found {}", count));
   const auto lock = wait();
   StepReport report;
   try {
-    const py::gil_scoped_release free;
+    const WithoutLock free;
     for (std::int64_t done = 0; done < count; ++done) report = simulation_.step();
   } catch (const Interrupted&) {
     show();
@@ -136,7 +137,9 @@ StepReport SceneSimulation::step(std::int64_t count) {
   return report;
 }
 
-void SceneSimulation::restore(const Simulation::Checkpoint& checkpoint) {
+void SceneSimulation::restore(const State& checkpoint) {
+  require_made();
+  checkpoint.require_made();
   const auto lock = wait();
   const Eigen::Index vertices = simulation_.state().x.rows();
   if (checkpoint.state.x.rows() != vertices) {
@@ -169,18 +172,18 @@ void add_simulation(py::module_& module) {
       .def("__repr__", [](const Energies& e) {
         return fmt::format("Energies(kinetic={}, gravity={}, elastic={})", e.kinetic, e.gravity, e.elastic);
       });
-  using Checkpoint = Simulation::Checkpoint;
-  py::class_<Checkpoint>(module, "State", "All that the rest of a motion depends on, to the bit. A copy.")
+  const auto made = [](const State& state) -> const State& { return state.require_made(), state; };
+  py::class_<State>(module, "State", "All that the rest of a motion depends on, to the bit. A copy.")
       .def(py::init(&make_state), py::arg("positions"), py::arg("velocities"), py::arg("step") = 0,
            "Of positions n×3 [m] and velocities n×3 [m/s] after a number of steps.")
       .def_property_readonly(
-          "positions", [](const Checkpoint& c) { return copied(c.state.x); }, "n×3 [m]")
+          "positions", [=](const State& s) { return copied(made(s).state.x); }, "n×3 [m]")
       .def_property_readonly(
-          "velocities", [](const Checkpoint& c) { return copied(c.state.v); }, "n×3 [m/s]")
+          "velocities", [=](const State& s) { return copied(made(s).state.v); }, "n×3 [m/s]")
       .def_property_readonly(
-          "step", [](const Checkpoint& c) { return c.state.step; }, "How many steps it is after.")
+          "step", [=](const State& s) { return made(s).state.step; }, "How many steps it is after.")
       .def_property_readonly(
-          "hash", [](const Checkpoint& c) { return hash_of(c.state); }, "As Simulation.hash.");
+          "hash", [=](const State& s) { return hash_of(made(s).state); }, "As Simulation.hash.");
 
   using Self = SceneSimulation;
   const auto settings = [](const Self& self) -> const SimulationSettings& { return self.scene().simulation; };
@@ -216,7 +219,7 @@ void add_simulation(py::module_& module) {
           "hash", [](Self& self) { return self.with([](auto& s) { return s.hash(); }); },
           "Of step, positions and velocities to the bit: 64 bits, the same on every run and machine of a build.")
       .def(
-          "state", [](Self& self) { return self.with([](auto& s) { return s.checkpoint(); }); },
+          "state", [](Self& self) { return self.with([](auto& s) { return State(s.checkpoint()); }); },
           "A copy of all that the rest of the motion depends on.")
       .def("restore", &Self::restore, py::arg("state"), "Goes on from a state of the same cloth, at any step.")
       .def_property_readonly(

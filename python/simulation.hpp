@@ -4,9 +4,12 @@
 #include <pybind11/pybind11.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
+#include <utility>
 
 #include "scene/scene.hpp"
 #include "sim/frame.hpp"
@@ -27,20 +30,48 @@ class Mirror {
   std::shared_ptr<Vertices> numbers_;
 };
 
+/// An object that Python can have without having made it, by __new__ alone: pybind11 only allocates it then. So its
+/// memory begins with zeros, and it knows.
+class Made {
+ public:
+  /// @throws pybind11::type_error
+  void require_made() const {
+    if (!made_) throw pybind11::type_error("__init__() has not been called");
+  }
+
+  static void* operator new(std::size_t size) {
+    void* const zeros = std::calloc(1, size);
+    if (zeros == nullptr) throw std::bad_alloc();
+    return zeros;
+  }
+  static void* operator new(std::size_t, void* place) { return place; }
+  static void operator delete(void* memory) { std::free(memory); }
+
+ private:
+  bool made_ = true;
+};
+
+/// What Python sees as drape.State.
+struct State : Made, Simulation::Checkpoint {
+  State() = default;
+  explicit State(Simulation::Checkpoint checkpoint) : Simulation::Checkpoint(std::move(checkpoint)) {}
+};
+
 /// What Python sees as drape.Simulation: a scene in motion. Any thread may call it; while one computes, without
 /// Python's lock, others wait.
-class SceneSimulation {
+class SceneSimulation : public Made {
  public:
   explicit SceneSimulation(Scene scene);
 
   /// Takes steps, and looks from time to time whether Python has a signal to handle: that ends it with the last whole
   /// step.
   StepReport step(std::int64_t count);
-  void restore(const Simulation::Checkpoint& checkpoint);
+  void restore(const State& checkpoint);
 
   /// Calls use(simulation) while no other thread does.
   template <class Use>
   auto with(const Use& use) {
+    require_made();
     const auto lock = wait();
     try {
       return use(simulation_);
@@ -49,9 +80,9 @@ class SceneSimulation {
     }
   }
 
-  [[nodiscard]] const Scene& scene() const { return scene_; }
-  [[nodiscard]] pybind11::array positions() const { return positions_.array(); }
-  [[nodiscard]] pybind11::array velocities() const { return velocities_.array(); }
+  [[nodiscard]] const Scene& scene() const { return require_made(), scene_; }
+  [[nodiscard]] pybind11::array positions() const { return require_made(), positions_.array(); }
+  [[nodiscard]] pybind11::array velocities() const { return require_made(), velocities_.array(); }
 
  private:
   /// Waits without Python's lock: who computes may need it to go on.

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "render/unit_vector.hpp"
+
 namespace drape {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 /// What `orbit` turns by until a frame.
 Eigen::Matrix3d turn(const Camera& camera, const Eigen::Vector3d& about, int frame, int count) {
   const double part = static_cast<double>(frame) / count;
-  return Eigen::AngleAxisd(camera.orbit * part * std::numbers::pi / 180, about.normalized()).toRotationMatrix();
+  return Eigen::AngleAxisd(camera.orbit * part * std::numbers::pi / 180, unit_vector(about)).toRotationMatrix();
 }
 
 /// A view that goes round its target, or stays if it does not.

@@ -20,7 +20,8 @@ class Outline {
       return;
     }
     for (int axis = 0; axis < 2; ++axis) {
-      const auto place = clip.col(axis).array() / clip.col(3).array();
+      const Eigen::ArrayXd place = clip.col(axis).array() / clip.col(3).array();
+      unbounded_ = unbounded_ || !place.allFinite();
       low_[axis] = std::min(low_[axis], place.minCoeff());
       high_[axis] = std::max(high_[axis], place.maxCoeff());
     }

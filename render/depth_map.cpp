@@ -43,8 +43,9 @@ void DepthMap::draw(const Vertices& positions, const std::vector<Triangle>& tria
   for (const Triangle& triangle : triangles) fill(triangle);
 }
 
+// Numbers that are too large or too small for the map leave it empty: there is nothing to be seen in such a picture.
 bool DepthMap::place(double texel, int largest) {
-  if (projected_.rows() == 0 || !projected_.allFinite()) return false;
+  if (projected_.rows() == 0 || !projected_.allFinite() || !std::isnormal(texel) || texel < 0) return false;
   const Eigen::RowVector3d low = projected_.colwise().minCoeff(), high = projected_.colwise().maxCoeff();
   texel_ = texel;
   while ((high - low).head<2>().maxCoeff() > (largest - 3.0 * block) * texel_) texel_ *= 2;
@@ -52,10 +53,17 @@ bool DepthMap::place(double texel, int largest) {
   const double width = block * texel_;
   const auto blocks_before = [width](double x) { return std::floor(x / width) - 1; };
   const double left = blocks_before(low[0]), bottom = blocks_before(low[1]);
-  columns_ = block * static_cast<int>(blocks_before(high[0]) + 3 - left);
-  rows_ = block * static_cast<int>(blocks_before(high[1]) + 3 - bottom);
+  const double columns = block * (blocks_before(high[0]) + 3 - left),
+               rows = block * (blocks_before(high[1]) + 3 - bottom);
   projected_.col(0) = (projected_.col(0).array() / texel_ - block * left).matrix();
   projected_.col(1) = (projected_.col(1).array() / texel_ - block * bottom).matrix();
+  const auto fits = [&](Eigen::Index axis, double texels) {
+    return texels <= largest + block && projected_.col(axis).minCoeff() >= 1 &&
+           projected_.col(axis).maxCoeff() <= texels - 1;
+  };
+  if (!projected_.allFinite() || !fits(0, columns) || !fits(1, rows)) return false;
+  columns_ = static_cast<int>(columns);
+  rows_ = static_cast<int>(rows);
   projected_.col(2).array() -= low[2];
   u_ << axes_.row(0).transpose() / texel_, -block * left;
   v_ << axes_.row(1).transpose() / texel_, -block * bottom;
@@ -101,8 +109,9 @@ void DepthMap::fill(const Triangle& triangle) {
 }
 
 float interpolated(const DepthMap& map, const std::vector<float>& values, double column, double row) {
-  const double x = std::clamp(column - 0.5, 0.0, map.columns() - 1.001);
-  const double y = std::clamp(row - 0.5, 0.0, map.rows() - 1.001);
+  // In this order what is not a number becomes 0.
+  const double x = std::min(std::max(0.0, column - 0.5), map.columns() - 1.001);
+  const double y = std::min(std::max(0.0, row - 0.5), map.rows() - 1.001);
   const int left = static_cast<int>(x), bottom = static_cast<int>(y);
   const auto across = static_cast<float>(x - left), up = static_cast<float>(y - bottom);
   const float* lower =

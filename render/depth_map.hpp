@@ -22,6 +22,7 @@ class DepthMap {
   /// @param up      where rows lead to, as far as `towards` allows: in the mirror image of a scene both are mirrored
   void look(const Eigen::Vector3d& towards, const Eigen::Vector3d& up);
 
+  /// Leaves the map empty where a number is not finite, or too large or small beside the others.
   /// @param texel width of a texel [m]; doubled until no side has more than `largest` of them
   void draw(const Vertices& positions, const std::vector<Triangle>& triangles, double texel, int largest);
 

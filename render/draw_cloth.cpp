@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "render/color.hpp"
 #include "render/gl/inspect.hpp"
 #include "render/normals.hpp"
@@ -58,7 +59,7 @@ DrawCloth::DrawCloth(GlDevice& device, const Look& look, const std::vector<Trian
   if (!look.texture.empty()) {
     if (uvs.empty()) {
       throw UsageError(fmt::format("the texture {} cannot be put on a cloth whose mesh has no texture coordinates",
-                                   look.texture.string()));
+                                   shown(look.texture)));
     }
     load_texture();
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/unit_vector.hpp"
+
 namespace drape {
 
 Shot::Shot(const Frame& shown, const View& view, double aspect) : frame(shown) {
@@ -13,7 +15,7 @@ Shot::Shot(const Frame& shown, const View& view, double aspect) : frame(shown) {
   eye = view.position.cast<float>();
 
   const Eigen::Matrix3d axes = view.axes();
-  const Eigen::Vector3d sky = view.up.normalized();
+  const Eigen::Vector3d sky = unit_vector(view.up);
   const auto towards = [&](double right, double upwards, double backwards) {
     return (right * axes.row(0).transpose() + upwards * sky + backwards * axes.row(2).transpose())
         .normalized()

@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/memory.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 #include "render/color.hpp"
 #include "render/image_header.hpp"
 
@@ -37,13 +38,13 @@ bool is_cut(std::span<const unsigned char> bytes) {
 
 void require_size(const std::filesystem::path& file, int width, int height, int largest) {
   if (std::max(width, height) > largest) {
-    throw UsageError(fmt::format("the texture {} has {}x{} pixels; at most {}x{} can be drawn", file.string(), width,
+    throw UsageError(fmt::format("the texture {} has {}x{} pixels; at most {}x{} can be drawn", shown(file), width,
                                  height, largest, largest));
   }
   // Of every pixel the bytes that were decoded, linear light as numbers and as 16 bits, and half of these again for the
   // smaller levels.
   constexpr double bytes_per_pixel = 3 + 1.5 * (12 + 6);
-  require_memory(fmt::format("the texture {} of {}x{} pixels", file.string(), width, height),
+  require_memory(fmt::format("the texture {} of {}x{} pixels", shown(file), width, height),
                  bytes_per_pixel * width * height, "use a smaller picture");
 }
 
@@ -52,7 +53,7 @@ std::string read_bytes(const std::filesystem::path& file) {
   std::error_code ignored;
   try {
     // It is looked at before it is drawn.
-    if (std::filesystem::is_fifo(file, ignored)) throw UsageError(file.string() + ": a pipe cannot be read twice");
+    if (std::filesystem::is_fifo(file, ignored)) throw UsageError(shown(file) + ": a pipe cannot be read twice");
     return read_file(file, most);
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("the texture {}", error.what()));
@@ -75,7 +76,7 @@ cv::Mat read_image(const std::filesystem::path& file, int largest) {
   if (image.empty()) {
     throw UsageError(fmt::format(
         "the texture {} is damaged or not an image; expected a PNG, JPEG or another format that OpenCV reads",
-        file.string()));
+        shown(file)));
   }
   require_size(file, image.cols, image.rows, largest);
   return image;
@@ -117,9 +118,9 @@ auto with_memory(const std::filesystem::path& file, Work work) {
   try {
     return work();
   } catch (const std::bad_alloc&) {
-    throw UsageError(fmt::format("there is not enough memory for the texture {}", file.string()));
+    throw UsageError(fmt::format("there is not enough memory for the texture {}", shown(file)));
   } catch (const cv::Exception& error) {
-    throw UsageError(fmt::format("cannot make a texture of {}: {}", file.string(), error.what()));
+    throw UsageError(fmt::format("cannot make a texture of {}: {}", shown(file), error.what()));
   }
 }
 

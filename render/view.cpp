@@ -8,6 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "render/unit_vector.hpp"
+
 namespace drape {
 namespace {
 
@@ -25,7 +27,7 @@ Eigen::Vector3d direction(const Camera& camera) {
 /// The camera's up, or, when it looks along that, the direction in which up goes over as the camera rises to there.
 Eigen::Vector3d usable_up(const Camera& camera) {
   const Eigen::Vector3d back = direction(camera);
-  if (camera.up.normalized().cross(back).norm() > 1e-6) return camera.up;
+  if (unit_vector(camera.up).cross(back).norm() > 1e-6) return camera.up;
   const double azimuth = radians(camera.azimuth.value_or(Camera::usual_azimuth));
   const double sign = camera.up.dot(back) > 0 ? -1 : 1;
   return {sign * std::cos(azimuth), sign * std::sin(azimuth), 0};
@@ -34,8 +36,8 @@ Eigen::Vector3d usable_up(const Camera& camera) {
 }  // namespace
 
 Eigen::Matrix3d View::axes() const {
-  const Eigen::Vector3d back = (position - target).normalized();
-  Eigen::Vector3d right = up.normalized().cross(back);
+  const Eigen::Vector3d back = unit_vector(position - target);
+  Eigen::Vector3d right = unit_vector(up).cross(back);
   if (right.norm() < 1e-6) right = Eigen::Vector3d::UnitY().cross(back);
   if (right.norm() < 1e-6) right = Eigen::Vector3d::UnitZ().cross(back);
   right.normalize();

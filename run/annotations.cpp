@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "overlay/caption.hpp"
 #include "overlay/color_bar.hpp"
 #include "scene/caption.hpp"
@@ -21,11 +22,34 @@ int band_text_size(const Scene& scene) { return std::max(11, text_size(scene.vid
 
 /// Does something with the scene's text; an error names where it is.
 auto attributed(const Scene& scene, const auto& work) {
+  const auto placed = [&](const Error& error) {
+    return fmt::format("{}: {}", scene.caption_place.empty() ? shown(scene.file) : scene.caption_place, error.what());
+  };
   try {
     return work();
+  } catch (const UsageError& error) {
+    throw UsageError(placed(error));
   } catch (const OutputError& error) {
-    throw OutputError(
-        fmt::format("{}: {}", scene.caption_place.empty() ? scene.file.string() : scene.caption_place, error.what()));
+    throw OutputError(placed(error));
+  }
+}
+
+std::string caption_text(const Scene& scene, const Frame& frame) {
+  const auto value = [&](const std::string& name) { return moment_value(name, frame, scene.simulation.step); };
+  return scene.caption.filled.fill(value);
+}
+
+/// Looks whether the letters of the scene's caption are there, and whether it fits into the picture where the film
+/// begins and where it ends.
+void require_caption(Pen& pen, const Scene& scene) {
+  if (scene.caption.filled.empty()) return;
+  Frame first, last;
+  last.time = static_cast<double>(scene.step_count()) * scene.simulation.step;
+  last.index = static_cast<int>(std::min(last.time * scene.video.fps, 1e9));
+  for (const Frame& frame : {first, last}) {
+    const std::string text = caption_text(scene, frame);
+    pen.fonts().require(text);
+    require_room(pen, scene.caption, text, scene.video.size.x(), scene.video.size.y());
   }
 }
 
@@ -46,9 +70,7 @@ Annotations::Annotations(const Scene& scene) : scene_(scene), pen_(attributed(sc
                  {"gravity", gravity_color, {}},
                  {"elastic", elastic_color, {}}};
   }
-  for (const TextTemplate::Piece& piece : scene.caption.filled.pieces()) {
-    if (!piece.is_field) attributed(scene, [&] { pen_.fonts().require(piece.text); });
-  }
+  attributed(scene, [&] { require_caption(pen_, scene); });
 }
 
 bool Annotations::wanted(const Scene& scene) {
@@ -95,9 +117,8 @@ Image Annotations::annotate(Image drawn, const Frame& frame) {
   const Look& look = scene_.look;
   const CaptionSettings& caption = scene_.caption;
   if (!caption.filled.empty()) {
-    const auto value = [&](const std::string& name) { return moment_value(name, frame, scene_.simulation.step); };
     const bool at_top = caption.place < CaptionPlace::bottom_left;
-    draw_caption(drawn, pen_, caption, caption.filled.fill(value),
+    draw_caption(drawn, pen_, caption, caption_text(scene_, frame),
                  at_top ? look.upper_background() : look.lower_background());
   }
   const int size = band_text_size(scene_);

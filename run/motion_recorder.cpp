@@ -48,7 +48,7 @@ MotionRecorder::~MotionRecorder() {
 
 /// Nothing is lost where nothing was done.
 void MotionRecorder::discard_if_empty() {
-  if (statistics_.steps() == 0) writer_.discard();
+  if (statistics_.steps() == 0 && !begun_) writer_.discard();
 }
 
 void MotionRecorder::begin(const Simulation& simulation) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "core/error.hpp"
@@ -81,7 +82,8 @@ class Records::TraceLog final : public StepObserver {
  private:
   void add(std::int64_t step, double time, int iterations, double residual, double seconds, std::int64_t substeps,
            const std::optional<double>& estimate) {
-    file.write(fmt::format("{},{:.12g},{},{:.6g},{:.3f}", step, time, iterations, residual, 1e6 * seconds));
+    const std::string microseconds = std::isnan(seconds) ? "" : fmt::format("{:.3f}", 1e6 * seconds);
+    file.write(fmt::format("{},{:.12g},{},{:.6g},{}", step, time, iterations, residual, microseconds));
     file.write(estimate ? fmt::format(",{},{:.6g}\n", substeps, *estimate) : "\n");
   }
 };

@@ -56,6 +56,7 @@ class Pipeline {
     if (!options.recorded) {
       simulation_.emplace(with_threads(scene.simulation, options.threads, drawn_), timing, heeding(stop_.get_token()));
     }
+    if (options.from && simulation_) require_whole(*options.from, *simulation_);
     if (!options.motion) return;
     recorder_.emplace(*options.motion, options.from.get(), scene, extent_, result_.statistics, [this] {
       if (reasons_.lose_motion()) stop_.request_stop();

@@ -1,7 +1,13 @@
 #include "run/run_steps.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <chrono>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "sim/make_system.hpp"
 
 namespace drape {
 namespace {
@@ -27,6 +33,24 @@ void replay(const Resumption& from, double h, std::span<StepObserver* const> obs
 }
 
 }  // namespace
+
+void require_whole(const Resumption& from, const Simulation& simulation) {
+  const Simulation::Checkpoint& kept = from.checkpoint;
+  const System system = make_system(simulation.settings());
+  Restraint expected;
+  for (const auto& filter : system.filters) {
+    const Restraint* const restraint = filter->restraint();
+    if (restraint != nullptr && kept.state.step > 0) expected = *restraint;
+  }
+  const Restraint& restraint = kept.state.restraint;
+  if (kept.books.has_value() == simulation.checkpoint().books.has_value() &&
+      restraint.tensions.size() == expected.tensions.size() &&
+      restraint.acceleration.rows() == expected.acceleration.rows()) {
+    return;
+  }
+  throw UsageError(fmt::format("{}: cannot be resumed, because its checkpoint does not have all parts: simulate again",
+                               shown(from.partial->file())));
+}
 
 Stop heeding(const std::stop_token& stop) {
   return Stop([stop] { return stop.stop_requested(); });

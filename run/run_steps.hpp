@@ -26,6 +26,10 @@ void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserve
 void run_steps(Simulation& simulation, std::int64_t steps, const std::stop_token& stop,
                const std::function<void(const StepReport&)>& after_step = {});
 
+/// Makes sure that a checkpoint has all that the simulation would have kept.
+/// @throws UsageError if parts of it are missing
+void require_whole(const Resumption& from, const Simulation& simulation);
+
 /// Goes on from a state, in a simulation of its own, until so many steps are done in all. Ends where that diverges.
 void run_on(const SimulationSettings& settings, const State& state, std::int64_t steps,
             const std::vector<StepObserver*>& observers, const std::stop_token& stop);

@@ -1,6 +1,7 @@
 #include "run/statistics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -57,6 +58,7 @@ double Statistics::mean_microseconds() const {
 
 double Statistics::median_microseconds() const {
   if (microseconds_.empty()) return 0;
+  if (std::isnan(mean_microseconds())) return mean_microseconds();  // they are not known
   std::vector<float> sorted = microseconds_;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());

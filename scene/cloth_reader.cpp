@@ -16,9 +16,6 @@
 namespace drape {
 namespace {
 
-/// Energies and volumes are products of up to three lengths, a stiffness and the number of vertices [m].
-constexpr double furthest_place = 1e90;
-
 std::optional<Eigen::Vector3d> read_scale(const TomlValue* value, Problems& problems) {
   constexpr const char* name = "scale";
   const Range positive{.minimum = 0, .minimum_excluded = true};

@@ -60,9 +60,11 @@ ClothShape shape_of(const Cloth& cloth) {
 }
 
 std::string ClothShape::text() const {
+  constexpr double rounding = 1e-12;  // of the largest extent: what is thinner is flat
+  const Eigen::Vector3d shown = (extent.array() > rounding * extent.maxCoeff()).select(extent, 0.0);
   return fmt::format("{} {} of {:.3g} × {:.3g} × {:.3g} m{}, edges of {:.3g} to {:.3g} m", pieces,
-                     pieces == 1 ? "piece" : "pieces", extent.x(), extent.y(), extent.z(),
-                     pieces == 1 ? "" : " together", shortest_edge, longest_edge);
+                     pieces == 1 ? "piece" : "pieces", shown.x(), shown.y(), shown.z(), pieces == 1 ? "" : " together",
+                     shortest_edge, longest_edge);
 }
 
 std::optional<std::string> ClothShape::doubt() const {

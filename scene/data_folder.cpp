@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/installation.hpp"
+#include "core/text.hpp"
 #include "scene/scene.hpp"
 
 namespace drape {
@@ -17,7 +18,7 @@ bool is_folder(const std::filesystem::path& path) {
 }  // namespace
 
 void use_data_folder(const std::filesystem::path& folder) {
-  if (!folder.empty() && !is_folder(folder)) throw UsageError("no such folder: " + folder.string());
+  if (!folder.empty() && !is_folder(folder)) throw UsageError("no such folder: " + shown(folder));
   chosen_data_folder = folder;
 }
 
@@ -31,8 +32,8 @@ std::filesystem::path data_folder() {
   if (is_folder(source)) return source;
   std::filesystem::path configured = configured_prefix() / installed;
   if (is_folder(configured)) return configured;
-  throw UsageError("no data folder found: none beside the program, and neither " + configured.string() + " nor " +
-                   source.string() + " exists");
+  throw UsageError("no data folder found: none beside the program, and neither " + shown(configured) + " nor " +
+                   shown(source) + " exists");
 }
 
 }  // namespace drape

@@ -113,7 +113,7 @@ TomlValue read_document(const std::filesystem::path& file) {
   } catch (const toml::parse_error& error) {
     const toml::source_position& at = error.source().begin;
     throw UsageError(
-        escape_controls(fmt::format("{}:{}:{}: {}", file.string(), at.line, at.column, error.description())));
+        fmt::format("{}:{}:{}: {}", shown(file), at.line, at.column, escape_controls(error.description())));
   }
 }
 

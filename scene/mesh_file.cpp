@@ -15,6 +15,7 @@ namespace {
 
 /// About 1.6 GB.
 constexpr double most_numbers = 2e8;
+constexpr double usual_frames_per_second = 24;
 
 using Inputs = std::vector<std::filesystem::path>;
 
@@ -62,20 +63,27 @@ Mesh read_obj(const std::filesystem::path& file, const MeshOptions& options, Inp
   return mesh;
 }
 
+void require_same_triangles(const std::filesystem::path& frame, const Mesh& first, const Mesh& mesh) {
+  if (mesh.positions.rows() != first.positions.rows() || mesh.triangles.size() != first.triangles.size()) {
+    fail_file(frame, fmt::format(
+                         "expected the {} vertices and {} triangles of the first frame, found {} vertices and {} "
+                         "triangles",
+                         first.positions.rows(), first.triangles.size(), mesh.positions.rows(), mesh.triangles.size()));
+  }
+  const auto other = std::ranges::mismatch(mesh.triangles, first.triangles);
+  if (other.in1 == mesh.triangles.end()) return;
+  fail_file(frame, fmt::format("expected the triangles of the first frame, but triangle {} has other vertices",
+                               1 + (other.in1 - mesh.triangles.begin())));
+}
+
 MeshMotion read_sequence(const std::filesystem::path& file, const MeshOptions& options, Inputs* inputs) {
   MeshMotion motion;
   for (const std::filesystem::path& frame : frame_files(file)) {
     Mesh mesh = read_obj(frame, options, inputs);
     if (motion.samples.empty()) motion.mesh = mesh;
-    if (mesh.positions.rows() != motion.mesh.positions.rows() || mesh.triangles != motion.mesh.triangles) {
-      fail_file(frame,
-                fmt::format("expected the {} vertices and {} triangles of the first frame, found {} vertices and {} "
-                            "triangles{}",
-                            motion.mesh.positions.rows(), motion.mesh.triangles.size(), mesh.positions.rows(),
-                            mesh.triangles.size(),
-                            mesh.triangles.size() == motion.mesh.triangles.size() ? ", or others" : ""));
-    }
-    motion.times.push_back(static_cast<double>(motion.samples.size()) / options.frames_per_second);
+    require_same_triangles(frame, motion.mesh, mesh);
+    motion.times.push_back(static_cast<double>(motion.samples.size()) /
+                           options.frames_per_second.value_or(usual_frames_per_second));
     motion.samples.push_back(std::move(mesh.positions));
     if (static_cast<double>(motion.samples.size()) * static_cast<double>(motion.samples[0].size()) > most_numbers) {
       fail_file(frame, "so many frames and vertices take too much memory: export fewer of either");
@@ -117,6 +125,11 @@ MeshMotion read_mesh_motion(const std::filesystem::path& file, const MeshOptions
   const Format format = format_of(file);
   check_options(file, format, options);
   if (format == Format::obj && names_frames(file)) return read_sequence(file, options, inputs);
+  if (options.frames_per_second) {
+    fail_file(file, format == Format::obj ? "a single OBJ does not move: omit 'fps', or name its frames as in "
+                                            "body_{frame:04}.obj"
+                                          : "a USD file says itself when its samples are: omit 'fps'");
+  }
   if (format == Format::obj) return {.mesh = read_obj(file, options, inputs)};
   const SourceText source = SourceText::read(file);
   const UsdStage stage(source, {.moving_points = true});

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
+#include "core/text.hpp"
 #include "scene/mesh_file.hpp"
 #include "scene/values.hpp"
 
@@ -53,9 +54,9 @@ std::optional<Mesh> read_named(const TomlValue& value, const std::string& name, 
   try {
     Mesh mesh = read_mesh(folder / named->file, named->options, &inputs);
     if (!mesh.triangles.empty()) return mesh;
-    problems.add(value.place, fmt::format("{}: '{}' has no triangles", name, named->file.string()));
+    problems.add(value.place, fmt::format("{}: '{}' has no triangles", name, shown(named->file)));
   } catch (const UsageError& error) {
-    problems.add(value.place, fmt::format("{}: '{}' cannot be read:\n{}", name, named->file.string(), error.what()));
+    problems.add(value.place, fmt::format("{}: '{}' cannot be read:\n{}", name, shown(named->file), error.what()));
   }
   return std::nullopt;
 }
@@ -82,7 +83,7 @@ std::optional<MeshName> read_mesh_name(const TomlValue& value, const std::string
     }
     if (entry.name == "fps") {
       const Range positive{.minimum = 0, .minimum_excluded = true};
-      mesh.options.frames_per_second = read_number(entry.value, name + ".fps", positive, problems).value_or(1);
+      mesh.options.frames_per_second = read_number(entry.value, name + ".fps", positive, problems);
       continue;
     }
     const auto text = read_string(entry.value, name + "." + entry.name, problems);

@@ -11,8 +11,8 @@ namespace drape {
 
 std::string Problems::text(const Place& place) const {
   if (place.override_number > 0) return fmt::format("--set {}", overrides_[place.override_number - 1]);
-  if (place.line == 0) return file_.string();
-  return fmt::format("{}:{}:{}", file_.string(), place.line, place.column);
+  if (place.line == 0) return shown(file_);
+  return fmt::format("{}:{}:{}", shown(file_), place.line, place.column);
 }
 
 std::string Problems::text() const {

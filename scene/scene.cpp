@@ -1,11 +1,12 @@
 #include "scene/scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 
 #include "scene/caption.hpp"
 #include "scene/cloth_reader.hpp"
@@ -122,6 +123,24 @@ class Checks {
                   fmt::format("frames: the film ends with frame {}, found {}", last, *beyond));
   }
 
+  /// Unless the film is shorter or smaller only because of an override that has nothing to do with them.
+  void ignored_exists() const {
+    const double last = scene_.video.last_frame(static_cast<double>(scene_.step_count()) * scene_.simulation.step);
+    const std::vector<int>& frames = scene_.check.ignore_frames;
+    const auto beyond = std::find_if(frames.begin(), frames.end(), [&](int frame) { return frame > last; });
+    if (beyond != frames.end() && !length_is_overridden()) {
+      add("check", "ignore_frames", fmt::format("ignore_frames: the film ends with frame {}, found {}", last, *beyond));
+    }
+    const Eigen::Vector2i size = scene_.check.size.value_or(scene_.video.size);
+    const auto outside = [&](const PixelRectangle& r) { return r[0] >= size.x() || r[1] >= size.y(); };
+    const auto& rectangles = scene_.check.ignore;
+    const auto found = std::find_if(rectangles.begin(), rectangles.end(), outside);
+    if (found == rectangles.end() || is_overridden({"video.size", "check.size"})) return;
+    add("check", "ignore",
+        fmt::format("ignore: [{}] is outside of the picture, which has {}x{} pixels", fmt::join(*found, ", "), size.x(),
+                    size.y()));
+  }
+
   void texture() const {
     if (!scene_.look.texture.empty() && scene_.uvs.empty()) {
       add("look", "texture", "texture: the mesh has no texture coordinates");
@@ -130,7 +149,10 @@ class Checks {
 
  private:
   [[nodiscard]] bool length_is_overridden() const {
-    const std::array<const char*, 4> keys{"time.duration", "time.step", "video.fps", "video.speed"};
+    return is_overridden({"time.duration", "time.step", "video.fps", "video.speed"});
+  }
+
+  [[nodiscard]] bool is_overridden(std::initializer_list<const char*> keys) const {
     return std::any_of(keys.begin(), keys.end(), [&](const char* key) {
       const TomlValue* value = find_path(document_, key);
       return value != nullptr && value->place.override_number > 0;
@@ -191,6 +213,10 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   scene.inputs.insert(scene.inputs.end(), cloth_inputs.begin(), cloth_inputs.end());
   if (const TomlValue* look = find_path(document, "look")) {
     scene.texture_place = problems.text(place_of(*look, "texture"));
+    if (!scene.look.texture.empty() && find_path(*look, "color") != nullptr) {
+      scene.doubts.push_back(problems.text(place_of(*look, "color")) +
+                             ": color: it is not seen, because the texture covers the cloth: omit one of the two");
+    }
   }
 
   for (const ReadEffect& read : effects) scene.simulation.effects.add(read.effect);
@@ -221,7 +247,10 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
     scene.simulation.effects.add(Bending{.rigidity = cloth_table.material->rigidity});
   }
   if (reader.good("check")) checks.compared_frames();
-  if (reader.good("check") && reader.good("time") && reader.good("video")) checks.compared_frames_exist();
+  if (reader.good("check") && reader.good("time") && reader.good("video")) {
+    checks.compared_frames_exist();
+    checks.ignored_exists();
+  }
   if (keys_good) problems.throw_if_any<SceneConflict>();
   problems.throw_if_any();
   scene.digest = digest(document, {"check", "caption", "overlay"});

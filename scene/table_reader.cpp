@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <any>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
+#include "core/text.hpp"
 #include "scene/check_settings.hpp"
 #include "scene/color.hpp"
 #include "scene/mesh_file.hpp"
@@ -59,7 +61,7 @@ class KeyReader {
 
   void operator()(bool* target) const { assign(target, read_bool(value_, key_.name, problems_)); }
   void operator()(int* target) const { assign(target, read_int(value_, key_.name, range_, problems_)); }
-  void operator()(double* target) const { assign(target, read_number(value_, key_.name, range_, problems_)); }
+  void operator()(double* target) const { assign(target, in_reach(read_number(value_, key_.name, range_, problems_))); }
   void operator()(std::string* target) const { assign(target, read_string(value_, key_.name, problems_)); }
   void operator()(std::filesystem::path* target) const {
     const std::optional<std::filesystem::path> file = read_file_name(value_, key_.name, folder_, problems_);
@@ -70,18 +72,20 @@ class KeyReader {
   void operator()(Eigen::Vector2i* target) const {
     assign(target, read_int_pair(value_, key_.name, range_, problems_));
   }
-  void operator()(Eigen::Vector3d* target) const { assign(target, read_vector(value_, key_.name, range_, problems_)); }
+  void operator()(Eigen::Vector3d* target) const {
+    assign(target, in_reach(read_vector(value_, key_.name, range_, problems_)));
+  }
   void operator()(std::vector<int>* target) const { assign(target, read_ints(value_, key_.name, range_, problems_)); }
   void operator()(std::optional<Eigen::Vector2i>* target) const {
     assign(target, read_int_pair(value_, key_.name, range_, problems_));
   }
   void operator()(std::optional<int>* target) const { assign(target, read_int(value_, key_.name, range_, problems_)); }
   void operator()(std::optional<double>* target) const {
-    assign(target, read_number(value_, key_.name, range_, problems_));
+    assign(target, in_reach(read_number(value_, key_.name, range_, problems_)));
   }
   void operator()(std::optional<Rgb>* target) const { assign(target, read_color()); }
   void operator()(std::optional<Eigen::Vector3d>* target) const {
-    assign(target, read_vector(value_, key_.name, range_, problems_));
+    assign(target, in_reach(read_vector(value_, key_.name, range_, problems_)));
   }
   void operator()(const OwnForm& form) const {
     if (auto* const* track = std::any_cast<std::shared_ptr<const SphereTrack>*>(&form.target)) {
@@ -94,7 +98,14 @@ class KeyReader {
       *std::any_cast<const TomlValue**>(form.target) = &value_;  // whoever describes the table reads it
     }
   }
-  void operator()(const KeyframeList& list) const { read_keyframes(value_, key_.name, list, problems_); }
+  void operator()(const KeyframeList& list) const {
+    const std::size_t before = problems_.count();
+    read_keyframes(value_, key_.name, list, problems_);
+    if (problems_.count() != before) return;
+    for (const Keyframe& keyframe : *list.keyframes) {
+      if (!in_reach(std::optional(keyframe.value))) return;
+    }
+  }
   void operator()(const VertexSelection& selection) const { *selection.vertices = read_pins(value_, mesh_, problems_); }
 
   void operator()(const FormulaList& list) const {
@@ -119,6 +130,19 @@ class KeyReader {
     if (result) *target = *result;
   }
 
+  static double magnitude(double number) { return std::abs(number); }
+  static double magnitude(const Eigen::Vector3d& vector) { return vector.cwiseAbs().maxCoeff(); }
+
+  /// Refuses places and velocities so large that their products overflow.
+  template <class Value>
+  std::optional<Value> in_reach(const std::optional<Value>& value) const {
+    const bool of_place = key_.unit == "m" || key_.unit == "m/s" || key_.unit == "s, m";
+    if (!value || !of_place || magnitude(*value) <= furthest_place) return value;
+    problems_.add(value_.place, fmt::format("{}: found {:g}; beyond {:g} {} it overflows double precision", key_.name,
+                                            magnitude(*value), furthest_place, key_.unit == "m/s" ? "m/s" : "m"));
+    return std::nullopt;
+  }
+
   void read_track(std::shared_ptr<const SphereTrack>& track) const {
     const std::optional<std::string> file = read_string(value_, key_.name, problems_);
     if (!file) return;
@@ -130,6 +154,15 @@ class KeyReader {
     }
   }
 
+  void require_reach(const MeshMotion& motion) const {
+    double furthest = motion.mesh.positions.lpNorm<Eigen::Infinity>();
+    for (const Vertices& sample : motion.samples) furthest = std::max(furthest, sample.lpNorm<Eigen::Infinity>());
+    if (furthest <= furthest_place) return;
+    problems_.add(value_.place,
+                  fmt::format("{}: a vertex is at {:g} m; distances beyond {:g} m overflow double precision", key_.name,
+                              furthest, furthest_place));
+  }
+
   /// A mesh that may move. Where a body names its file alone, the key `prim` beside it says which one of the file it
   /// is.
   void read_moving_mesh(std::shared_ptr<const MeshMotion>& mesh) const {
@@ -139,9 +172,10 @@ class KeyReader {
     if (prim != nullptr && prim->as<std::string>() != nullptr) named->options.prim = *prim->as<std::string>();
     try {
       mesh = std::make_shared<MeshMotion>(read_mesh_motion(folder_ / named->file, named->options, &files_));
+      require_reach(*mesh);
     } catch (const UsageError& error) {
       problems_.add(value_.place,
-                    fmt::format("{}: '{}' cannot be read:\n{}", key_.name, named->file.string(), error.what()));
+                    fmt::format("{}: '{}' cannot be read:\n{}", key_.name, shown(named->file), error.what()));
     }
   }
 

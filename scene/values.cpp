@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/nearest.hpp"
+#include "core/text.hpp"
 #include "scene/scene.hpp"
 
 namespace drape {
@@ -238,14 +239,18 @@ std::optional<std::filesystem::path> read_file_name(const TomlValue& value, cons
 
   const std::filesystem::path beside_scene = folder / *text;
   if (is_file(beside_scene)) return beside_scene;
+  if (std::error_code error; std::filesystem::is_directory(beside_scene, error)) {
+    problems.add(value.place, fmt::format("{}: expected a file, but {} is a folder", name, shown(beside_scene)));
+    return std::nullopt;
+  }
   try {
     const std::filesystem::path in_data = data_folder() / "textures" / *text;
     if (is_file(in_data)) return in_data;
     problems.add(value.place,
-                 fmt::format("{}: no such file: neither {} nor {}", name, beside_scene.string(), in_data.string()));
+                 fmt::format("{}: no such file: neither {} nor {}", name, shown(beside_scene), shown(in_data)));
   } catch (const UsageError& no_data_folder) {
     problems.add(value.place,
-                 fmt::format("{}: no such file: {} (and {})", name, beside_scene.string(), no_data_folder.what()));
+                 fmt::format("{}: no such file: {} (and {})", name, shown(beside_scene), no_data_folder.what()));
   }
   return std::nullopt;
 }

@@ -28,6 +28,9 @@ struct Range {
   [[nodiscard]] std::string text() const;
 };
 
+/// Energies and volumes are products of up to three lengths, a stiffness and the number of vertices [m].
+inline constexpr double furthest_place = 1e90;
+
 // Each of these reads a value of one kind, strictly: a number may be written as a whole one, and nothing else is
 // converted; no number may be nan or infinite. What does not fit is added to `problems`, at its own place and under
 // `name`, and nothing is returned.

@@ -13,6 +13,11 @@ Cloth make_cloth(const Mesh& start, const Mesh& rest, double mass, double stiffn
   if (start.positions.rows() != rest.positions.rows() || start.triangles != rest.triangles) {
     throw std::invalid_argument("the starting mesh and the rest mesh must have the same vertices and triangles");
   }
+  const auto is_vertex = [&](int i) { return i >= 0 && i < rest.positions.rows(); };
+  const auto is_whole = [&](const Triangle& triangle) { return std::ranges::all_of(triangle, is_vertex); };
+  if (!std::ranges::all_of(rest.triangles, is_whole)) {
+    throw std::invalid_argument("a triangle has a vertex that the mesh does not have");
+  }
   Cloth cloth;
   cloth.positions = start.positions;
   cloth.velocities = Vertices::Zero(start.positions.rows(), 3);

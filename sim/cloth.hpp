@@ -44,7 +44,7 @@ double size_of(const Cloth& cloth);
 /// @param mass     of the whole cloth, positive [kg]
 /// @param stiffness of every spring, positive [N/m]
 /// @param pins     vertices that do not move, in any order
-/// @throws std::invalid_argument if start and rest do not match, or a pin is not a vertex
+/// @throws std::invalid_argument if start and rest do not match, or a triangle's corner or a pin is not a vertex
 Cloth make_cloth(const Mesh& start, const Mesh& rest, double mass, double stiffness, std::vector<int> pins);
 
 /// Gives every vertex the mass of a third of each rest triangle at it, so that the mesh does not matter: fine and

@@ -41,6 +41,10 @@ std::string sentence(const mu::Parser& parser, const mu::ParserError& error) {
   const std::string where = fmt::format("at its character {}", error.GetPos() + 1);
   switch (error.GetCode()) {
     case mu::ecUNASSIGNABLE_TOKEN:
+      if (parser.GetFunDef().contains(error.GetToken())) {
+        return fmt::format("'{0}' {1} is a function: write what it is of in brackets, as in {0}(x)", error.GetToken(),
+                           where);
+      }
       return fmt::format("unknown name '{}' {}{}", error.GetToken(), where,
                          did_you_mean(error.GetToken(), known_names(parser), "the names are"));
     case mu::ecUNEXPECTED_EOF:

@@ -8,6 +8,7 @@
 #include "sim/schemes/registry.hpp"
 #include "sim/spring_network.hpp"
 #include "sim/step_forces.hpp"
+#include "sim/valid_settings.hpp"
 
 namespace drape {
 namespace {
@@ -17,6 +18,11 @@ std::unique_ptr<StabilityGuard> make_asked_guard(const SimulationSettings& setti
   if (settings.integrator.allow_unstable) return guard;
   if (const auto problem = guard->problem()) throw UsageError(*problem);
   return guard;
+}
+
+SimulationSettings valid(SimulationSettings settings) {
+  require_valid(settings);
+  return settings;
 }
 
 State initial_state(const Cloth& cloth) {
@@ -48,7 +54,7 @@ class Simulation::Motion {
   StabilityGuard::EnergyNow energy;  // K + E
 
   Motion(SimulationSettings given, Timing timing, const Stop& asked)
-      : settings(std::move(given)),
+      : settings(valid(std::move(given))),
         stop(asked),
         threads(settings.threads, settings.spare_threads),
         effect_seconds(timing == Timing::effects ? settings.effects.size() : 0, 0.0),
@@ -147,7 +153,9 @@ Energies Simulation::Motion::energies() {
   per_vertex = state.v.rowwise().squaredNorm();
   const double kinetic = 0.5 * m.dot(per_vertex);
   per_vertex.noalias() = state.x * system->gravity;
-  return {.kinetic = kinetic, .gravity = -m.dot(per_vertex), .elastic = elastic};
+  return {.kinetic = kinetic,
+          .gravity = 0 - m.dot(per_vertex),  // and not −0
+          .elastic = elastic};
 }
 
 Simulation::Simulation(SimulationSettings settings, Timing timing, const Stop& stop)

@@ -37,7 +37,8 @@ class Simulation {
   /// @param settings as a scene has them: a positive step, at least one thread, and effects whose check() finds nothing
   ///                 wrong, which is not called again
   /// @param stop asked for as long as it lives
-  /// @throws UsageError if the motion cannot be computed, see stability_problem() and MethodType::make
+  /// @throws UsageError if the settings are not valid, see require_valid(), or the motion cannot be computed, see
+  ///         stability_problem() and MethodType::make
   /// @throws Interrupted
   explicit Simulation(SimulationSettings settings, Timing timing = Timing::none, const Stop& stop = {});
   ~Simulation();

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/text.hpp"
 #include "scene/method_names.hpp"
 #include "sim/make_system.hpp"
 #include "sim/schemes/registry.hpp"
@@ -109,7 +110,7 @@ void leave_out_methods(const Scene& scene, const std::string& file, AccuracyOpti
       return false;
     } catch (const UsageError& error) {
       notes.push_back(
-          fmt::format("{} cannot compute {}: {}", step_method_name(method), scene.file.string(), error.what()));
+          fmt::format("{} cannot compute {}: {}", step_method_name(method), shown(scene.file), error.what()));
       return true;
     }
   });

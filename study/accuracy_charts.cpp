@@ -25,7 +25,7 @@ struct Again {
 };
 
 std::string command_of(const SceneAccuracy& scene, const Again& again) {
-  std::string text = "drape study accuracy " + shell_word(scene.scene);
+  std::string text = "drape study accuracy " + shell_file(scene.scene);
   for (const std::string& value : scene.options.overrides) text += " --set " + shell_word(value);
   text += fmt::format(" --parts {} --methods {} --times {}", again.parts, again.methods, list(scene.options.times));
   const auto add = [&text](const char* option, const std::vector<double>& values) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text.hpp"
 #include "study/accuracy.hpp"
 
 namespace drape {
@@ -56,7 +57,7 @@ AccuracyOptions complete(AccuracyOptions options, const Scene& scene) {
     const std::int64_t steps = steps_until(time, h);
     if (steps < 1 || steps > scene.step_count()) {
       throw UsageError(fmt::format("--times: {:g} s is beyond the motion of {}, which lasts {:g} s", time,
-                                   scene.file.string(), duration));
+                                   shown(scene.file), duration));
     }
     time = static_cast<double>(steps) * h;
   }
@@ -70,7 +71,7 @@ AccuracyOptions complete(AccuracyOptions options, const Scene& scene) {
     const double count = options.times.front() / step;
     if (!(count >= 1 - shortest_part) || std::abs(count - std::round(count)) > shortest_part * count) {
       throw UsageError(fmt::format("--steps: {:g} s does not divide {:g} s, the first of --times, in {}", step,
-                                   options.times.front(), scene.file.string()));
+                                   options.times.front(), shown(scene.file)));
     }
   }
   return options;

@@ -7,9 +7,12 @@
 #include <concepts>
 #include <limits>
 
+#include "core/names_in_folders.hpp"
 #include "core/nearest.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 #include "scene/method_names.hpp"
+#include "study/accuracy_soundness.hpp"
 #include "study/runs_file.hpp"
 
 namespace drape {
@@ -165,7 +168,7 @@ void read_point(RunsRecord& record, std::vector<Point>& points) {
 /// Reads the records of a file, one after the other.
 class StudyReader {
  public:
-  explicit StudyReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  explicit StudyReader(const std::filesystem::path& folder) : folder_(folder), file_((folder / runs_name).string()) {}
 
   void read(RunsRecord& record) {
     const std::string& kind = record.key.kind;
@@ -192,7 +195,11 @@ class StudyReader {
 
   AccuracyStudy finish(const std::string& file) {
     if (study_.scenes.empty()) throw UsageError(fmt::format("{}:1: there is no scene in it", file));
-    for (SceneAccuracy& one : study_.scenes) find_orders(one.steps);
+    for (SceneAccuracy& one : study_.scenes) {
+      const std::string problem = unsound_in(one);
+      if (!problem.empty()) throw UsageError(fmt::format("{}: {}: {}", file, one.name, problem));
+      find_orders(one.steps);
+    }
     return std::move(study_);
   }
 
@@ -216,7 +223,7 @@ class StudyReader {
   void read_scene(RunsRecord& record) {
     SceneAccuracy& s = study_.scenes.emplace_back();
     study_.pictures.emplace_back();
-    s.name = record.key.scene;
+    s.name = name_in_folder(record.key.scene, place(record), "scene");
     describe(record, s);
     std::vector<std::string> methods;
     record("methods", methods);
@@ -229,9 +236,7 @@ class StudyReader {
     record("file", picture.file);
     record("caption", picture.caption);
     record("command", picture.command);
-    if (std::filesystem::path(picture.file).filename() != picture.file) {
-      record.fail(record.line(), fmt::format("expected the name of a file beside this one, found '{}'", picture.file));
-    }
+    name_in_folder(picture.file, place(record), "file");
     const std::filesystem::path file = folder_ / picture.file,
                                 stills = std::filesystem::path(file).replace_extension(".png");
     picture.bytes = read_file(file, most_picture_bytes);
@@ -244,7 +249,11 @@ class StudyReader {
     record.fail(record.line(), fmt::format("nothing was said yet about a scene '{}'", record.key.scene));
   }
 
+  /// "runs.csv:12", for messages.
+  [[nodiscard]] std::string place(const RunsRecord& record) const { return fmt::format("{}:{}", file_, record.line()); }
+
   std::filesystem::path folder_;
+  std::string file_;
   AccuracyStudy study_;
 };
 
@@ -283,11 +292,12 @@ std::string runs_csv(const AccuracyStudy& study) {
 }
 
 AccuracyStudy read_runs(const std::filesystem::path& folder) {
+  require_links_inside(folder);
   const std::filesystem::path file = folder / runs_name;
-  std::vector<RunsRecord> records = parse_runs(read_text(file, most_bytes), file.string());
+  std::vector<RunsRecord> records = parse_runs(read_text(file, most_bytes), shown(file));
   StudyReader reader(folder);
   for (RunsRecord& record : records) reader.read(record);
-  return reader.finish(file.string());
+  return reader.finish(shown(file));
 }
 
 }  // namespace drape

@@ -8,7 +8,7 @@ namespace drape {
 namespace {
 
 std::string arguments(const StudyCase& what) {
-  std::string text = shell_word(what.scene);
+  std::string text = shell_file(what.scene);
   for (const std::string& value : what.overrides) text += " --set " + shell_word(value);
   return text + fmt::format(" --steps {}", what.steps);
 }

@@ -50,7 +50,10 @@ NamedChart profile_chart(const std::vector<ProfileCurve>& curves) {
       html::Scale::linear,
       {},
       {}};
-  double last = 1;
+  constexpr double least_last = 2;  // also where all are as fast
+  double last = least_last;
+  chart.x_holds = {1, least_last};
+  chart.y_holds = {0, 1};
   for (const ProfileCurve& curve : curves) {
     if (!curve.ratios.empty()) last = std::max(last, curve.ratios.back());
   }

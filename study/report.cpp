@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/atomic_file.hpp"
+#include "core/text.hpp"
 #include "html/markdown.hpp"
 #include "html/page.hpp"
 #include "sim/kernels/kernels.hpp"
@@ -17,9 +18,12 @@ html::Markup to_html(const StudyFinding& finding) {
   return html::element("strong", claim) + " " + finding.figures;
 }
 
-html::Markup to_html(const StudySection& section, const std::string& id) {
-  html::Markup content;
+/// @param is_answer whether it is what a reader has come for: its tables come first, and can be read in any window
+html::Markup to_html(const StudySection& section, const std::string& id, bool is_answer = false) {
+  html::Markup content, tables;
+  for (const ResultTable& table : section.tables) tables += to_html(table, is_answer);
   for (const std::string& paragraph : section.text) content += html::paragraph(paragraph);
+  if (is_answer) content += tables;
   for (const StudyPicture& picture : section.pictures) {
     content += html::figure(html::animation(picture.bytes, picture.stills, picture.caption), picture.caption) +
                html::command("Reproduce this animation", picture.command);
@@ -35,7 +39,7 @@ html::Markup to_html(const StudySection& section, const std::string& id) {
     for (const StabilityMap& map : section.maps) drawings.push_back(map_figure(map));
     content += map_legend() + html::row(drawings);
   }
-  for (const ResultTable& table : section.tables) content += to_html(table);
+  if (!is_answer) content += tables;
   return html::section(2, id, section.title, content);
 }
 
@@ -46,7 +50,7 @@ std::string to_markdown(const StudySection& section) {
   std::string text = fmt::format("\n## {}\n\n", markdown(section.title));
   for (const std::string& paragraph : section.text) text += markdown(paragraph) + "\n\n";
   for (const StudyPicture& picture : section.pictures) {
-    text += image(picture.caption, picture.file) + fmt::format("    {}\n\n", picture.command);
+    text += image(picture.caption, picture.file) + fmt::format("    {}\n\n", shown(picture.command));
   }
   for (const NamedChart& chart : section.charts) text += image(chart.chart.title, chart.name + ".svg");
   for (const StabilityMap& map : section.maps) text += image(map_title(map), map_name(map) + ".svg");
@@ -61,12 +65,44 @@ std::vector<StudySection> all_sections(const StudyReport& report) {
   return sections;
 }
 
+/// The text, or what fits of it and "…".
+std::string cut(std::string text, std::size_t width) {
+  if (columns_of(text) <= width) return text;
+  while (columns_of(text) >= width) {
+    std::size_t end = text.size() - 1;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // a character of several bytes
+    text.resize(end);
+  }
+  return text + "…";
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> study_provenance() {
   std::vector<std::pair<std::string, std::string>> facts = html::provenance();
   facts.emplace_back("Instruction set", std::string(kernels().name));
   return facts;
+}
+
+std::string to_summary(const StudyReport& report, std::size_t width) {
+  constexpr std::size_t most_lines = 5;
+  std::vector<std::string> lines{report.headline};
+  for (const StudyFinding& f : report.findings) {
+    lines.push_back(fmt::format("  {}{}{} {}", f.verdict, f.verdict.empty() ? "" : ": ", f.claim, f.figures));
+  }
+  for (const StudySection& section : report.sections) {
+    for (const std::string& paragraph : section.text) {
+      if (lines.size() < most_lines) lines.push_back("  " + paragraph);
+    }
+  }
+  if (lines.size() > most_lines) {
+    const std::size_t more = lines.size() - most_lines + 1;
+    lines.resize(most_lines - 1);
+    lines.push_back(fmt::format("  and {} more findings", more));
+  }
+  std::string text;
+  for (const std::string& line : lines) text += cut(line, width) + "\n";
+  return text;
 }
 
 std::string to_text(const StudyReport& report, std::size_t width) {
@@ -98,7 +134,7 @@ std::string to_markdown(const StudyReport& report) {
                         markdown(f.figures));
   }
   for (const StudySection& section : report.sections) text += to_markdown(section);
-  return text + fmt::format("    {}\n", report.command);
+  return text + fmt::format("    {}\n", shown(report.command));
 }
 
 std::string to_page(const StudyReport& report) {
@@ -111,7 +147,7 @@ std::string to_page(const StudyReport& report) {
   page.introduction = html::paragraph(report.introduction) + html::command("Reproduce this study", report.command);
   if (report.answer) {
     page.content =
-        to_html(*report.answer, "answer") + html::section(2, "findings", "Findings", html::findings(findings));
+        to_html(*report.answer, "answer", true) + html::section(2, "findings", "Findings", html::findings(findings));
   } else {
     page.content = html::findings(findings);
   }

@@ -58,6 +58,9 @@ struct StudyReport {
 /// What a study that runs now is made by and measured on: names and values.
 std::vector<std::pair<std::string, std::string>> study_provenance();
 
+/// In five lines: the headline and the first findings, then the first paragraphs.
+/// @param width of a line; what does not fit is cut, and ends with "…"
+std::string to_summary(const StudyReport& report, std::size_t width = unlimited_width);
 /// For a terminal of this width: the tables, and at the end what came out.
 std::string to_text(const StudyReport& report, std::size_t width = unlimited_width);
 std::string to_markdown(const StudyReport& report);

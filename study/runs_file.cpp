@@ -32,7 +32,7 @@ class CsvRows {
     CsvRow row;
     row.line = line_;
     do {
-      row.cells.push_back(cell());
+      row.cells.push_back(csv_text(cell()));
     } while (take(','));
     take('\r');
     if (!take('\n')) {

@@ -7,6 +7,7 @@
 
 #include "core/build_info.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 #include "scene/method_names.hpp"
 #include "study/runs_file.hpp"
 #include "study/stability_map.hpp"
@@ -159,13 +160,13 @@ MergedStability merge_stability(const std::vector<std::filesystem::path>& files)
   std::map<std::size_t, std::string> found;  // the shards' numbers, and their files
   std::size_t count = 0;
   for (const std::filesystem::path& path : files) {
-    std::vector<RunsRecord> records = parse_runs(read_text(path, most_bytes), path.string());
-    if (records.empty()) throw UsageError(fmt::format("{}: there is nothing in it", path.string()));
+    std::vector<RunsRecord> records = parse_runs(read_text(path, most_bytes), shown(path));
+    if (records.empty()) throw UsageError(fmt::format("{}: there is nothing in it", shown(path)));
     Heading heading;
     describe_heading(records.front(), heading);
     const Shard shard = parse_shard(heading.shard);
     if (heading.program != studying_program()) {
-      throw UsageError(fmt::format("{} was made by {}, but this is {}: one study is made by one program", path.string(),
+      throw UsageError(fmt::format("{} was made by {}, but this is {}: one study is made by one program", shown(path),
                                    heading.program, studying_program()));
     }
     if (found.empty()) {
@@ -175,7 +176,7 @@ MergedStability merge_stability(const std::vector<std::filesystem::path>& files)
     const StabilityDetail& detail = merged.study.detail;
     if (shard.count != count || heading.detail.per_decade != detail.per_decade ||
         heading.detail.steps != detail.steps) {
-      throw UsageError(fmt::format("{} and {} are not of one study", path.string(), found.begin()->second));
+      throw UsageError(fmt::format("{} and {} are not of one study", shown(path), found.begin()->second));
     }
     if (!found.try_emplace(shard.number, path.string()).second) continue;
     merged.study.seconds += heading.seconds;

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/names_in_folders.hpp"
+#include "core/text.hpp"
 #include "sweep/run_sweep.hpp"
 
 namespace drape {
@@ -23,16 +26,23 @@ bool is_part(const fs::path& folder, const char* mark) {
 /// @throws UsageError that says in what two plans differ
 void require_same(const SweepPlan& plan, const fs::path& from, const SweepPlan& first, const fs::path& first_from) {
   if (plan.program != first.program) {
-    throw UsageError(fmt::format("{} was made by {}, and {} by {}: one sweep is made by one program", from.string(),
-                                 plan.program, first_from.string(), first.program));
+    throw UsageError(fmt::format("{} was made by {}, and {} by {}: one sweep is made by one program", shown(from),
+                                 shown(plan.program), shown(first_from), shown(first.program)));
   }
   const nlohmann::ordered_json a = plan_json(plan), b = plan_json(first);
   for (const auto& [key, value] : a.items()) {
     if (value != b.at(key)) {
       throw UsageError(
-          fmt::format("{} and {} are not of one sweep: they differ in '{}'", from.string(), first_from.string(), key));
+          fmt::format("{} and {} are not of one sweep: they differ in '{}'", shown(from), shown(first_from), key));
     }
   }
+}
+
+/// A file under another name; a second name of the same file where the file system has them.
+void copy_or_link(const fs::directory_entry& from, const fs::path& to, std::error_code& error) {
+  const bool is_link = from.is_symlink(error);  // what it leads to may be another file from elsewhere
+  if (!is_link) fs::create_hard_link(from.path(), to, error);
+  if (is_link || error) fs::copy_file(from.path(), to, error);
 }
 
 /// A complete run's folder in another sweep, under a hidden name until all of it is there.
@@ -42,8 +52,8 @@ void take_over(const fs::path& from, const fs::path& to) {
   fs::remove_all(hidden, error);
   fs::create_directories(hidden, error);
   for (const auto& entry : fs::directory_iterator(from, error)) {
-    fs::create_hard_link(entry.path(), hidden / entry.path().filename(), error);
-    if (error) fs::copy_file(entry.path(), hidden / entry.path().filename(), error);
+    if (!entry.is_regular_file(error)) continue;  // a run writes files alone
+    copy_or_link(entry, hidden / entry.path().filename(), error);
     if (error) break;
   }
   if (!error) fs::remove_all(to, error);
@@ -51,7 +61,7 @@ void take_over(const fs::path& from, const fs::path& to) {
   if (!error) return;
   std::error_code ignored;
   fs::remove_all(hidden, ignored);
-  throw OutputError(fmt::format("cannot write {}: {}", to.string(), error.message()));
+  throw OutputError(fmt::format("cannot write {}: {}", shown(to), error.message()));
 }
 
 }  // namespace
@@ -69,39 +79,81 @@ std::vector<fs::path> parts_in(const fs::path& folder, const char* mark) {
     }
   }
   if (error == std::errc::not_a_directory) {
-    throw UsageError(fmt::format("{}: this is a file; expected a folder with shards", folder.string()));
+    throw UsageError(fmt::format("{}: this is a file; expected a folder with shards", shown(folder)));
   }
-  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  if (error) throw UsageError(fmt::format("{}: cannot be read: {}", shown(folder), error.message()));
   std::ranges::sort(found);
   if (found.empty() && is_part(folder, mark)) found.push_back(folder);
   return found;
 }
 
-SweepFile merge_sweeps(const std::vector<fs::path>& parts, const fs::path& folder) {
-  std::optional<SweepFile> whole;
-  for (const fs::path& part : parts) {
-    const std::optional<SweepFile> file = read_sweep_file(part);
-    if (!file) throw UsageError(fmt::format("{}: there is no sweep in it", part.string()));
-    if (whole) require_same(file->plan, part, whole->plan, parts.front());
-    if (!whole) whole = file;
+namespace {
+
+/// A part of a sweep as its folder says it, all of which is read before anything is written.
+struct SweepPart {
+  fs::path folder;
+  SweepFile file;
+  std::map<std::string, bool> settled;  // by the keys of its runs
+};
+
+/// Notes whether a run is settled, if the folder of the sweep has it and its record is not damaged.
+void note_run(const fs::path& sweep, const std::string& key, std::map<std::string, bool>& settled) {
+  const std::optional<RunRecord> found = read_run(sweep, key);
+  if (found && found->outcome != RunOutcome::not_run) settled.emplace(key, found->settled());
+}
+
+SweepPart read_part(const fs::path& folder) {
+  require_links_inside(folder);
+  std::optional<SweepFile> file = read_sweep_file(folder);
+  if (!file) throw UsageError(fmt::format("{}: there is no sweep in it", shown(folder)));
+  SweepPart part{.folder = folder, .file = std::move(*file), .settled = {}};
+  for (const PlannedRun& run : part.file.plan.runs) note_run(folder, run.key, part.settled);
+  return part;
+}
+
+/// The runs that the folder of the whole has already, and whether they are settled.
+/// @throws UsageError if links lead from there elsewhere
+std::map<std::string, bool> runs_already_in(const fs::path& folder, const SweepPlan& plan) {
+  std::map<std::string, bool> settled;
+  for (const PlannedRun& run : plan.runs) {
+    if (run.key.empty()) continue;
+    require_inside(run_place(folder, run.key), folder);
+    note_run(folder, run.key, settled);
   }
-  if (!whole) throw UsageError("there is nothing to merge");
-  whole->shard = {};
+  return settled;
+}
+
+}  // namespace
+
+SweepFile merge_sweeps(const std::vector<fs::path>& folders, const fs::path& folder, const std::stop_token& stop) {
+  std::vector<SweepPart> parts;
+  for (const fs::path& part : folders) {
+    parts.push_back(read_part(part));
+    const SweepPart& first = parts.front();
+    require_same(parts.back().file.plan, part, first.file.plan, first.folder);
+  }
+  if (parts.empty()) throw UsageError("there is nothing to merge");
+  SweepFile whole = parts.front().file;
+  whole.shard = {};
+  require_inside(folder / "runs", folder);
+  std::map<std::string, bool> merged = runs_already_in(folder, whole.plan);
   const SweepLock lock(folder);
   remove_unfinished(folder);
-  write_sweep_file(folder, *whole);
-  for (const PlannedRun& run : whole->plan.runs) {
-    std::optional<RunRecord> has = read_run(folder, run.key);
-    for (const fs::path& part : parts) {
-      if (has && has->settled()) break;
-      const std::optional<RunRecord> found = read_run(part, run.key);
+  write_sweep_file(folder, whole);
+  for (const PlannedRun& run : whole.plan.runs) {
+    if (stop.stop_requested()) break;
+    for (const SweepPart& part : parts) {
+      const auto has = merged.find(run.key);
+      if (has != merged.end() && has->second) break;
+      const auto found = part.settled.find(run.key);
       std::error_code ignored;
-      if (!found || fs::equivalent(part, folder, ignored) || (has && !found->settled())) continue;
-      take_over(run_place(part, run.key), run_place(folder, run.key));
-      has = found;
+      if (found == part.settled.end() || fs::equivalent(part.folder, folder, ignored)) continue;
+      if (has != merged.end() && !found->second) continue;
+      take_over(run_place(part.folder, run.key), run_place(folder, run.key));
+      merged.insert_or_assign(run.key, found->second);
     }
   }
-  return *whole;
+  return whole;
 }
 
 }  // namespace drape

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,11 @@ std::vector<std::filesystem::path> parts_in(const std::filesystem::path& folder,
 
 /// Puts the runs of parts together in one folder, as if one process had run them all; of runs that several have, one
 /// that is settled wins. Files are linked where the file system can, and copied where not.
+/// @param stop asked between two runs: those that are left are not taken over then
 /// @returns the whole sweep
 /// @throws UsageError  if the parts are not of one sweep
 /// @throws OutputError
-SweepFile merge_sweeps(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder);
+SweepFile merge_sweeps(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
+                       const std::stop_token& stop = {});
 
 }  // namespace drape

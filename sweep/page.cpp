@@ -11,6 +11,7 @@
 #include "core/read_file.hpp"
 #include "html/explore.hpp"
 #include "html/page.hpp"
+#include "render/image_header.hpp"
 #include "sweep/charts.hpp"
 #include "sweep/tables.hpp"
 
@@ -20,6 +21,7 @@ namespace {
 using html::Markup;
 
 constexpr std::size_t most_sheet_bytes = std::size_t{1} << 28;
+constexpr double most_sheet_pixels = 1 << 28;        // larger ones come from strangers
 constexpr std::size_t most_film_bytes = 48'000'000;  // of all that a page holds
 constexpr int widest = 240;                          // of a film's picture on the page [pixels]
 constexpr int gap = 6;                               // between the pictures of a contact sheet [pixels]
@@ -32,7 +34,10 @@ std::optional<html::Strip> strip_of(const SweepResults& results, const SweepRow&
   const int count = static_cast<int>(row.record.moments.size());
   if (file == files.end() || count == 0) return std::nullopt;
   const std::string& key = results.planned(row).key;
-  const cv::Mat sheet = codecs().decode(read_file(run_place(folder, key) / *file, most_sheet_bytes), cv::IMREAD_COLOR);
+  const std::string bytes = read_file(run_place(folder, key) / *file, most_sheet_bytes);
+  const auto size = size_in_header({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+  if (!size || static_cast<double>(size->width) * size->height > most_sheet_pixels) return std::nullopt;
+  const cv::Mat sheet = codecs().decode(bytes, cv::IMREAD_COLOR);
   const int columns = std::min(count, sweep_sheet.columns), rows = (count + columns - 1) / columns;
   const int width = (sheet.cols - (columns - 1) * gap) / columns, height = (sheet.rows - (rows - 1) * gap) / rows;
   if (width < 1 || height < 1) return std::nullopt;
@@ -45,8 +50,8 @@ std::optional<html::Strip> strip_of(const SweepResults& results, const SweepRow&
     cv::Mat to = strip(cv::Rect(column * small.width, line * small.height, small.width, small.height));
     cv::resize(from, to, small, 0, 0, cv::INTER_AREA);
   }
-  const std::vector<std::uint8_t> bytes = codecs().encode_png(strip);
-  return html::Strip{.bytes = {bytes.begin(), bytes.end()},
+  const std::vector<std::uint8_t> png = codecs().encode_png(strip);
+  return html::Strip{.bytes = {png.begin(), png.end()},
                      .columns = columns,
                      .count = count,
                      .size = {small.width, small.height},

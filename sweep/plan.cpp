@@ -34,11 +34,8 @@ class RunProblems {
 
   void add(const PlannedRun& run, const Error& error) {
     kind_ = std::max(kind_, error.kind());
-    std::istringstream lines(error.what());
+    std::istringstream lines(as_varied(error.what(), overrides_of(plan_.request.varied, run.values)));
     for (std::string line; std::getline(lines, line);) {
-      for (const std::string& override : overrides_of(plan_.request.varied, run.values)) {
-        if (line.starts_with("--set " + override + ": ")) line.replace(0, 5, "--vary");
-      }
       auto [found, is_new] = by_message_.try_emplace(line, 0, label_of(plan_, run));
       if (is_new) order_.push_back(line);
       ++found->second.count;

@@ -93,7 +93,10 @@ class SweepTable {
   }
   void read_steps(const TomlValue& value) {
     const std::int64_t* given = value.as<std::int64_t>();
-    if (given == nullptr || *given < 0) return fail(value, "steps", "a whole number from 0 on");
+    if (given == nullptr) return fail(value, "steps", "a whole number from 0 on");
+    if (*given < 0) {
+      return problems_.add(value.place, fmt::format("steps: expected a whole number from 0 on, found {}", *given));
+    }
     if (!request_.steps) request_.steps = *given;
   }
 
@@ -124,7 +127,9 @@ class SweepTable {
         problems_.add(value.place, fmt::format("{}: {}", name, error.what()));
       }
     } else {
-      fail(value, name, "an array of values, or a text as --vary takes it");
+      const std::string kind = value.as<TomlArray>() != nullptr ? "an empty array" : value.kind();
+      problems_.add(value.place,
+                    fmt::format("{}: expected an array of values, or a text as --vary takes it, found {}", name, kind));
     }
   }
 
@@ -161,7 +166,7 @@ std::vector<std::string> add_sweep_table(const std::string& file, SweepRequest& 
 
 std::string command_of(const SweepRequest& request) {
   std::string text = "drape sweep";
-  for (const std::string& scene : request.scenes) text += " " + shell_word(scene);
+  for (const std::string& scene : request.scenes) text += " " + shell_file(scene);
   for (const std::string& value : request.overrides) text += " --set " + shell_word(value);
   for (const Variation& variation : request.varied) {
     std::string values;

@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/names_in_folders.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 using Json = nlohmann::ordered_json;
@@ -16,6 +18,15 @@ namespace {
 constexpr int format_number = 2;
 constexpr const char* sweep_name = "sweep.json";
 constexpr std::size_t most_sweep_bytes = std::size_t{1} << 30;
+
+/// The keys of runs name their folders. A run that was refused has none.
+void require_names(const SweepPlan& plan, const std::filesystem::path& file) {
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    const PlannedRun& run = plan.runs[i];
+    if (run.key.empty() && !run.refusal.empty()) continue;
+    name_in_folder(run.key, file, fmt::format("plan.runs[{}].key", i));
+  }
+}
 
 /// The place of a value on an axis, where it is put if it is new.
 std::size_t place_on(SweepAxis& axis, const std::string& value) {
@@ -80,13 +91,20 @@ std::optional<SweepFile> read_sweep_file(const std::filesystem::path& folder) {
     const Json json = Json::parse(read_file(file, most_sweep_bytes));
     if (const int found = json.at("format"); found != format_number) {
       throw UsageError(fmt::format("{}: it is of format {}, and this drape reads format {}: use the one that wrote it",
-                                   file.string(), found, format_number));
+                                   shown(file), found, format_number));
     }
-    return SweepFile{plan_of(json.at("plan")), parse_shard(json.at("shard"))};
+    SweepFile sweep{plan_of(json.at("plan")), parse_shard(json.at("shard"))};
+    require_names(sweep.plan, file);
+    return sweep;
   } catch (const Error&) {
     throw;
+  } catch (const Json::parse_error& error) {
+    throw UsageError(fmt::format("{}: it is damaged at byte {}; drape sweep writes it anew", shown(file), error.byte));
+  } catch (const Json::exception&) {
+    throw UsageError(fmt::format("{}: it is damaged: a value is missing or of another kind; drape sweep writes it anew",
+                                 shown(file)));
   } catch (const std::exception& error) {
-    throw UsageError(fmt::format("{}: it is damaged ({}); drape sweep writes it anew", file.string(), error.what()));
+    throw UsageError(fmt::format("{}: it is damaged ({}); drape sweep writes it anew", shown(file), error.what()));
   }
 }
 

@@ -11,7 +11,9 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/names_in_folders.hpp"
 #include "core/read_file.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;
@@ -35,8 +37,38 @@ void flatten(const Json& json, const std::string& name, std::vector<std::pair<st
   }
 }
 
+/// A record, whose nesting is bounded: reading its figures takes a stack frame for each level.
+/// @returns nothing if it is damaged
+std::optional<Json> parsed_record(const fs::path& file) {
+  constexpr int deepest = 16;
+  bool too_deep = false;
+  const auto bounded = [&](int depth, Json::parse_event_t, const Json&) {
+    too_deep = too_deep || depth > deepest;
+    return !too_deep;
+  };
+  try {
+    Json json = Json::parse(read_file(file, most_record_bytes), bounded);
+    return too_deep || !json.is_object() ? std::nullopt : std::optional(std::move(json));
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
+/// @throws UsageError if the record's key, or a file that it names, is not the name of something in a folder
+void require_names(const Json& record, const fs::path& file) {
+  const auto require = [&](const Json& name, const std::string& key) {
+    if (name.is_string()) name_in_folder(name.get_ref<const std::string&>(), file, key);
+  };
+  if (record.contains("key")) require(record["key"], "key");
+  if (!record.contains("files") || !record["files"].is_array()) return;
+  const Json& files = record["files"];
+  for (std::size_t i = 0; i < files.size(); ++i) require(files[i], fmt::format("files[{}]", i));
+}
+
 [[noreturn]] void fail(const fs::path& place, const std::error_code& error) {
-  throw OutputError(fmt::format("cannot write {}: {}", place.string(), error.message()));
+  throw OutputError(fmt::format("cannot write {}: {}", shown(place), error.message()));
 }
 
 /// @throws OutputError that names the folder of the runs: of many that fail, the message is one
@@ -60,8 +92,13 @@ std::optional<RunRecord> read_run(const fs::path& sweep, const std::string& key)
   const fs::path file = run_place(sweep, key) / record_name;
   std::error_code ignored;
   if (key.empty() || !fs::exists(file, ignored)) return std::nullopt;
+  RunRecord damaged;
+  damaged.reason = fmt::format("{} is damaged: --resume runs it again", shown(file));
+  const std::optional<Json> parsed = parsed_record(file);
+  if (!parsed) return damaged;
+  const Json& json = *parsed;
+  require_names(json, file);
   try {
-    const Json json = Json::parse(read_file(file, most_record_bytes));
     if (json.at("format") != 1 || json.at("key") != key) return std::nullopt;
     const auto* const name = std::ranges::find(run_outcome_names, json.at("outcome").get<std::string>());
     if (name == run_outcome_names.end()) return std::nullopt;
@@ -75,9 +112,7 @@ std::optional<RunRecord> read_run(const fs::path& sweep, const std::string& key)
     flatten(json.at("figures"), "", record.figures);
     return record;
   } catch (const Json::exception&) {
-    return std::nullopt;  // it is run again, and replaced
-  } catch (const UsageError&) {
-    return std::nullopt;
+    return damaged;
   }
 }
 

@@ -35,7 +35,9 @@ struct RunRecord {
 /// Where a run's folder is.
 std::filesystem::path run_place(const std::filesystem::path& sweep, const std::string& key);
 
-/// What a run's folder says of it; nothing if there is none, or it is no record of this run.
+/// What a run's folder says of it; nothing if there is none, or it is no record of this run. One that is damaged is a
+/// run that was not run, with the reason.
+/// @throws UsageError if it names a file that is not in the folder
 std::optional<RunRecord> read_run(const std::filesystem::path& sweep, const std::string& key);
 
 /// The folder of a run, which appears under its name only when the run is complete. Until then it is hidden, and gone

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "output/contact_sheet.hpp"
 #include "run/run_scene.hpp"
 #include "sweep/common_side.hpp"
@@ -139,7 +140,7 @@ class Sweep {
       Scene scene = load_scene(plan_.request.scenes[run.scene], overrides_of(plan_, run));
       if (run_key(scene, plan_) != run.key) {
         throw UsageError(
-            fmt::format("{}: it, or a file that it names, has changed since the sweep began", scene.file.string()));
+            fmt::format("{}: it, or a file that it names, has changed since the sweep began", shown(scene.file)));
       }
       if (chooses_side(plan_.request, scene.camera)) look_from(side(), scene.camera);
       Progress unseen;
@@ -177,11 +178,11 @@ SweepLock::SweepLock(const std::filesystem::path& folder) {
   if (!error) descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) {
     if (!error) error.assign(errno, std::generic_category());
-    throw OutputError(fmt::format("cannot write {}: {}", file.string(), error.message()));
+    throw OutputError(fmt::format("cannot write {}: {}", shown(file), error.message()));
   }
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor_);
-    throw UsageError(fmt::format("{}: another drape is running a sweep in this folder", folder.string()));
+    throw UsageError(fmt::format("{}: another drape is running a sweep in this folder", shown(folder)));
   }
 }
 

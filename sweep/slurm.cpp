@@ -2,11 +2,38 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "core/atomic_file.hpp"
+#include "core/error.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 
 namespace drape {
 namespace {
+
+/// A word as sbatch reads it in its own lines of a script: between quotes, where a backslash keeps what comes after it,
+/// also a # (Slurm's _get_argument).
+/// @throws UsageError
+std::string slurm_word(const std::string& word) {
+  if (word.find_first_of("\r\n") != std::string::npos) {
+    throw UsageError(fmt::format("a script of Slurm cannot name '{}', as it has a line feed in it", shown(word)));
+  }
+  if (shell_word(word) == word) return word;
+  std::string quoted = "\"";
+  for (const char c : word) {
+    if (std::string_view("\\\"#").find(c) != std::string_view::npos) quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+/// A folder in the name of a log, in which Slurm replaces %.
+std::filesystem::path log_folder(const std::filesystem::path& folder) {
+  std::string text;
+  for (const char c : folder.string()) text += c == '%' ? std::string("%%") : std::string(1, c);
+  return text;
+}
 
 /// The lines with which a script says what it asks of Slurm.
 std::string head(const SlurmJobs& jobs, const std::string& name, const std::string& log) {
@@ -17,7 +44,7 @@ std::string head(const SlurmJobs& jobs, const std::string& name, const std::stri
       "#SBATCH --output={}\n"
       "#SBATCH --open-mode=append\n"
       "#SBATCH --requeue\n",
-      name, shell_word(std::filesystem::current_path().string()), shell_word((jobs.folder / log).string()));
+      name, slurm_word(std::filesystem::current_path().string()), slurm_word((log_folder(jobs.folder) / log).string()));
   for (const std::string& option : jobs.options) text += "#SBATCH " + option + "\n";
   return text;
 }

@@ -20,6 +20,8 @@ struct SlurmJobs {
 /// Writes sweep.sbatch, merge.sbatch and submit.sh, which submits both, into the folder. A task that is run again goes
 /// on where it was.
 /// @returns submit.sh
+/// @throws UsageError if this folder or that of the sweep has a line feed in its name, where sbatch would look for
+/// options
 /// @throws OutputError
 std::filesystem::path write_slurm_jobs(const SlurmJobs& jobs);
 

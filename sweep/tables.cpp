@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "core/text.hpp"
 #include "figures/result_table.hpp"
 #include "html/latex.hpp"
 #include "html/markdown.hpp"
@@ -156,7 +157,7 @@ std::string sweep_markdown(const SweepResults& results) {
   std::string text = fmt::format("# {}\n\n", markdown(results.headline()));
   for (const SweepGrid& grid : grids_of(results)) text += markdown_grid(results, grid);
   for (const std::string& trouble : results.troubles()) text += fmt::format("- {}\n", markdown(trouble));
-  return text + fmt::format("\n    {}\n", command_of(results.plan.request));
+  return text + fmt::format("\n    {}\n", shown(command_of(results.plan.request)));
 }
 
 std::string sweep_latex(const SweepResults& results) {

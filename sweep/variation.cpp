@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <string_view>
 
@@ -43,6 +45,19 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
+/// A number with the digits that mean something: rounded by no more than a thousandth of what it is apart from the
+/// next, but in no less than 4 digits.
+std::string rounded(double value, double apart) {
+  constexpr int least = 4, most = 12;  // of 1e-3 not what rounding has left
+  if (std::abs(value) <= 1e-9 * apart) return "0";
+  std::string text;
+  for (int digits = least; digits <= most; ++digits) {
+    text = fmt::format("{:.{}g}", value, digits);
+    if (std::abs(std::strtod(text.c_str(), nullptr) - value) <= 1e-3 * apart) break;
+  }
+  return text;
+}
+
 /// The values of a range; nothing if the text does not begin as one.
 std::optional<std::vector<std::string>> range_values(std::string_view text) {
   const std::size_t dots = text.find("..");
@@ -54,8 +69,8 @@ std::optional<std::vector<std::string>> range_values(std::string_view text) {
   if (logarithmic) amount.remove_suffix(3);
   const auto from = number(text.substr(0, dots)), to = number(rest.substr(0, slash)), count = number(amount);
   if (!to || !count || *count < 2 || *count > most_combinations || *count != std::floor(*count)) {
-    throw UsageError(
-        fmt::format("a range is FROM..TO/COUNT or FROM..TO/COUNTlog with a count from 2 on, found '{}'", text));
+    throw UsageError(fmt::format("a range is FROM..TO/COUNT or FROM..TO/COUNTlog with a count from 2 to {}, found '{}'",
+                                 most_combinations, text));
   }
   if (logarithmic && !(*from > 0 && *to > 0)) {
     throw UsageError(fmt::format("a range of equal ratios goes between numbers above 0, found '{}'", text));
@@ -63,8 +78,12 @@ std::optional<std::vector<std::string>> range_values(std::string_view text) {
   std::vector<std::string> values;
   for (double i = 0; i < *count; ++i) {
     const double part = i / (*count - 1);
-    const double value = logarithmic ? *from * std::pow(*to / *from, part) : *from + (*to - *from) * part;
-    values.push_back(fmt::format("{:.12g}", value));  // of 1e-3 not what rounding has left
+    const double value = logarithmic ? std::exp(std::lerp(std::log(*from), std::log(*to), part))
+                                     : *from * (1 - part) + *to * part;  // which does not overflow
+    const double apart = logarithmic ? value * std::abs(std::log(*to) - std::log(*from)) / (*count - 1)
+                                     : std::abs(*to / (*count - 1) - *from / (*count - 1));
+    const bool end = i == 0 || i == *count - 1;
+    values.push_back(end ? fmt::format("{:.12g}", i == 0 ? *from : *to) : rounded(value, apart));
   }
   return values;
 }
@@ -130,6 +149,23 @@ std::vector<std::string> overrides_of(const std::vector<Variation>& varied, cons
   std::vector<std::string> overrides;
   for (std::size_t i = 0; i < varied.size(); ++i) overrides.push_back(varied[i].key + "=" + values[i]);
   return overrides;
+}
+
+std::string as_varied(std::string_view message, const std::vector<std::string>& overrides) {
+  std::string text;
+  for (std::size_t begin = 0; begin <= message.size();) {
+    const std::size_t end = std::min(message.find('\n', begin), message.size());
+    std::string line(message.substr(begin, end - begin));
+    for (const std::string& override : overrides) {
+      if (line.starts_with("--set " + override + ": ")) line.replace(0, 5, "--vary");
+      // Of a motion, which is only read.
+      const std::string key = override.substr(0, override.find('='));
+      if (line.starts_with(key + ": ") && line.ends_with(" in --set")) line.replace(line.size() - 5, 5, "--vary");
+    }
+    text += (begin == 0 ? "" : "\n") + line;
+    begin = end + 1;
+  }
+  return text;
 }
 
 }  // namespace drape

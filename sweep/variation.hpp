@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace drape {
@@ -28,5 +29,8 @@ std::vector<std::vector<std::string>> combinations(const std::vector<Variation>&
 
 /// A combination as overrides of a scene: "integrator.tolerance=0.01".
 std::vector<std::string> overrides_of(const std::vector<Variation>& varied, const std::vector<std::string>& values);
+
+/// A message about a scene or motion with such overrides, in which the lines about them name --vary and not --set.
+std::string as_varied(std::string_view message, const std::vector<std::string>& overrides);
 
 }  // namespace drape

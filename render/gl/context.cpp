@@ -2,10 +2,36 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "render/gl/llvmpipe.hpp"
 
 namespace drape {
+namespace {
+
+/// Refuses to load Mesa where it would end the process: LLVM does not survive that there is no memory.
+void require_address_space() {
+  static std::atomic<bool> loaded = false;
+  if (loaded) return;
+  constexpr double base = 1.1e9, of_thread = 80e6;    // measured [bytes]; most of it is mapped and never used
+  constexpr unsigned most_threads = 32, counted = 2;  // of llvmpipe, and when it was measured
+  const unsigned threads = std::clamp(std::thread::hardware_concurrency(), counted, most_threads);
+  const double need = base + of_thread * (threads - counted), left = address_space_left();
+  if (left >= need) {
+    loaded = true;
+    return;
+  }
+  throw OutputError(fmt::format(
+      "cannot draw: Mesa needs {:.1f} GB of address space, and the limit of this process leaves {:.1f} GB; raise "
+      "it (ulimit -v)",
+      need / 1e9, std::max(0.0, left) / 1e9));
+}
+
+}  // namespace
 
 const char* backend_name(GlBackend backend) {
   switch (backend) {
@@ -24,6 +50,7 @@ const char* debian_packages(GlBackend backend) {
 }
 
 std::unique_ptr<GlContext> make_gl_context(GlBackend backend) {
+  require_address_space();
   if (backend == GlBackend::osmesa) return make_osmesa_context();
   if (backend == GlBackend::egl) return make_egl_context();
   prepare_llvmpipe();  // an environment that is wrong is so for both

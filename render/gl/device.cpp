@@ -1,10 +1,15 @@
 #include "render/gl/device.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <iterator>
 #include <mutex>
 #include <tuple>
+
+#include "core/error.hpp"
 
 namespace drape {
 namespace {
@@ -35,6 +40,19 @@ struct IdleDevices {
 IdleDevices& idle() {
   static auto* const all = new IdleDevices;
   return *all;
+}
+
+/// Refuses to draw in a process that was forked from one that has drawn: Mesa's threads are not in it, and whoever
+/// waits for them waits for ever.
+void require_own_mesa() {
+  static std::atomic<pid_t> owner = 0;
+  pid_t none = 0;
+  const pid_t self = ::getpid();
+  if (owner.compare_exchange_strong(none, self) || none == self) return;
+  throw OutputError(
+      "cannot draw: this process was forked from one that had drawn, and Mesa's threads stayed there; draw first in "
+      "the "
+      "new process, or start it anew (in Python multiprocessing.set_start_method(\"spawn\"))");
 }
 
 std::unique_ptr<GlContext> make_current_context(GlBackend backend) {
@@ -76,6 +94,7 @@ void GiveBack::operator()(GlDevice* device) const noexcept {
 }
 
 BorrowedDevice borrow_device(const std::filesystem::path& data_folder, GlBackend backend) {
+  require_own_mesa();
   BorrowedDevice device(idle().take(data_folder, backend).release());
   if (!device) return BorrowedDevice(std::make_unique<GlDevice>(data_folder, backend).release());
   device->make_current();

@@ -9,9 +9,9 @@ namespace drape {
 struct MeshOptions {
   enum class Up { y, z };
 
-  std::string prim = {};          ///< of a USD file, "/World/cloth"; empty: the only mesh
-  std::optional<Up> up = {};      ///< of an OBJ, which cannot say it itself; without it z
-  double frames_per_second = 24;  ///< of an OBJ sequence
+  std::string prim = {};                         ///< of a USD file, "/World/cloth"; empty: the only mesh
+  std::optional<Up> up = {};                     ///< of an OBJ, which cannot say it itself; without it z
+  std::optional<double> frames_per_second = {};  ///< of an OBJ sequence; without it 24
 };
 
 }  // namespace drape

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view frame_opening = "{frame";
 
 [[noreturn]] void fail_sequence(const std::filesystem::path& file, const std::string& message) {
-  throw UsageError(escape_controls(file.string() + ": " + message));
+  throw UsageError(shown(file) + ": " + escape_controls(message));
 }
 
 /// A name around a number.

@@ -18,7 +18,7 @@ bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U
 /// Refuses what is no text, but would be one if it were exported again.
 void require_no_binary_usd(const std::filesystem::path& file, const std::string& bytes) {
   const auto fail = [&](const char* form) {
-    throw UsageError(fmt::format("{}: this is a {}; export it as ASCII, with the ending .usda", file.string(), form));
+    throw UsageError(fmt::format("{}: this is a {}; export it as ASCII, with the ending .usda", shown(file), form));
   };
   if (bytes.starts_with("PXR-USDC")) fail("binary USD file (usdc)");
   if (bytes.starts_with("PK\x03\x04")) fail("packed USD file (usdz)");
@@ -46,10 +46,10 @@ void SourceText::fail(std::size_t offset, const std::string& message) const {
   for (std::size_t i = newline == std::string::npos ? 0 : newline + 1; i < offset; ++i) {
     if (!continues_character(text_[i])) ++column;
   }
-  throw UsageError(fmt::format("{}:{}:{}: {}", name_, line(offset), column, message));
+  throw UsageError(fmt::format("{}:{}:{}: {}", shown(name_), line(offset), column, message));
 }
 
-void SourceText::fail(const std::string& message) const { throw UsageError(name_ + ": " + message); }
+void SourceText::fail(const std::string& message) const { throw UsageError(shown(name_) + ": " + message); }
 
 std::string in_quotes(std::string_view piece) {
   constexpr std::size_t longest = 40;

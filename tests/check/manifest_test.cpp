@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "tests/support/hostile_names.hpp"
 #include "tests/support/sample_golden.hpp"
 
 namespace drape {
@@ -50,6 +51,21 @@ TEST(Manifest, KnowsItsOwnText) {
   EXPECT_EQ(manifest_refusal(manifest() + " "), "has been modified since it was recorded");
   EXPECT_EQ(manifest_refusal("{\"format\": 1}"), "was recorded by an older drape in format 1; this one reads format 3");
   EXPECT_EQ(manifest_refusal("{\"format\": 4}"), "was recorded by a newer drape in format 4; this one reads format 3");
+}
+
+TEST(Manifest, SaysNothingToATerminal) {
+  for (const std::string& name : test::hostile_names) {
+    Json json = Json::parse(manifest());
+    for (auto& [key, value] : json.at("machine").items()) value = name;
+    json.at("frames").at(0).at("why") = json.at("date") = name;
+    const std::string text = sealed_manifest(json.dump(2, ' ', false, Json::error_handler_t::replace));
+    const Golden golden = read_manifest(text).golden;
+    for (const std::string& said :
+         {golden.machine.drape, golden.machine.processor, golden.machine.renderer, golden.frames[0].why, golden.date}) {
+      EXPECT_FALSE(test::has_controls(said)) << said;
+      EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    }
+  }
 }
 
 TEST(Manifest, RefusesValuesThatMakeNoSense) {

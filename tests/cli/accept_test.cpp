@@ -87,6 +87,7 @@ TEST_F(Accept, OnePictureLeavesTheOthersAlone) {
   EXPECT_EQ(after, before);
   EXPECT_EQ(drape(folder_, "check a.toml --update none --frames 5").code, 0);
   EXPECT_EQ(drape(folder_, "check a.toml --update none --frames 5,10").code, 1);
+  EXPECT_EQ(drape(folder_, "check b.toml --update none").code, 1);
   expect_refused("accept out/check b --frames 7", "--frames: its golden has no frame 7");
 }
 
@@ -109,6 +110,43 @@ TEST_F(Accept, NothingThatWasNotChecked) {
   expect_refused("accept out/check", "b.toml: cannot be accepted: it was checked by a different build of drape");
   fs::resize_file(folder_.path() / "out/check/a/candidate/frames/0005.png", 100);
   expect_refused("accept out/check a", "candidate/frames/0005.png: has been modified since it was recorded");
+}
+
+TEST_F(Accept, OnlyWhatTheReportLists) {
+  folder_.write("b.toml", scene(""));
+  EXPECT_EQ(drape(folder_, "check b.toml --update none").code, 0);
+  expect_refused("accept out/check", "out/check: there is nothing to accept: this check found no scene changed");
+  expect_refused("accept out/check a", "out/check: there is nothing to accept");
+  folder_.write("b.toml", scene("color = \"blue\"\n"));
+  EXPECT_EQ(drape(folder_, "check b.toml --update none").code, 1);
+  const auto a = golden("a"), b = golden("b");
+  const auto accepted = drape(folder_, "accept out/check");
+  EXPECT_EQ(accepted.text, "b.golden: accepted\n");
+  EXPECT_EQ(golden("a"), a);
+  EXPECT_NE(golden("b"), b);
+}
+
+TEST_F(Accept, NotWhatALaterCheckHasLeft) {
+  const std::string report = test::content(folder_.path("out/check/report.json"));
+  folder_.write("a.toml", scene("color = \"blue\"\n"));
+  EXPECT_EQ(drape(folder_, "check a.toml --update none").code, 1);
+  folder_.write("out/check/report.json", report);  // as if that check had been interrupted before its report
+  expect_refused("accept out/check", "a.toml: cannot be accepted: another check has left this since the report");
+  for (const std::string text : {"", "[]", "{\"scenes\": [{\"name\": \"../a\", \"candidate\": \"0\"}]}"}) {
+    folder_.write("out/check/report.json", text);
+    expect_refused("accept out/check", "out/check/report.json: ");
+  }
+}
+
+TEST_F(Accept, NothingOfOtherValues) {
+  const auto checked = drape(folder_, "check a.toml --update none --set cloth.mass=1.1");
+  EXPECT_EQ(checked.code, 1);
+  EXPECT_NE(checked.text.find(
+                "it was checked with --set cloth.mass=1.1: to make that golden, edit the scene and check it again"),
+            std::string::npos)
+      << checked.text;
+  expect_refused("accept out/check", "out/check: there is nothing to accept");
+  EXPECT_FALSE(fs::exists(folder_.path("out/check/a/candidate")));
 }
 
 TEST_F(Accept, OnlyTheReportOfACheck) {

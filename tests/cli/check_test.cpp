@@ -74,6 +74,73 @@ TEST(CheckCommand, LimitsCanBeWiderOnTheCommandLine) {
   EXPECT_NE(slow.text.find("motion within tolerance"), std::string::npos) << slow.text;
 }
 
+TEST(CheckCommand, ItsPagesRepeatWhatWasTyped) {
+  const test::SceneFolder folder;
+  folder.write("swing.toml", scene);
+  ASSERT_EQ(drape(folder, "bless swing.toml").code, 0);
+  const std::string typed = "check swing.toml --set cloth.mass=1.1 --update none --motion-tolerance 1e-05";
+  ASSERT_EQ(drape(folder, typed + " --report r --jobs 2 --threads 1").code, 1);
+  const std::string page = test::content(folder.path("r/report.html")),
+                    junit = test::content(folder.path("r/junit.xml"));
+  EXPECT_NE(page.find("drape " + typed + " --report r --threads 1 --jobs 2<"), std::string::npos);
+  for (const std::string& text : {page, junit, test::content(folder.path("r/report.json"))}) {
+    EXPECT_NE(text.find("drape " + typed + " --report r"), std::string::npos);
+    EXPECT_NE(text.find("hecked with --set cloth.mass=1.1: to make that golden, edit the scene"), std::string::npos);
+    EXPECT_EQ(text.find("drape bless"), std::string::npos);
+    EXPECT_EQ(text.find("he scene file has changed"), std::string::npos);
+  }
+  EXPECT_EQ(junit.find("accept:"), std::string::npos) << junit;
+
+  folder.write("swing.toml", scene + "[look]\ncolor = \"red\"\n");
+  const auto both = drape(folder, "check swing.toml --set cloth.mass=1.1 --update none");
+  EXPECT_NE(both.text.find("the scene file has changed since"), std::string::npos) << both.text;
+}
+
+TEST(CheckCommand, RecordsNoGoldenOfOtherValues) {
+  const test::SceneFolder folder;
+  folder.write("swing.toml", scene);
+  const auto missing = drape(folder, "check swing.toml --set cloth.mass=1.1");
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_NE(missing.text.find("swing.toml: missing: there is no golden to compare with\n"), std::string::npos)
+      << missing.text;
+  const auto all = drape(folder, "check swing.toml --set cloth.mass=1.1 --update all");
+  EXPECT_EQ(all.code, 2);
+  EXPECT_EQ(all.text,
+            "drape: --update all records what the scene files say: edit them instead of giving --set cloth.mass=1.1\n");
+  EXPECT_FALSE(fs::exists(folder.path("swing.golden")));
+}
+
+TEST(CheckCommand, DoesNotCallExactWhatItDidNotJudge) {
+  const test::SceneFolder folder;
+  folder.write("swing.toml", scene);
+  ASSERT_EQ(drape(folder, "bless swing.toml").code, 0);
+  for (const char* ignored : {"ignore = [[0, 0, 64, 48]]", "ignore_frames = [0, 10]"}) {
+    folder.write("swing.toml", scene + ignored + "\n[look]\ncolor = \"red\"\n");
+    const auto finished = drape(folder, "check swing.toml --update none");
+    EXPECT_EQ(finished.code, 0) << finished.text;
+    EXPECT_NE(finished.text.find("2 pictures not judged"), std::string::npos) << finished.text;
+    EXPECT_EQ(finished.text.find("exact"), std::string::npos) << finished.text;
+  }
+}
+
+TEST(CheckCommand, NamesTheSceneThatHasNoSuchKey) {
+  const test::SceneFolder folder;
+  folder.write("a.toml", scene);
+  folder.write("b.toml", scene + "[effects.sphere]\ncenter = [0, 0, 0]\nradius = 0.1\n");
+  const std::string problem =
+      "--set effects.sphere.radius=1: missing key 'center', 'keyframes' or 'track' in [effects.sphere]\n";
+  for (const char* command : {"check", "render", "simulate"}) {
+    EXPECT_EQ(drape(folder, std::string(command) + " a.toml b.toml --set effects.sphere.radius=1").text,
+              "drape: a.toml: " + problem);
+    EXPECT_EQ(drape(folder, std::string(command) + " a.toml b.toml --set foo").text,
+              "drape: --set foo: expected key.path=value, found no '='\n");
+  }
+  EXPECT_EQ(drape(folder, "check a.toml --set effects.sphere.radius=1").text, "drape: " + problem);
+  EXPECT_EQ(drape(folder, "compare a.toml b.toml --vary effects.sphere.radius=1").text,
+            "drape: a.toml: --vary effects.sphere.radius=1: missing key 'center', 'keyframes' or 'track' in "
+            "[effects.sphere]\n");
+}
+
 TEST(CheckCommand, SaysWhatIsWrongWithItsOptions) {
   const test::SceneFolder folder;
   folder.write("swing.toml", scene);

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <opencv2/core.hpp>
+#include <set>
 
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"
@@ -193,6 +194,39 @@ TEST(CommandLine, TakesAFrameAfterEverySoManySteps) {
   }
   EXPECT_EQ(drape(folder, "simulate scene.toml -o {frame}.obj --every 6 --frames 0..4").code, 2);
   EXPECT_EQ(drape(folder, "simulate scene.toml -o x.obj --every 0").code, 2);
+}
+
+TEST(CommandLine, TakesFramesByTime) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", scene);  // of 20 steps of 0.02 s, and a frame every 0.04 s
+  const auto frames = [&](const std::string& options) {
+    std::filesystem::remove_all(folder.path("f"));
+    const auto finished = drape(folder, "simulate scene.toml -o f/{frame}.obj " + options);
+    EXPECT_EQ(finished.code, 0) << finished.text;
+    std::set<int> numbers;
+    for (const auto& entry : fs::directory_iterator(folder.path("f"))) {
+      numbers.insert(std::stoi(entry.path().stem().string()));
+    }
+    return numbers;
+  };
+  EXPECT_EQ(frames("--at 0.2s"), (std::set{5}));
+  EXPECT_EQ(frames("--at 0.4s"), (std::set{10}));
+  EXPECT_EQ(frames("--from 0.1s --to 240ms"), (std::set{3, 4, 5, 6}));
+  EXPECT_EQ(frames("--from 0.36s"), (std::set{9, 10}));
+  EXPECT_EQ(frames("--every 0.1s"), (std::set{0, 1, 2, 3, 4}));
+  EXPECT_EQ(frames("--every 0.1s --at 0.3s"), (std::set{3}));
+  const auto refused = [&](const std::string& options) {
+    const auto finished = drape(folder, "simulate scene.toml -o x.obj " + options);
+    EXPECT_EQ(finished.code, 2) << finished.text;
+    return finished.text;
+  };
+  EXPECT_EQ(refused("--at 2"), "drape: --at takes a time such as 2.5s or 250ms; found '2'\n");
+  EXPECT_EQ(refused("--to 9s"), "drape: --to 9s: the film of scene.toml ends at 0.4 s\n");
+  EXPECT_EQ(refused("--from 0.21s --to 0.22s"),
+            "drape: there is no frame between --from 0.21s and --to 0.22s: frames are 0.04 s apart\n");
+  EXPECT_EQ(refused("--every 0.05s"),
+            "drape: --every 0.05s: a step is 0.02 s long; expected a whole number of them, such as 0.04s or 0.06s\n");
+  EXPECT_NE(refused("--at 0.2s --from 0.1s").find("--at excludes --from"), std::string::npos);
 }
 
 TEST(CommandLine, MakesAFilmNoLargerThanItMayBe) {

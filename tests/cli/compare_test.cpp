@@ -76,7 +76,7 @@ TEST(Compare, TakesMotions) {
     EXPECT_EQ(finished.code, 2) << arguments;
     return finished.text;
   };
-  EXPECT_NE(refused("a.drape --vary cloth.stiffness=10,20").find("drape: cloth.stiffness: 10, and 20 in --set\n"),
+  EXPECT_NE(refused("a.drape --vary cloth.stiffness=10,20").find("drape: cloth.stiffness: 10, and 20 in --vary\n"),
             std::string::npos);
   EXPECT_EQ(refused("a.drape a.toml --steps 11"), "drape: --steps 11: a.drape has 10\n");
   EXPECT_EQ(refused("a.toml b.drape.partial"),

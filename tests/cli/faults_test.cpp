@@ -81,6 +81,22 @@ std::string in_folder(std::string command, const std::string& folder) {
   return command.replace(command.find("FOLDER"), 6, folder);
 }
 
+TEST(AddressSpace, ThatIsTooSmallForDrawingIsAnError) {
+#ifdef DRAPE_SANITIZED
+  GTEST_SKIP() << "a sanitizer maps terabytes";
+#endif
+  const SceneFolder folder;
+  folder.write("scene.toml", scene);
+  for (const int megabytes : {600, 950, 1050}) {
+    const Finished finished = drape(folder, "render scene.toml --set time.duration=0.1 -o film.gif",
+                                    "ulimit -v " + std::to_string(1000 * megabytes) + " &&");
+    EXPECT_EQ(finished.code, 4) << finished.text;
+    EXPECT_FALSE(fs::exists(folder.path("film.gif")));
+  }
+  const Finished most = drape(folder, "simulate scene.toml --set time.duration=0.1", "ulimit -v 950000 &&");
+  EXPECT_EQ(most.code, 0) << most.text;
+}
+
 TEST(Faults, AFullDiskExitsWith4AndLeavesTheOldFile) {
   for (const auto& [file, command] : all_kinds_of_files()) {
     SCOPED_TRACE(command);

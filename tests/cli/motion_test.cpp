@@ -195,6 +195,28 @@ TEST(RecordedRun, KeepsItsMemoryWhateverItsLength) {
   EXPECT_LT(most_memory(), small + 0.3 * size);
 }
 
+/// All but what the clock said.
+TEST(MotionOnTheCommandLine, HasItsRecordsWhenItIsComplete) {
+  const SceneFolder folder;
+  folder.write("scene.toml", swinging_scene);
+  ASSERT_EQ(drape(folder, "simulate scene.toml -o m.drape --energies e.csv --positions p.csv --trace t.csv").code, 0);
+  const Finished again =
+      drape(folder, "simulate --resume m.drape --energies e2.csv --positions p2.csv --trace t2.csv --stats s.json");
+  EXPECT_EQ(again.code, 0) << again.text;
+  EXPECT_NE(again.text.find("e2.csv"), std::string::npos) << again.text;
+  EXPECT_EQ(content(folder.path("e2.csv")), content(folder.path("e.csv")));
+  EXPECT_EQ(content(folder.path("p2.csv")), content(folder.path("p.csv")));
+  const std::regex times("[0-9.]+\\n");
+  EXPECT_EQ(std::regex_replace(content(folder.path("t.csv")), times, "\n"), content(folder.path("t2.csv")));
+  EXPECT_NE(content(folder.path("s.json")).find("\"median\": null"), std::string::npos);
+  EXPECT_EQ(drape(folder, "render --resume m.drape --energies e3.csv -o m.obj").code, 0);
+  EXPECT_EQ(content(folder.path("e3.csv")), content(folder.path("e.csv")));
+  EXPECT_TRUE(is_there(folder, "m.obj"));
+  const std::string motion = content(folder.path("m.drape"));
+  EXPECT_EQ(drape(folder, "simulate --resume m.drape --energies m.drape").code, 2);
+  EXPECT_TRUE(content(folder.path("m.drape")) == motion);
+}
+
 TEST(MotionOnTheCommandLine, SaysWhatIsWrong) {
   const SceneFolder folder;
   folder.write("scene.toml", swinging_scene);
@@ -222,7 +244,7 @@ TEST(MotionOnTheCommandLine, SaysWhatIsWrong) {
   EXPECT_EQ(text("simulate scene.toml -o a.drape -o b.drape"),
             "drape: -o a.drape and -o b.drape: a run writes only one motion file\n");
   EXPECT_EQ(text("simulate scene.toml -o a.drape --every 0"),
-            "drape: --every takes a number of steps of at least 1, or frames; found '0'\n");
+            "drape: --every takes a number of steps of at least 1, a time such as 0.1s, or frames; found '0'\n");
   EXPECT_EQ(text("simulate scene.toml -o {frame}.drape"),
             "drape: '{frame}.drape' is one file for the whole run: it cannot contain {frame}\n");
   EXPECT_EQ(text("simulate"), "drape: SCENE is required; see drape --help\n");

@@ -56,6 +56,8 @@ TEST(StandardStreams, OutputThatIsLostIsAnErrorUnlessItsReaderHasHadEnough) {
   const SceneFolder folder;
   folder.write("scene.toml", scene);
   const std::string steps = "$drape simulate scene.toml --quiet --step-by-step --steps 3000 </dev/null --energies ";
+  EXPECT_EQ(shell(folder, "$drape --version >/dev/full 2>message"), 4);
+  EXPECT_EQ(shell(folder, "$drape render --help >/dev/full 2>message"), 4);
   EXPECT_EQ(shell(folder, steps + "full.csv >/dev/full 2>message"), 4);
   EXPECT_EQ(content(folder.path("message")), "drape: cannot write to standard output: No space left on device\n");
   EXPECT_EQ(shell(folder, "{ " + steps + "read.csv 2>message; echo $? >code; } | head -n 1 >first"), 0);

@@ -80,6 +80,21 @@ TEST(SweepCommand, IsMergedFromShards) {
   EXPECT_EQ(rows(folder, "parts").size(), 33U);
 }
 
+TEST(SweepCommand, MergingLeavesNothingHiddenOnCtrlC) {
+  SceneFolder folder;
+  with_scene(folder);
+  const std::string arguments = "sweep a.toml --steps 1 --vary cloth.mass=1..2/20 --quiet -o parts --shard ";
+  for (const char* shard : {"1/2", "2/2"}) drape(folder, arguments + shard);
+  for (const char* delay : {"0.02", "0.04", "0.08", "0.12", "0.16"}) {
+    const Finished finished = test::run(
+        folder, std::string("{ rm -rf whole; " DRAPE_EXECUTABLE " merge parts -o whole & p=$!; sleep ") + delay +
+                    "; kill -INT $p; wait $p; find whole -name '.?*' ! -name .lock -printf 'hidden: %p\\n'; }");
+    EXPECT_EQ(finished.text.find("hidden: "), std::string::npos) << delay << finished.text;
+  }
+  EXPECT_NE(drape(folder, "merge parts -o whole").code, 130);
+  EXPECT_EQ(rows(folder, "whole").size(), 321U);
+}
+
 TEST(SweepCommand, RefusesInOneMessageWithExitCode2) {
   SceneFolder folder;
   with_scene(folder);

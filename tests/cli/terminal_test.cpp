@@ -66,9 +66,52 @@ TEST(Terminal, AnswersWithWhatWasMeant) {
   EXPECT_EQ(refusal("simulate x.toml --max-iterations=7"),
             "drape: '--max-iterations' is a key of the scene, not an option; did you mean '--set "
             "integrator.max_iterations=7'?\n");
-  // Several tables have such a key, and doctor takes none.
-  EXPECT_NE(refusal("render x.toml --size 9").find("'--set video.size=9' or "), std::string::npos);
+  // Several tables have such a key; what is suggested fits it. doctor takes none.
+  EXPECT_EQ(refusal("render x.toml --size 640x480"),
+            "drape: '--size' is a key of the scene, not an option; did you mean --set 'video.size=[640,480]' or --set "
+            "'check.size=[640,480]'?\n");
+  EXPECT_EQ(drape(folder, "render x.toml -o x.gif --frames 0..1 --set 'video.size=[64,48]'").code, 0);
+  EXPECT_NE(refusal("render x.toml --size 9").find("did you mean '--set caption.size=9'"), std::string::npos);
   EXPECT_EQ(refusal("doctor --fps 30").find("key of the scene"), std::string::npos);
+}
+
+TEST(Terminal, SaysWhatThereIsWhereNothingIsAskedFor) {
+  const test::SceneFolder folder;
+  const Finished finished = drape(folder, "", "COLUMNS=80");
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_NE(finished.text.find("\n\nUsage: drape COMMAND ...\n\n  render    Simulate "), std::string::npos)
+      << finished.text;
+  EXPECT_NE(finished.text.find("drape help COMMAND\n"), std::string::npos) << finished.text;
+  EXPECT_LE(longest_line(finished.text), 80U) << finished.text;
+  EXPECT_LE(std::ranges::count(finished.text, '\n'), 24) << finished.text;
+}
+
+TEST(Terminal, ValuesAreNotEmpty) {
+  const test::SceneFolder folder;
+  folder.write("x.toml", test::swinging_scene);
+  const auto expect_refused = [&](const std::string& arguments, const std::string& message) {
+    const Finished finished = drape(folder, arguments);
+    EXPECT_EQ(finished.code, 2) << arguments << finished.text;
+    EXPECT_NE(finished.text.find(message), std::string::npos) << finished.text;
+  };
+  for (const std::string option : {"--max-size", "--every", "--sheet", "--frames", "--stats"}) {
+    expect_refused("render x.toml " + option + " ''", option + ": expected a value, found an empty text");
+  }
+  expect_refused("sweep x.toml --vary cloth.mass=1,2 --slurm-option --partition=short",
+                 "--slurm-option requires --slurm");
+  expect_refused("check x.toml --report x.golden", "--report x.golden: this is the folder of a golden");
+  expect_refused("render x.toml -o a.gif -o a.mp4 --poster",
+                 "the poster of a.gif and the poster of a.mp4 write the same");
+}
+
+TEST(Terminal, OffersWhatACommandCanWrite) {
+  const test::SceneFolder folder;
+  const std::string compare = drape(folder, "compare --help").text, simulate = drape(folder, "simulate --help").text;
+  for (const std::string undrawn : {".obj", ".npz", "the motion itself", ".usda"}) {
+    EXPECT_EQ(compare.find(undrawn), std::string::npos) << undrawn;
+    EXPECT_NE(simulate.find(undrawn), std::string::npos) << undrawn;
+  }
+  EXPECT_NE(compare.find(".html"), std::string::npos);
 }
 
 TEST(Terminal, HasColoursWhereTheyAreWanted) {
@@ -86,6 +129,38 @@ TEST(Terminal, HasColoursWhereTheyAreWanted) {
   EXPECT_EQ(at_terminal("NO_COLOR=1", "render absent.toml").find('\x1b'), std::string::npos);
   EXPECT_EQ(at_terminal("", "--color never render absent.toml").find('\x1b'), std::string::npos);
   EXPECT_NE(drape(folder, "--color sometimes doctor").text.find("unknown 'sometimes'"), std::string::npos);
+}
+
+TEST(Terminal, BreaksResultsBetweenWords) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", test::swinging_scene);
+  const std::string options = "simulate scene.toml --set integrator.max_iterations=2 --set integrator.tolerance=1e-9";
+  const Finished narrow = drape(folder, options, "COLUMNS=60"), wide = drape(folder, options);
+  EXPECT_NE(wide.text.find("steps not converged (worst residual "), std::string::npos) << wide.text;
+  EXPECT_LE(longest_line(narrow.text), 60U) << narrow.text;
+  const Finished at_terminal = test::run_shell(
+      folder, "TERM=xterm script -qec '" + std::string(DRAPE_EXECUTABLE) + " " + options + "' /dev/null </dev/null");
+  const std::size_t summary = at_terminal.text.rfind("20 steps, ");
+  ASSERT_NE(summary, std::string::npos) << at_terminal.text;
+  EXPECT_LE(longest_line(at_terminal.text.substr(summary)), 81U) << at_terminal.text;  // with a carriage return
+}
+
+// A bar that is continued in the next line is not taken back by what follows it.
+TEST(Terminal, ShowsProgressInOneLine) {
+  const test::SceneFolder folder;
+  folder.write("scene.toml", test::swinging_scene);
+  const Finished finished = test::run_shell(
+      folder, "TERM=xterm script -qec '" DRAPE_EXECUTABLE
+              " study accuracy scene.toml --parts order --methods verlet --steps 0.002,0.001 --times 0.4 "
+              "--runs 1 --animate none' /dev/null </dev/null");
+  const std::string taken_back = "\r\x1b[K";
+  for (std::size_t at = finished.text.find(taken_back); at != std::string::npos;) {
+    const std::size_t begin = at + taken_back.size();
+    const std::string line = finished.text.substr(begin, finished.text.find_first_of("\r\n", begin) - begin);
+    EXPECT_LT(columns_of(line), 80U) << line;
+    at = finished.text.find(taken_back, begin);
+  }
+  EXPECT_NE(finished.text.find("report.html"), std::string::npos) << finished.text;
 }
 
 TEST(Terminal, WrapsMessagesAtTheWindowsWidth) {

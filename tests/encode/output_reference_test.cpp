@@ -34,8 +34,11 @@ TEST(OutputReference, EveryFormatHasAnExtensionOfItsOwnAndSaysWhatItIs) {
     EXPECT_TRUE(format.extension.starts_with(".")) << format.extension;
     EXPECT_FALSE(format.help.empty()) << format.extension;
     EXPECT_EQ(find_format("out/X" + format.extension), &format);
-    EXPECT_NE(output_help(true).find(format.extension), std::string::npos);
-    EXPECT_EQ(output_help(false).find(format.extension) == std::string::npos, format.drawn()) << format.extension;
+    EXPECT_NE(output_help(FormatKinds::all).find(format.extension), std::string::npos);
+    EXPECT_EQ(output_help(FormatKinds::undrawn).find(format.extension) == std::string::npos, format.drawn())
+        << format.extension;
+    EXPECT_EQ(output_help(FormatKinds::drawn).find(format.extension) != std::string::npos, format.drawn())
+        << format.extension;
   }
 }
 

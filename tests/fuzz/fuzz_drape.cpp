@@ -1,39 +1,19 @@
-// Motion files: as the bytes of one, and as one made of their parts, since hardly any change of bytes that have a
-// checksum and are packed can be read.
+// Motion files: as the bytes of one, as one made of their parts, and as changes of the parts of a good one, since
+// hardly any change of bytes that have a checksum and are packed can be read.
 
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
+#include <cmath>
 
 #include "motion/block_writer.hpp"
 #include "motion/packing.hpp"
 #include "motion/reader.hpp"
 #include "tests/fuzz/accepts_or_refuses.hpp"
+#include "tests/fuzz/sealed_motion.hpp"
 
 namespace {
 
-/// The reader takes a file.
-class File {
- public:
-  ~File() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  const std::filesystem::path& put(std::string_view bytes) {
-    std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
-    return path_;
-  }
-
- private:
-  std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / ("drape-fuzz-" + std::to_string(getpid()) + ".drape");
-};
-
-void read(std::string_view bytes) {
-  static File file;
+void read(const drape::FuzzFolder& folder, std::string_view bytes) {
   drape::accepts_or_refuses([&] {
-    drape::MotionReader motion(file.put(bytes));
+    drape::MotionReader motion(folder.put("read.drape", bytes));
     for (std::size_t k = 0; k < motion.header().files.size(); ++k) static_cast<void>(motion.scene_file(k));
     for (std::size_t i = 0; i < motion.states(); ++i) {
       const drape::State& state = motion.state(i);
@@ -41,7 +21,8 @@ void read(std::string_view bytes) {
       if (!state.x.allFinite() || !state.v.allFinite()) std::abort();
     }
     for (std::int64_t step = 0; step < motion.rows(); ++step) {
-      if (motion.row(step).step != step) std::abort();
+      const drape::StepRow& row = motion.row(step);
+      if (row.step != step || !std::isfinite(row.energies.total()) || !std::isfinite(row.residual)) std::abort();
     }
   });
 }
@@ -76,8 +57,11 @@ std::string assembled(std::string_view parts) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const drape::FuzzFolder folder;
+  static const drape::SealedMotion good(folder);
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  read(bytes);
-  read(assembled(bytes));
+  read(folder, bytes);
+  read(folder, assembled(bytes));
+  read(folder, drape::with_edits(good.complete, bytes));
   return 0;
 }

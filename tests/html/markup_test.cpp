@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "html/chart.hpp"
 #include "html/chart_axis.hpp"
 #include "html/components.hpp"
 #include "tests/support/files.hpp"
@@ -59,20 +60,20 @@ TEST(AxisMap, PlacesLinearValuesBetweenRoundTicks) {
   EXPECT_NEAR(axis.place(50), 0.5, 1e-12);
 }
 
-TEST(AxisMap, EndsWhereTheValuesEnd) {
+TEST(AxisMap, HasATwentiethOfRoomOnEitherSideOfTheValues) {
   for (const Scale scale : {Scale::linear, Scale::logarithmic}) {
     for (double low = 1; low < 50; low *= 1.13) {
       for (const double factor : {1.5, 4.0, 8.34, 97.0, 1234.0}) {
         const AxisMap axis(scale, {low, factor * low});
-        EXPECT_NEAR(axis.place(low), 0, 0.02) << low << " to " << factor * low;
-        EXPECT_NEAR(axis.place(factor * low), 1, 0.02) << low << " to " << factor * low;
+        EXPECT_NEAR(axis.place(low), 0.06, 0.0101) << low << " to " << factor * low;
+        EXPECT_NEAR(axis.place(factor * low), 0.94, 0.0101) << low << " to " << factor * low;
       }
     }
   }
   const AxisMap time(Scale::linear, {0.02, 8.34});
-  EXPECT_EQ(time.place(0), 0) << "at a tick that nobody can tell from there";
+  EXPECT_DOUBLE_EQ(time.place(0), 0.05) << "at a tick that nobody can tell from there";
   EXPECT_EQ(time.ticks().front().label, "0");
-  EXPECT_EQ(time.place(8.34), 1);
+  EXPECT_DOUBLE_EQ(time.place(8.34), 0.95);
   EXPECT_EQ(time.ticks().back().label, "8");
 }
 
@@ -93,9 +94,9 @@ TEST(AxisMap, HasThreeTicksAtLeast) {
 
 TEST(AxisMap, GivesEveryDecadeTheSameRoom) {
   const AxisMap axis(Scale::logarithmic, {1e-5, 1});
-  EXPECT_NEAR(axis.place(1e-5), 0, 1e-9);
-  EXPECT_NEAR(axis.place(1e-4), 0.2, 1e-9);
-  EXPECT_NEAR(axis.place(1), 1, 1e-9);
+  EXPECT_NEAR(axis.place(1e-5), 0.05, 1e-9);
+  EXPECT_NEAR(axis.place(1e-4), 0.05 + 0.9 / 5, 1e-9);
+  EXPECT_NEAR(axis.place(1), 0.95, 1e-9);
   EXPECT_EQ(axis.ticks().front().label, "10⁻⁵");
 }
 
@@ -125,9 +126,43 @@ TEST(AxisMap, WritesNumbersInOneWay) {
 
 TEST(AxisMap, KeepsAPlaceForZeroOnALogarithmicAxis) {
   const AxisMap axis(Scale::logarithmic, {0, 1e-6, 1e-3});
-  EXPECT_EQ(axis.place(0), 0);
-  EXPECT_GT(axis.place(1e-6), 0.05);
+  EXPECT_EQ(axis.place(0), 0.05);
+  EXPECT_GT(axis.place(1e-6), 0.1);
   EXPECT_EQ(axis.ticks().front().label, "0");
+}
+
+/// Where a level's label stands in a chart of one curve: "end" or "start", its x and its base.
+std::array<std::string, 3> place_of_label(const std::vector<std::array<double, 2>>& points, double level) {
+  Chart chart{.title = "t", .x_title = "x", .y_title = "y", .series = {}, .levels = {{level, "the limit here"}}};
+  chart.series.push_back({"a", {}, false});
+  for (const auto& [x, y] : points) chart.series.back().points.push_back({x, y, "", ""});
+  const std::string svg = still_chart(chart).drawing.html();
+  const std::size_t at = svg.rfind("<text", svg.find("the limit here"));
+  const auto attribute = [&](const std::string& name) {
+    const std::size_t begin = svg.find(name + "=\"", at) + name.size() + 2;
+    return svg.substr(begin, svg.find('"', begin) - begin);
+  };
+  return {attribute("text-anchor"), attribute("x"), attribute("y")};
+}
+
+TEST(Chart, PutsNoLabelAcrossACurve) {
+  // A curve that runs level and then, on the right, through the line's label: it stands on the left of that.
+  const auto usual = place_of_label({{0, 0}, {1, 0}}, 0.5);
+  EXPECT_EQ(usual[0], "end");
+  const auto crossed = place_of_label({{0, 0}, {0.8, 0}, {0.9, 1}, {1, 0}}, 0.5);
+  EXPECT_TRUE(crossed[0] == "start" && std::stod(crossed[1]) < 420) << crossed[1];
+  // One that runs along the line, just above it: the label is below.
+  const auto along = place_of_label({{0, 0.52}, {1, 0.52}, {1, 0}, {1, 1}}, 0.5);
+  EXPECT_GT(std::stod(along[2]), std::stod(usual[2])) << along[2];
+}
+
+TEST(Chart, HasWhatItsAxesHoldInAnyCase) {
+  Chart chart{.title = "t", .x_title = "x", .y_title = "y", .series = {}, .levels = {}};
+  chart.series.push_back({"a", {{0.4, 0.4, "", ""}, {0.5, 0.5, "", ""}}});
+  chart.y_holds = {0, 1};
+  const std::string svg = still_chart(chart).drawing.html();
+  EXPECT_NE(svg.find(">0<"), std::string::npos) << svg;
+  EXPECT_NE(svg.find(">1.0<"), std::string::npos) << svg;
 }
 
 TEST(AxisMap, HoldsOneValueOrNone) {

@@ -98,10 +98,83 @@ TEST_F(Paper, ShowsTheStillsOfAnAnimation) {
   EXPECT_EQ(seen("img[src^=\"data:image/png\"]"), 1);
 }
 
+/// Has the page run through columns of the size of a sheet, which are broken as sheets are, and gives the column that
+/// each element of a selector begins in.
+std::vector<int> columns_of(test::Browser& browser, const std::string& selector) {
+  return browser.run(
+      "document.body.style.cssText = 'width: 688px; height: 980px; max-width: none; margin: 0; column-width: 688px; "
+      "column-gap: 12px; column-fill: auto';"
+      "return [...document.querySelectorAll('" +
+      selector +
+      "')].filter((e) => e.getClientRects().length).map((e) => Math.round(e.getClientRects()[0].left / 700))");
+}
+
+TEST_F(Paper, FillsItsFirstSheet) {
+  std::vector<ComparedPictures> moments(5);
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    ComparedPictures& moment = moments[i];
+    moment.size = {320, 240};
+    moment.name = std::to_string(i);
+    moment.caption = "Frame " + moment.name + ": what differs in it.";
+    moment.expected = moment.actual = moment.difference = moment.error_map = encode_png(Image(320, 240));
+    moment.worst = {{10, 10}};
+  }
+  // As a check's page begins.
+  open_page(wide_table() + section(2, "a", "A scene",
+                                   findings({{Tone::bad, "It changed."}}) + command("Again", "drape") +
+                                       comparison("pictures", moments, 0)));
+  print();
+  const std::vector<int> columns = columns_of(*browser_, ".moment");
+  ASSERT_EQ(columns.size(), 5U);
+  EXPECT_EQ(columns[0], 0);
+  EXPECT_EQ(columns[2], 0);
+}
+
+TEST_F(Paper, KeepsHeadingsWithWhatTheyAreOf) {
+  const Markup sentences =
+      paragraph("One sentence.") + paragraph("Another, of some length, so that it takes a line or two.");
+  for (int filler = 0; filler < 30; ++filler) {
+    Markup content;
+    for (int i = 0; i < filler; ++i) content += note("A line of what comes before.");
+    content += section(2, "a", "Of a diagram", sentences + chart(sample_chart())) +
+               section(2, "b", "Of a table", sentences + wide_table());
+    open_page(content);
+    print();
+    const std::vector<int> headings = columns_of(*browser_, "main h2"), charts = columns_of(*browser_, ".chart"),
+                           tables = columns_of(*browser_, "main > section > .scroll");
+    EXPECT_EQ(headings.at(0), charts.at(0)) << filler;
+    EXPECT_EQ(headings.at(1), tables.at(0)) << filler;
+  }
+}
+
+TEST_F(Paper, CopiesNothingThatASpreadsheetComputes) {
+  open_page(table({"A table", {{"name"}, {"n", true}}, {{"=1+1", "-5"}, {"@SUM(A1)", "-1.5e-3"}, {"a|b", "–"}}}));
+  EXPECT_EQ(copied("[data-form=CSV]"), "name,n\n'=1+1,-5\n'@SUM(A1),-1.5e-3\na|b,–\n");
+  EXPECT_NE(copied("[data-form=Markdown]").find("| a\\|b | – |"), std::string::npos);
+}
+
+TEST_F(Paper, ShowsCardsInANarrowWindow) {
+  Table answer{"What to take", {{"error"}, {"below 1 mm"}, {"below 0.1 mm"}}, {}};
+  answer.rows = {{"whole [ms per second]", "quasi-newton, accuracy 1e-3: 12.4", "liu13, h = 0.001 s: 40.1"},
+                 {"one step [µs]", "liu13, ε = 1e-4: 31.0", ""}};
+  answer.card_labels = {"error", "below 1 mm", "below 0.1 mm"};
+  open_page(table(answer));
+  keep_screenshots("cards");
+  browser_->set_width(390);
+  EXPECT_EQ(browser_->run("return [...document.querySelectorAll('td')].filter((c) => c.textContent && "
+                          "c.getBoundingClientRect().right > 390).length"),
+            0);
+  EXPECT_EQ(browser_->run("return document.querySelector('.scroll').scrollWidth > 390"), false);
+  EXPECT_EQ(browser_->run("return getComputedStyle(document.querySelector('td + td'), '::before').content"),
+            "\"below 1 mm\"");
+  browser_->set_width(1200);
+  EXPECT_EQ(browser_->run("return getComputedStyle(document.querySelector('td + td')).display"), "table-cell");
+}
+
 TEST_F(Paper, TakesTablesFromTheClipboard) {
   open_page(table({"A table", {{"method"}, {"ε_1, %", true}}, {{"a, \"b\"", "0.5"}}}));
   EXPECT_EQ(copied("[data-form=CSV]"), "method,\"ε_1, %\"\n\"a, \"\"b\"\"\",0.5\n");
-  EXPECT_EQ(copied("[data-form=Markdown]"), "| method | ε_1, % |\n| --- | ---: |\n| a, \"b\" | 0.5 |\n");
+  EXPECT_EQ(copied("[data-form=Markdown]"), "| method | ε\\_1, % |\n| --- | ---: |\n| a, \"b\" | 0.5 |\n");
   const std::string latex = copied("[data-form=LaTeX]");
   EXPECT_NE(latex.find("\\begin{tabular}{lr}\n  \\toprule\n  method & $\\varepsilon$\\_1, \\% \\\\\n"),
             std::string::npos)

@@ -7,9 +7,9 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cmake --install "$build" --prefix "$scratch/prefix" >"$scratch/log"
 
-project() { # NAME
+project() { # NAME [FOLDER]
   {
-    cmake -S "$source/tests/install/$1" -B "$scratch/$1" -G Ninja -DCMAKE_PREFIX_PATH="$scratch/prefix" &&
+    cmake -S "${2:-$source/tests/install/$1}" -B "$scratch/$1" -G Ninja -DCMAKE_PREFIX_PATH="$scratch/prefix" &&
       cmake --build "$scratch/$1"
   } >"$scratch/$1.log" 2>&1 || {
     echo "outside.sh: the project $1 does not build:"
@@ -20,6 +20,14 @@ project() { # NAME
 expect() { # FOUND EXPECTED
   case $1 in $2) ;; *) echo "outside.sh: expected $2, found $1" && exit 1 ;; esac
 }
+
+# The project of docs/library.md: its files are the blocks after a mark with their name.
+mkdir "$scratch/page"
+for file in CMakeLists.txt main.cpp; do
+  sed -n "/^<!-- file: $file -->\$/,/^\`\`\`\$/p" "$source/docs/library.md" | sed '1,2d;$d' >"$scratch/page/$file"
+done
+project mine "$scratch/page"
+expect "$("$scratch/mine/mine")" '-* m'
 
 project cloth
 expect "$("$scratch/cloth/cloth")" '1 s, lowest at -*'

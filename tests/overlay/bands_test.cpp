@@ -35,6 +35,51 @@ TEST(Ticks, AreMultiplesOfOneTwoOrFive) {
   EXPECT_EQ(labels, (std::vector<std::string>{"-4", "-2", "0", "2"}));
 }
 
+TEST(Ticks, AreThinnedUntilTheirLabelsStandApart) {
+  std::vector<Tick> marks;
+  for (int i = 0; i <= 10; ++i) marks.push_back({i / 10.0, std::to_string(i)});
+  const auto kept = [&](int width) {
+    const auto columns = [width](const Tick& mark) {
+      const int middle = static_cast<int>(std::lround(200 * mark.value));
+      return std::pair{middle - width / 2, middle + width / 2};
+    };
+    std::string labels;
+    for (const Tick& mark : thinned(marks, columns, 4)) labels += mark.label + " ";
+    return labels;
+  };
+  EXPECT_EQ(kept(16), "0 1 2 3 4 5 6 7 8 9 10 ");
+  EXPECT_EQ(kept(18), "0 2 4 6 8 10 ");
+  EXPECT_EQ(kept(40), "0 5 10 ");
+  EXPECT_EQ(kept(120), "0 10 ");
+  EXPECT_EQ(kept(1000), "0 ");
+}
+
+/// The widest columns of paper alone between the first and the last letter of the labels at the foot of a band.
+std::vector<int> gaps_at_foot(const Image& band, int rows) {
+  std::vector<int> gaps;
+  int last = -1;
+  for (int x = 0; x < band.width; ++x) {
+    bool letter = false;
+    for (int y = band.height - rows; y < band.height; ++y) letter = letter || *band.at(x, y) < 160;
+    if (!letter) continue;
+    if (last >= 0) gaps.push_back(x - last - 1);
+    last = x;
+  }
+  return gaps;
+}
+
+TEST(CurveBand, LabelsOfTimesStandApartOnANarrowFilm) {
+  Pen pen;
+  for (const int width : {120, 200, 320, 640}) {
+    const int size = 11;
+    const CurveBand band(width, size, "J", {0, 0.6, 1.2}, {{"total", {0, 0, 0}, {0.1, 0.2, 0.15}}});
+    const std::vector<int> gaps = gaps_at_foot(band.draw(pen, 1.2), size + size / 2);
+    // Between the letters of a label there are less than four columns, between labels at least half a letter.
+    for (const int gap : gaps) EXPECT_TRUE(gap < 5 || gap >= size / 2) << width << ": " << gap;
+    EXPECT_GE(std::ranges::count_if(gaps, [&](int gap) { return gap >= size / 2; }), 1) << width;
+  }
+}
+
 TEST(ColorBar, HasTheColourThatAMarkStandsFor) {
   Pen pen;
   const int size = 14;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "core/error.hpp"
@@ -179,6 +180,100 @@ TEST(Caption, IsReadableOnAnyBackground) {
       }
     }
   }
+}
+
+/// Whether nothing is written at the edge of a picture that was white.
+bool is_framed(const Image& image) {
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const bool edge = x == 0 || y == 0 || x + 1 == image.width || y + 1 == image.height;
+      if (edge && *image.at(x, y) < 255) return false;
+    }
+  }
+  return true;
+}
+
+TEST(Caption, StandsWithinThePicture) {
+  Pen pen;
+  const std::string word = "Donaudampfschiffahrtsgesellschaft", chinese = "布料布料布料布料布料布料布料";
+  for (const auto& [width, height] : {std::pair{64, 64}, std::pair{320, 40}, std::pair{40, 320}, std::pair{640, 480}}) {
+    for (const std::string& text : {std::string("t = 0.04 s"), word, chinese, word + "\n" + word}) {
+      for (const std::optional<int> size : {std::optional<int>(), std::optional<int>(512), std::optional<int>(20)}) {
+        for (int place = 0; place < 6; ++place) {
+          Image image = filled(width, height, {255, 255, 255});
+          CaptionSettings caption;
+          caption.place = static_cast<CaptionPlace>(place);
+          caption.size = size;
+          if (largest_caption_size(pen, text, 512, width, height) == 0) continue;
+          draw_caption(image, pen, caption, text, {1, 1, 1});
+          EXPECT_TRUE(is_framed(image)) << width << "x" << height << " " << text << " " << place;
+          EXPECT_NE(image, filled(width, height, {255, 255, 255}));
+        }
+      }
+    }
+  }
+}
+
+TEST(Caption, IsRefusedWithTheLargestSizeThatFits) {
+  Pen pen;
+  const auto refusal = [&](std::optional<int> size, const std::string& text) {
+    CaptionSettings caption;
+    caption.size = size;
+    try {
+      require_room(pen, caption, text, 64, 64);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string("(none)");
+  };
+  const int largest = largest_caption_size(pen, "t = 0.04 s", 512, 64, 64);
+  ASSERT_GT(largest, 6);
+  EXPECT_EQ(refusal(512, "t = 0.04 s"),
+            "a caption of size = 512 does not fit into a picture of 64x64 pixels: the largest that fits is size = " +
+                std::to_string(largest));
+  EXPECT_EQ(refusal(largest, "t = 0.04 s"), "(none)");
+  EXPECT_EQ(refusal({}, "t = 0.04 s"), "(none)");
+  EXPECT_EQ(refusal({}, std::string(4096, 'x')),
+            "the caption is too long for a picture of 64x64 pixels, even with letters of 6 pixels");
+}
+
+// The rim took time with the fourth power of the size: that of this text more than two minutes.
+TEST(Pen, DrawsARimOfAnySize) {
+  Pen pen;
+  Image image = filled(1600, 700, {255, 255, 255});
+  pen.write(image, 100, 560, "rim", 512, {1, 1, 1}, Backing::halo);
+  int first = image.width;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (*image.at(x, y) < 250) first = std::min(first, x);
+    }
+  }
+  const Glyph& letter = pen.fonts().glyph(U'r', 512);
+  EXPECT_NEAR(first, 100 + letter.left - 512 / 7, 8);
+}
+
+TEST(Pen, ARimIsAsDarkAsItIsNear) {
+  Pen pen;
+  const int size = 40, rim = size / 7;
+  Image letters = filled(120, 80, {0, 0, 0}), rims = filled(120, 80, {255, 255, 255});
+  pen.write(letters, 20, 60, "Il", size, {1, 1, 1});
+  pen.write(rims, 20, 60, "Il", size, {1, 1, 1}, Backing::halo);
+  int checked = 0;
+  for (int y = 20; y < 70; ++y) {
+    for (int x = 10; x < 100; ++x) {
+      double near = 1e9;  // the distance to a letter
+      for (int v = 0; v < letters.height; ++v) {
+        for (int u = 0; u < letters.width; ++u) {
+          if (*letters.at(u, v) > 250) near = std::min(near, std::hypot(u - x, v - y));
+        }
+      }
+      if (near < 1.5) continue;
+      const double fade = std::clamp(1.6 * (1 - near / (rim + 1)), 0.0, 1.0);
+      EXPECT_NEAR(luminance(rims.at(x, y)), 1 - 0.85 * fade, 0.25) << x << " " << y;
+      checked += fade > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(checked, 200);
 }
 
 TEST(Caption, StandsWhereItIsPlaced) {

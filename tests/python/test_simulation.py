@@ -1,5 +1,8 @@
 import gc
+import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -247,3 +250,94 @@ def test_the_bits_do_not_depend_on_the_instruction_set(swinging):
     assert len(hashes) == 1
     with pytest.raises(drape.UsageError, match="'mmx', expected one of sse2"):
         drape.limit_instruction_set("mmx")
+
+
+def test_objects_without_init_are_refused():
+    """__new__ alone made objects of whatever was in their memory: SIGSEGV."""
+    bare = drape.Simulation.__new__(drape.Simulation)
+    uses = [getattr_of(bare, name) for name in dir(type(bare)) if not name.startswith("_")]
+    uses += [lambda: repr(bare), lambda: bare.step(), lambda: bare.state(), lambda: drape.render(bare)]
+    for use in uses:
+        with pytest.raises(TypeError, match="__init__"):
+            value = use()
+            if callable(value):
+                value(*([drape.State(np.zeros((4, 3)), np.zeros((4, 3)))] if "restore" in repr(value) else []))
+    state = drape.State.__new__(drape.State)
+    for name in ("positions", "velocities", "step", "hash"):
+        with pytest.raises(TypeError, match="__init__"):
+            getattr(state, name)
+    with pytest.raises(TypeError, match="__init__"):
+        endless().restore(state)
+    repr(drape.Energies.__new__(drape.Energies)), repr(drape.StepReport.__new__(drape.StepReport))
+
+
+def getattr_of(thing, name):
+    return lambda: getattr(thing, name)
+
+
+def run_python(code):
+    """How a Python ends that runs this with a simulation to step for ever."""
+    scene = str(SOURCE / "scenes/homework/4.toml")
+    head = f"import os, sys, threading, time, drape\nsimulation = drape.Simulation({scene!r})\n"
+    return subprocess.run([sys.executable, "-c", head + code], capture_output=True, text=True, timeout=60)
+
+
+def test_python_ends_while_daemon_threads_compute():
+    for use in ("step(10**9)", "step(1)", "state()"):
+        code = f"""
+def compute():
+    while True:
+        simulation.{use}
+for _ in range(3):
+    threading.Thread(target=compute, daemon=True).start()
+time.sleep(0.1)
+"""
+        done = run_python(code)
+        assert (done.returncode, done.stderr) == (0, ""), use
+
+
+def test_a_fork_after_a_picture_is_told_to_draw_elsewhere():
+    code = """
+drape.render(simulation, size=(32, 24))
+child = os.fork()
+if child == 0:
+    simulation.step(3)
+    try:
+        drape.render(simulation, size=(32, 24))
+    except drape.OutputError as error:
+        print(error, flush=True)
+    os._exit(7)
+print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+drape.render(simulation, size=(32, 24))
+"""
+    done = run_python(code)
+    assert done.returncode == 0, done.stderr
+    assert "forked from one that had drawn" in done.stdout and done.stdout.endswith("7\n")
+
+
+def test_a_fork_before_the_first_picture_draws():
+    code = """
+child = os.fork()
+drape.render(simulation, size=(32, 24))
+if child == 0:
+    os._exit(7)
+print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+"""
+    done = run_python(code)
+    assert (done.returncode, done.stdout) == (0, "7\n"), done.stderr
+
+
+def test_a_cloth_that_diverged_is_not_drawn(swinging):
+    swinging["integrator"]["method"] = "semi-implicit"
+    swinging["time"]["step"] = 0.02
+    swinging["cloth"]["stiffness"] = 1
+    simulation = drape.Simulation(swinging)
+    before = simulation.state()
+    huge = np.full((49, 3), 1e200) * np.arange(49)[:, None]
+    simulation.restore(drape.State(huge, huge))
+    with pytest.raises(drape.DivergedError):
+        simulation.step(100)
+    with pytest.raises(drape.DivergedError, match="cannot be drawn"):
+        drape.render(simulation)
+    simulation.restore(before)
+    drape.render(simulation, size=(32, 24))

@@ -135,5 +135,32 @@ TEST(DepthMap, IsNeverLargerThanItMayBeAndEmptyWhereTheClothHasNoPlace) {
   }
 }
 
+/// Whatever the numbers are, a map is made in time, is no larger than it may be, and is read within its bounds.
+TEST(DepthMap, TakesNumbersOfAnySize) {
+  constexpr double huge = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
+  const std::vector<double> sizes{0, tiny, 1e-300, 1e-162, 1e-30, 1, 1e16, 1e39, 1e154, 1e300, huge, INFINITY, NAN};
+  for (const double scale : sizes) {
+    for (const double place : sizes) {
+      for (const double texel : sizes) {
+        Mesh mesh = shuffled(3, 1);
+        mesh.positions = ((mesh.positions * scale).array() + place).matrix();
+        const DepthMap map = seen(mesh, {0.2, 0.3, 1}, texel, 256);
+        ASSERT_LE(map.columns(), 256 + DepthMap::block);
+        ASSERT_LE(map.rows(), 256 + DepthMap::block);
+        const auto texels = static_cast<std::size_t>(map.columns()) * static_cast<std::size_t>(map.rows());
+        ASSERT_EQ(map.nearest().size(), texels);
+        if (texels == 0) continue;
+        ASSERT_TRUE(map.places().allFinite());
+        for (const double column : sizes) interpolated(map, map.nearest(), column, -column);
+      }
+    }
+  }
+  DepthMap map;
+  map.look(Vector3d::Constant(NAN), Vector3d::UnitZ());
+  const Mesh mesh = shuffled(3, 1);
+  map.draw(mesh.positions, mesh.triangles, 0.1, 256);
+  EXPECT_EQ(map.columns(), 0);
+}
+
 }  // namespace
 }  // namespace drape::test

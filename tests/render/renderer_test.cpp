@@ -219,6 +219,37 @@ TEST(Renderer, LooksAtNoVertexThatAFrameDoesNotHave) {
   EXPECT_THROW(renderer.draw(frame), std::invalid_argument);
 }
 
+/// Places of cloth, obstacles and camera that no picture can show do no harm.
+TEST(Renderer, DrawsNumbersOfAnySize) {
+  const std::vector<double> sizes{0, 1e-300, 1e-162, 1e-40, 1e16, 1e39, 1e90, 1e154, 1e155, 1e308, INFINITY, NAN};
+  const Mesh mesh = make_grid(3, 3), box = make_grid(2, 2);
+  Look look;
+  look.samples = 1;
+  Renderer renderer(data_folder(), {24, 16}, from_above(), look, static_cast<int>(mesh.positions.rows()),
+                    mesh.triangles, {});
+  const auto draw_at = [&](double cloth, double obstacle, const View& view) {
+    Frame frame;
+    frame.positions = (mesh.positions.array() + cloth).matrix();
+    const Eigen::Vector3d center(obstacle, -obstacle, 0);
+    frame.colliders = {
+        SphereShape{center, 0.5, 0.5}, GroundShape{Eigen::Vector3d::UnitZ(), -1 - obstacle},
+        MeshShape{std::make_shared<std::vector<Triangle>>(box.triangles), (box.positions.array() + obstacle).matrix()}};
+    renderer.look_from(view);
+    EXPECT_EQ(renderer.draw(frame).width, 24);
+    frame.positions = mesh.positions * cloth;
+    EXPECT_EQ(renderer.draw(frame).width, 24);
+  };
+  for (const double size : sizes) {
+    draw_at(size, 0, from_above());
+    draw_at(0.1, size, from_above());
+    View far = from_above(), near = from_above(), turned = from_above();
+    far.position[0] = size;
+    near.target = near.position + Eigen::Vector3d(size, 0, 0);
+    turned.up = Eigen::Vector3d(0, size, 0);
+    for (const View& view : {far, near, turned}) draw_at(0.1, 0, view);
+  }
+}
+
 TEST(GlContext, NamesTheDebianPackageIfOsMesaIsMissing) {
   try {
     make_osmesa_context({"libOSMesa_that_is_not_there.so"});

@@ -36,6 +36,20 @@ TEST(Annotations, LeaveThePictureAsItIsWhereTheyAreNot) {
   EXPECT_TRUE(same(plain.rowRange(0, 120), captioned.rowRange(0, 120)));
 }
 
+TEST(Annotations, ACaptionThatDoesNotFitIsRefusedBeforeTheRun) {
+  const test::SceneFolder folder;
+  const auto refusal = [&](const std::string& caption) {
+    const Scene scene = folder.load(test::swinging_cloth + "[video]\nsize = [64, 64]\n[caption]\n" + caption);
+    return folder.without_folder(test::usage_error([&] { Annotations{scene}; }));
+  };
+  EXPECT_TRUE(refusal("text = \"t = {time:.2f} s\"\nsize = 512\n")
+                  .starts_with("scene.toml:12:8: a caption of size = 512 does not fit into a picture of 64x64 pixels: "
+                               "the largest that fits is size = "));
+  EXPECT_EQ(refusal("text = \"t = {time:.2f} s\"\n"), "(no error)");
+  // It fits where the film begins, but not where it ends.
+  EXPECT_NE(refusal("text = \"{time:.0f}{time:.50f}\"\nsize = 30\n"), "(no error)");
+}
+
 TEST(Annotations, BandsMakeTheFilmHigherAndLeaveThePicture) {
   const cv::Mat plain = last_picture(""), with = last_picture("[overlay]\nenergies = true\n");
   EXPECT_EQ(with.cols, 200);

@@ -161,6 +161,19 @@ TEST(RunScene, EnergiesAreThoseOfTheirStep) {
   }
 }
 
+TEST(RunScene, AZeroHasNoSignInTheEnergies) {
+  const test::SceneFolder folder;
+  // Without gravity, −m·(x·g) is −0.
+  const Scene scene =
+      folder.load("[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 50\n[time]\nstep = 0.02\nduration = 0.1\n");
+  RunOptions options;
+  options.records.energies = (folder.path() / "energies.csv").string();
+  run(scene, options);
+  for (const std::string& row : lines(options.records.energies)) {
+    EXPECT_EQ((row + ",").find(",-0,"), std::string::npos) << row;
+  }
+}
+
 TEST(RunScene, ADivergedRunKeepsTheRecordsOfItsFiniteSteps) {
   const test::SceneFolder folder;
   const std::string stiff = R"(

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <regex>
 
+#include "core/text.hpp"
 #include "html/markdown.hpp"
+#include "tests/support/hostile_names.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace drape {
@@ -100,6 +103,68 @@ TEST(ResultTable, HasTheSameCellsForThoseWhoReadLatexAndMarkdown) {
   write_set_table(all, folder.path());
   EXPECT_EQ(read_by_pandoc((folder.path() / "all.md").string(), "gfm"), expected);
   EXPECT_EQ(read_by_pandoc((folder.path() / "all.tex").string(), "latex"), expected);
+}
+
+/// A text as it is after a program has set its quotes and spaces.
+std::string without_typography(std::string text) {
+  const std::array<std::array<const char*, 2>, 12> written{{{"`", "'"},
+                                                            {"‘", "'"},
+                                                            {"’", "'"},
+                                                            {"“", "\""},
+                                                            {"”", "\""},
+                                                            {"&#39;", "'"},
+                                                            {"&quot;", "\""},
+                                                            {"&lt;", "<"},
+                                                            {"&gt;", ">"},
+                                                            {"&amp;", "&"},
+                                                            {" +", " "},
+                                                            {"^ | $", ""}}};
+  for (const auto& [from, to] : written) text = std::regex_replace(text, std::regex(from), to);
+  return text;
+}
+
+TEST(ResultTable, HoldsHostileNamesInOneCellEach) {
+  if (output_of("pandoc --version 2>/dev/null").empty()) GTEST_SKIP() << "pandoc is not installed";
+  ResultTable names{"names", "Names", {"name", "number"}, {}, {}};
+  for (const std::string& name : test::hostile_names) names.rows.push_back({name, "1"});
+  const test::ScratchFolder folder;
+  write_set_table(names, folder.path());
+  for (const auto& [file, form] : {std::array{"names.md", "gfm"}, std::array{"names.tex", "latex"}}) {
+    const auto rows = read_by_pandoc((folder.path() / file).string(), form);
+    ASSERT_EQ(rows.size(), names.rows.size() + 1) << file;
+    for (std::size_t r = 1; r < rows.size(); ++r) {
+      ASSERT_EQ(rows[r].size(), 2U) << file << ": " << names.rows[r - 1][0];
+      std::string expected = escape_controls(names.rows[r - 1][0]);
+      std::ranges::replace(expected, '\n', ' ');
+      EXPECT_EQ(without_typography(rows[r][0]), without_typography(expected)) << file;
+      EXPECT_EQ(rows[r][1], "1") << file;
+    }
+  }
+}
+
+TEST(ResultTable, GivesSpreadsheetsNothingToCompute) {
+  EXPECT_EQ(csv_line({"=1+1", "+cmd|' /C calc'!A0", "-x", "@SUM(A1)", "'=1", "it's"}),
+            "'=1+1,'+cmd|' /C calc'!A0,'-x,'@SUM(A1),''=1,it's\n");
+  EXPECT_EQ(csv_line({"\t=1", "\r=1", "=\"a\",b"}), "'\t=1,\"'\r=1\",\"'=\"\"a\"\",b\"\n");
+  // Numbers stay numbers, and so does what a spreadsheet takes for a text.
+  EXPECT_EQ(csv_line({"-1.5", "+2e-3", "-inf", "1e999", "-1e-999", "–", "", "a=b"}),
+            "-1.5,+2e-3,-inf,1e999,-1e-999,–,,a=b\n");
+  for (const std::string& name : test::hostile_names) {
+    const std::string line = csv_line({name});
+    EXPECT_EQ(std::string_view("=+-@\t\r").find(line[line[0] == '"' ? 1 : 0]), std::string_view::npos) << name;
+    for (const std::string& text : {name, "'" + name, "''" + name}) {
+      std::string cell = csv_line({text});
+      cell.pop_back();
+      if (cell[0] == '"') cell = std::regex_replace(cell.substr(1, cell.size() - 2), std::regex("\"\""), "\"");
+      EXPECT_EQ(csv_text(cell), text);
+    }
+  }
+}
+
+TEST(Markdown, KeepsCodeInItsFence) {
+  EXPECT_EQ(markdown_code("drape accept out"), "`drape accept out`");
+  EXPECT_EQ(markdown_code("a `b` ``c``"), "``` a `b` ``c`` ```");
+  EXPECT_EQ(markdown_code("a\nb"), "`a\\x0ab`");
 }
 
 TEST(Markdown, ShowsTextAsItIs) {

@@ -115,12 +115,16 @@ TEST_F(Plan, IsReadFromTheTableSweepOfAFile) {
   EXPECT_EQ(request.varied.at(0).values, (std::vector<std::string>{"liu13", "implicit"}));
 
   const std::filesystem::path wrong =
-      folder_.write("wrong.toml", "[sweep]\nvery = 1\nsteps = -1\n[sweep.vary]\ncloth.mass = 3\n");
+      folder_.write("wrong.toml", "[sweep]\nvery = 1\nsteps = -1\n[sweep.vary]\ncloth.mass = 3\ntime.step = []\n");
   const std::string text =
       folder_.without_folder(usage_error([&] { static_cast<void>(add_sweep_table(wrong.string(), request)); }));
   EXPECT_NE(text.find("wrong.toml:2:1: unknown key 'very' in [sweep]; did you mean 'vary'?"), std::string::npos)
       << text;
-  EXPECT_NE(text.find("wrong.toml:3:9: steps: expected a whole number from 0 on"), std::string::npos) << text;
+  EXPECT_NE(text.find("wrong.toml:3:9: steps: expected a whole number from 0 on, found -1"), std::string::npos) << text;
+  EXPECT_NE(text.find("wrong.toml:6:13: time.step: expected an array of values, or a text as --vary takes it, found an "
+                      "empty array"),
+            std::string::npos)
+      << text;
   EXPECT_NE(text.find("wrong.toml:5:14: cloth.mass: expected an array of values"), std::string::npos) << text;
 }
 

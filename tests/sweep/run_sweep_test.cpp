@@ -197,5 +197,28 @@ TEST_F(Sweep, WritesWhatAReportNeeds) {
   EXPECT_TRUE(test::content(diagram + ".png").starts_with("\x89PNG"));
 }
 
+TEST_F(Sweep, SaysThatARecordIsDamaged) {
+  const SweepRequest request = request_of(scene_, {"cloth.stiffness=10,20"});
+  const SweepResults whole = sweep(request, into("out"));
+  const std::filesystem::path record = run_place(folder_.path("out"), whole.planned(whole.rows[0]).key) / "run.json";
+  for (const std::string text : {"{", "{\"format\": 1}", ""}) {
+    folder_.write(std::filesystem::relative(record, folder_.path()).string(), text);
+    const SweepResults read = read_results(folder_.path("out"), *read_sweep_file(folder_.path("out")));
+    EXPECT_EQ(read.count(RunOutcome::not_run), 1U);
+    const std::vector<std::string> troubles = read.troubles();
+    ASSERT_EQ(troubles.size(), 1U) << text;
+    EXPECT_NE(troubles[0].find("run.json is damaged: --resume runs it again"), std::string::npos) << troubles[0];
+  }
+  SweepOptions again = into("out");
+  again.resume = true;
+  EXPECT_EQ(sweep(request, again).count(RunOutcome::completed), 2U);
+  for (const std::string text : {"{", "{\"format\": 2, \"shard\": \"1/1\"}", "{\"format\": \"x\"}"}) {
+    folder_.write("out/sweep.json", text);
+    const std::string problem = test::usage_error([&] { read_sweep_file(folder_.path("out")); });
+    EXPECT_NE(problem.find("sweep.json: it is damaged"), std::string::npos) << problem;
+    EXPECT_EQ(problem.find("json.exception"), std::string::npos) << problem;
+  }
+}
+
 }  // namespace
 }  // namespace drape

@@ -185,8 +185,15 @@ TEST(MeshMotionFile, PlaysASequenceOfObjFiles) {
   EXPECT_EQ(error("body{frame:04}.obj"), "body{frame:04}.obj: body0011.obj is missing before body0012.obj");
   put("body0011.obj", "0", "f 1 3 2\n");
   EXPECT_EQ(error("body{frame:04}.obj"),
-            "body0011.obj: expected the 3 vertices and 1 triangles of the first frame, found 3 vertices and 1 "
-            "triangles, or others");
+            "body0011.obj: expected the triangles of the first frame, but triangle 1 has other vertices");
+  put("body0011.obj", "0", "f 1 2 3\nf 1 3 2\n");
+  EXPECT_EQ(
+      error("body{frame:04}.obj"),
+      "body0011.obj: expected the 3 vertices and 1 triangles of the first frame, found 3 vertices and 2 triangles");
+  // A file that is no sequence has no frames to be so many in a second.
+  const auto with_fps =
+      usage_error([&] { read_mesh_motion(folder.path() / "body0012.obj", {.frames_per_second = 2}); });
+  EXPECT_NE(with_fps.find("body0012.obj: a single OBJ does not move: omit 'fps'"), std::string::npos) << with_fps;
 }
 
 TEST(MeshMotionFile, RefusesWhatAFormatDoesNotHave) {

@@ -25,6 +25,21 @@ TEST(SceneCheck, TakesPartsOfPicturesThatAreNotJudged) {
   EXPECT_NE(folder.problems(check + "[[0, 0, -1, 5]]\n").find("scene.toml:7:18: ignore"), std::string::npos);
 }
 
+TEST(SceneCheck, RefusesToIgnoreWhatThereIsNot) {
+  const test::SceneFolder folder;
+  const std::string check =
+      "[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 7\n[time]\nstep = 0.02\nduration = 0.2\n[check]\nsize = [64, "
+      "48]\n";
+  EXPECT_EQ(folder.problems(check + "ignore = [[0, 0, 9, 9], [0, 48, 9, 9]]\n"),
+            "scene.toml:9:10: ignore: [0, 48, 9, 9] is outside of the picture, which has 64x48 pixels");
+  EXPECT_EQ(folder.problems(check + "ignore = [[63, 47, 99, 99]]\n"), "(no error)");
+  EXPECT_EQ(folder.problems(check + "ignore_frames = [0, 99999]\n"),
+            "scene.toml:9:17: ignore_frames: the film ends with frame 5, found 99999");
+  // What an override has made shorter or smaller is meant.
+  EXPECT_EQ(folder.problems(check + "ignore_frames = [5]\n", {"time.duration=0.1"}), "(no error)");
+  EXPECT_EQ(folder.problems(check + "ignore = [[60, 0, 4, 4]]\n", {"check.size=[32, 24]"}), "(no error)");
+}
+
 TEST(SceneCheck, SaysWhatIsThereInsteadOfAWindowOfSteps) {
   const test::SceneFolder folder;
   EXPECT_EQ(folder.problems(least_scene + "[check]\nwindow = 20\n"),

@@ -100,6 +100,18 @@ TEST(SceneMesh, DoubtsSizesAndUpAxesThatAreSeldomMeant) {
   EXPECT_TRUE(doubts("\"shirt.obj\"", "[cloth.transform]\nrotate = [90, 0, 0]\n").empty());
 }
 
+TEST(SceneLook, SaysOfAColourThatATextureCoversThatItIsNotSeen) {
+  const SceneFolder folder;
+  const std::string cloth = "[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 7\n[look]\n";
+  const std::vector<std::string> doubts = folder.load(cloth + "texture = \"plaid.png\"\ncolor = \"red\"\n").doubts;
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_TRUE(doubts[0].ends_with(
+      "scene.toml:6:9: color: it is not seen, because the texture covers the cloth: omit one of the two"))
+      << doubts[0];
+  EXPECT_TRUE(folder.load(cloth + "color = \"red\"\n").doubts.empty());
+  EXPECT_TRUE(folder.load(cloth + "texture = \"plaid.png\"\n").doubts.empty());
+}
+
 TEST(SceneMesh, SaysItsPiecesItsExtentAndItsEdges) {
   const SceneFolder folder;
   folder.write("two.obj", "v 0 0 0\nv 3 0 0\nv 0 4 0\nv 0 0 7\nv 1 0 7\nv 0 1 7\nv 9 9 9\nf 1 2 3\nf 4 5 6\n");
@@ -107,6 +119,10 @@ TEST(SceneMesh, SaysItsPiecesItsExtentAndItsEdges) {
   EXPECT_EQ(shape_of(scene.simulation.cloth).text(), "2 pieces of 9 × 9 × 9 m together, edges of 1 to 5 m");
   const Scene grid = folder.load("[cloth]\nmesh = { grid = [4, 4] }\nstiffness = 7\n");
   EXPECT_EQ(shape_of(grid.simulation.cloth).text(), "1 piece of 2 × 2 × 0 m, edges of 0.5 to 0.707 m");
+  // What rounding leaves of a direction in which a turned cloth is flat is no length.
+  const Scene turned =
+      folder.load("[cloth]\nmesh = { grid = [4, 4] }\nstiffness = 7\n[cloth.transform]\nrotate = [90, 0, 0]\n");
+  EXPECT_EQ(shape_of(turned.simulation.cloth).text(), "1 piece of 2 × 0 × 2 m, edges of 0.5 to 0.707 m");
 }
 
 TEST(SceneMesh, EveryOtherFormIsAnError) {

@@ -178,7 +178,7 @@ TEST(SceneErrors, NoNumberIsNanOrInfinite) {
             "scene.toml:5:19: scale must be finite, found nan");
   EXPECT_EQ(folder.problems(with("cloth", "pins = [{ box = [[0, 0, nan], [1, 1, 1]] }]")),
             "scene.toml:5:25: pins[0].box[0][2] must be finite, found nan");
-  EXPECT_EQ(folder.problems(with("cloth", "transform = { translate = [1e308, 0, 0], scale = 1.7e308 }")),
+  EXPECT_EQ(folder.problems(with("cloth", "transform = { rotate = [0, 0, 45], scale = 1.7e308 }")),
             "scene.toml:5:13: transform: positions are no longer finite");
 }
 
@@ -205,6 +205,8 @@ TEST(SceneErrors, ATextureMustExistAndTheMeshMustTakeIt) {
   EXPECT_EQ(missing.substr(0, missing.find(" nor ")), "scene.toml:5:11: texture: no such file: neither plad.png");
 
   folder.write("pictures/mine.png", "");
+  EXPECT_EQ(folder.problems(with("look", "texture = \"pictures\"")),
+            "scene.toml:5:11: texture: expected a file, but pictures is a folder");
   EXPECT_EQ(folder.load(with("look", "texture = \"pictures/mine.png\"")).look.texture,
             folder.path() / "pictures/mine.png");
   EXPECT_TRUE(folder.load(with("look", "texture = \"\"")).look.texture.empty());

@@ -62,6 +62,9 @@ TEST(SceneMessages, AFormulaIsNamedWithItsPlace) {
             "scene.toml:7:16: acceleration: expected an array of 3 formulas, found one of 2");
   EXPECT_EQ(folder.problems(least_scene + field + "[\"-x\", 0, true]\n"),
             "scene.toml:7:26: acceleration[2]: expected a formula or a number, found true or false");
+  EXPECT_EQ(folder.problems(least_scene + field + "[\"sin\", 0, 1]\n"),
+            "scene.toml:7:17: acceleration[0]: 'sin': 'sin' at its character 1 is a function: write what it is of in "
+            "brackets, as in sin(x)");
 }
 
 TEST(SceneMessages, TheOrderDoesNotDependOnTheNumberOfDigitsOfALine) {

@@ -56,6 +56,11 @@ TEST(MakeCloth, RefusesWhatDoesNotFit) {
   Mesh other = grid;
   std::swap(other.triangles[0], other.triangles[1]);
   EXPECT_THROW(make_cloth(grid, other, 1, 1, {}), std::invalid_argument);
+  for (const int vertex : {-1, 9}) {
+    other = grid;
+    other.triangles[3][1] = vertex;
+    EXPECT_THROW(cloth_of(other, 1, 1, {}), std::invalid_argument);
+  }
 }
 
 TEST(FreeVertices, NumbersWhatIsNotPinnedInTheOrderOfTheCloth) {

@@ -6,6 +6,7 @@
 #include "scene/method_names.hpp"
 #include "sim/effects/gravity.hpp"
 #include "sim/simulation.hpp"
+#include "tests/support/usage_error.hpp"
 
 namespace drape::test {
 namespace {
@@ -32,6 +33,26 @@ TEST(StateHash, DiffersWithEveryBit) {
   EXPECT_NE(hash_of(other), hash_of(state));
   other = {.x = state.v, .v = state.x, .step = 7};
   EXPECT_NE(hash_of(other), hash_of(state));
+}
+
+TEST(SimulationSettings, ThatMakeNoSenseAreRefused) {
+  const auto problem = [](const auto& change) {
+    SimulationSettings settings = hanging(Method::liu13);
+    change(settings);
+    return usage_error([&] { const Simulation simulation(settings); });
+  };
+  using Settings = SimulationSettings;
+  EXPECT_EQ(problem([](Settings& s) { s.step = -1; }), "the step must be above 0 s, found -1 s");
+  EXPECT_EQ(problem([](Settings& s) { s.step = 0; }), "the step must be above 0 s, found 0 s");
+  EXPECT_EQ(problem([](Settings& s) { s.step = NAN; }), "the step must be above 0 s, found nan s");
+  EXPECT_EQ(problem([](Settings& s) { s.cloth.pins = {25}; }), "a pin has vertex 25, but the vertices are 0 to 24");
+  EXPECT_EQ(problem([](Settings& s) { s.cloth.pins = {4, 0}; }), "the pins must be ascending, each once");
+  EXPECT_EQ(problem([](Settings& s) { s.cloth.triangles[7][2] = -1; }),
+            "a triangle has vertex -1, but the vertices are 0 to 24");
+  EXPECT_EQ(problem([](Settings& s) { s.cloth.springs[7].j = 99; }),
+            "a spring has vertex 99, but the vertices are 0 to 24");
+  EXPECT_EQ(problem([](Settings& s) { s.cloth.masses.conservativeResize(24); }),
+            "the cloth has 25 vertices and 24 masses");
 }
 
 TEST(MovedSimulation, GoesOnToTheSameBits) {

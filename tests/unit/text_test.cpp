@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/hostile_names.hpp"
+
 namespace drape {
 namespace {
 
@@ -31,6 +33,35 @@ TEST(Printable, ReplacesWhatNoPageMayHold) {
   EXPECT_EQ(printable("\x1B[31m\x7F\r"), mark + "[31m" + mark + mark);
   EXPECT_EQ(printable("\xC2\x85"), mark + mark);             // U+0085, a control character
   EXPECT_EQ(printable("\xEF\xBF\xBF"), mark + mark + mark);  // U+FFFF, no character
+}
+
+TEST(Printable, ReplacesWhatTurnsTheDirectionOfWriting) {
+  EXPECT_EQ(printable("a\u202Egpj"), "a" + mark + mark + mark + "gpj");
+  EXPECT_EQ(printable("שלום عربي"), "שלום عربي");
+}
+
+TEST(EscapeControls, WritesWhatTalksToATerminal) {
+  EXPECT_EQ(escape_controls("a\x1b[31m\x7f\tb\r"), "a\\x1b[31m\\x7f\\x09b\\x0d");
+  EXPECT_EQ(escape_controls(std::string("\0", 1)), "\\x00");
+  EXPECT_EQ(escape_controls("\xc2\x9b\xff"), "\\x9b\\xff");
+  EXPECT_EQ(escape_controls("a\u202Egpj\u2028"), "a\\u202egpj\\u2028");
+  EXPECT_EQ(escape_controls("line\nfeed, Tücher, 布"), "line\nfeed, Tücher, 布");
+}
+
+TEST(EscapeControls, LeavesNoCommandToABuildServer) {
+  EXPECT_EQ(escape_controls("a\n ::error::b"), "a\n \\x3a:error::b");
+  EXPECT_EQ(escape_controls("::error::b"), "\\x3a:error::b");
+  EXPECT_EQ(escape_controls("std::string ##[group] ##vso[x] ##"), "std::string \\x23#[group] \\x23#vso[x] ##");
+}
+
+TEST(EscapeControls, ShowsANameOnOneLine) {
+  EXPECT_EQ(shown(std::string("a\nb")), "a\\x0ab");
+  EXPECT_EQ(shown(std::filesystem::path("a/b\n::c")), "a/b\\x0a\\x3a:c");
+  for (const std::string& name : test::hostile_names) {
+    EXPECT_FALSE(test::has_controls(shown(name))) << name;
+    EXPECT_EQ(shown(shown(name)), shown(name));
+    EXPECT_EQ(shown(name).find('\n'), std::string::npos);
+  }
 }
 
 TEST(ReadableLength, HasThreeDigitsAndTheUnitInWhichOneReadsThem) {

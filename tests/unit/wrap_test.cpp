@@ -40,8 +40,8 @@ TEST(Wrap, BreaksAtSpacesAndKeepsEveryWord) {
 TEST(Wrap, LeavesAloneWhatFitsAndWhatCannot) {
   const std::string text = "a line\n\n  and   another\n";
   EXPECT_EQ(wrapped(text, 20), text);
-  EXPECT_EQ(wrapped(std::string(200, 'a') + " b", unlimited_width), std::string(200, 'a') + " b");
-  EXPECT_EQ(wrapped(std::string(50, 'a') + " b", 30), std::string(50, 'a') + "\nb");
+  EXPECT_EQ(wrapped(std::string(200, 'a').append(" b"), unlimited_width), std::string(200, 'a').append(" b"));
+  EXPECT_EQ(wrapped(std::string(50, 'a').append(" b"), 30), std::string(50, 'a').append("\nb"));
   // Letters count, not bytes.
   EXPECT_EQ(wrapped("µµµµµµµµµµ µµµµµµµµµµ µµµµµµµµ", 30), "µµµµµµµµµµ µµµµµµµµµµ µµµµµµµµ");
 }

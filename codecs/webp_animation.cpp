@@ -1,0 +1,225 @@
+#include "codecs/webp_animation.hpp"
+
+#include <webp/decode.h>
+#include <webp/encode.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+
+#include "codecs/webp_file.hpp"
+
+namespace drape {
+namespace {
+
+using Mask = cv::Mat1b;  // 1 where a frame changes the picture
+
+constexpr float quality = 75;          // libwebp's own default: a film has two thirds of the size of a GIF
+constexpr int seen_at_rest = 2;        // of 255: what may be off where nothing moves
+constexpr int seen_in_motion = 5;      // and elsewhere; in libwebp it is as much at this quality
+constexpr std::uint8_t at_rest = 4;    // frames for which a pixel has not changed
+constexpr int block = 8;               // pixels: what is transparent is the cheaper the fewer corners it has
+constexpr std::int64_t shortest = 11;  // [ms]; browsers show what is shorter for a tenth of a second
+constexpr int repair_interval = 12;    // frames, where a frame is too short to be cut in two
+
+enum class Loss { some, none };
+
+/// The largest difference of a channel.
+int difference(const cv::Vec3b& a, const cv::Vec3b& b) {
+  int largest = 0;
+  for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(a[c] - b[c]));
+  return largest;
+}
+
+/// The pixels in a mask, from an even corner; empty if there are none.
+cv::Rect box_of(const Mask& mask) {
+  cv::Point first(mask.cols, mask.rows), last(-1, -1);
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
+      if (mask(y, x) == 0) continue;
+      first = {std::min(first.x, x), std::min(first.y, y)};
+      last = {std::max(last.x, x), std::max(last.y, y)};
+    }
+  }
+  if (last.x < 0) return {};
+  return {cv::Point(first.x - first.x % 2, first.y - first.y % 2), cv::Point(last.x + 1, last.y + 1)};
+}
+
+/// Part of a picture as a WebP file.
+std::string encoded(const cv::Mat3b& rgb, const Mask& mask, const cv::Rect& box, Loss loss) {
+  WebPConfig config;
+  WebPPicture picture;
+  if (WebPConfigInit(&config) == 0 || WebPPictureInit(&picture) == 0)
+    throw std::runtime_error("libwebp is another one");
+  config.lossless = loss == Loss::none ? 1 : 0;
+  config.quality = loss == Loss::none ? 50 : quality;  // without loss it says how long to search
+  picture.use_argb = 1;
+  picture.width = box.width;
+  picture.height = box.height;
+  WebPMemoryWriter writer;
+  WebPMemoryWriterInit(&writer);
+  picture.writer = WebPMemoryWrite;
+  picture.custom_ptr = &writer;
+  const std::unique_ptr<WebPPicture, void (*)(WebPPicture*)> free_picture(&picture, WebPPictureFree);
+  const std::unique_ptr<WebPMemoryWriter, void (*)(WebPMemoryWriter*)> free_bytes(&writer, WebPMemoryWriterClear);
+  if (WebPPictureAlloc(&picture) == 0) throw std::bad_alloc();
+  for (int y = 0; y < box.height; ++y) {
+    for (int x = 0; x < box.width; ++x) {
+      const cv::Vec3b& color = rgb(box.y + y, box.x + x);
+      const std::uint32_t opaque = mask(box.y + y, box.x + x) != 0 ? 0xFF000000U : 0U;
+      picture.argb[static_cast<std::ptrdiff_t>(y) * picture.argb_stride + x] =
+          opaque | std::uint32_t{color[0]} << 16U | std::uint32_t{color[1]} << 8U | color[2];
+    }
+  }
+  if (WebPEncode(&config, &picture) == 0) {
+    if (picture.error_code == VP8_ENC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    throw std::runtime_error("libwebp cannot encode a frame");
+  }
+  return {reinterpret_cast<const char*>(writer.mem), writer.size};
+}
+
+class WebpAnimation {
+ public:
+  WebpAnimation(const std::string& file, double fps, cv::Size size) : file_(file, size), fps_(fps) {}
+
+  void add(const cv::Mat& rgb) {
+    const cv::Mat3b now = rgb;
+    const std::int64_t begin = time_of(count_), end = time_of(++count_);
+    if (count_ == 1) {
+      begin_film(now);
+    } else {
+      compare(now);
+      change(now, begin, end);
+    }
+    now.copyTo(before_);
+  }
+
+  void finish() { file_.finish(time_of(count_)); }
+
+ private:
+  [[nodiscard]] std::int64_t time_of(std::int64_t frame) const {
+    return std::llround(1000 * static_cast<double>(frame) / fps_);
+  }
+
+  void begin_film(const cv::Mat3b& now) {
+    seen_ = cv::Mat3b::zeros(now.size());
+    rest_ = cv::Mat1b::zeros(now.size());
+    kept_ = cv::Mat1b::zeros(now.size());
+    show(now, Mask::ones(now.size()), Loss::some, 0);
+  }
+
+  /// Counts for how many frames each pixel has been the same.
+  void compare(const cv::Mat3b& now) {
+    for (int y = 0; y < now.rows; ++y) {
+      for (int x = 0; x < now.cols; ++x) {
+        std::uint8_t& rest = rest_(y, x);
+        const bool same = now(y, x) == before_(y, x);
+        rest = same ? static_cast<std::uint8_t>(std::min(rest + 1, 255)) : std::uint8_t{0};
+        if (!same) kept_(y, x) = 0;
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_off(const cv::Mat3b& now, int y, int x) const {
+    return difference(now(y, x), seen_(y, x)) > (rest_(y, x) >= at_rest ? seen_at_rest : seen_in_motion);
+  }
+
+  /// What is off at rest, and stayed so when it was compressed again.
+  [[nodiscard]] Mask stubborn(const cv::Mat3b& now) const {
+    Mask mask = Mask::zeros(now.size());
+    for (int y = 0; y < now.rows; ++y) {
+      for (int x = 0; x < now.cols; ++x) mask(y, x) = kept_(y, x) != 0 && is_off(now, y, x) ? 1 : 0;
+    }
+    return mask;
+  }
+
+  /// All that is off.
+  /// @param moving whether any of it has moved
+  [[nodiscard]] Mask off(const cv::Mat3b& now, bool& moving) const {
+    Mask mask = Mask::zeros(now.size());
+    moving = false;
+    for (int y = 0; y < now.rows; ++y) {
+      for (int x = 0; x < now.cols; ++x) {
+        if (!is_off(now, y, x)) continue;
+        mask(y, x) = 1;
+        moving = moving || rest_(y, x) < at_rest;
+      }
+    }
+    return mask;
+  }
+
+  /// Adds what moves in the blocks that are off.
+  void fill_blocks(Mask& mask) const {
+    for (int y = 0; y < mask.rows; y += block) {
+      for (int x = 0; x < mask.cols; x += block) {
+        const cv::Rect place = cv::Rect(x, y, block, block) & cv::Rect({}, mask.size());
+        if (cv::countNonZero(mask(place)) <= place.area() / block) continue;
+        cv::bitwise_or(mask(place), (rest_(place) < at_rest) / 255, mask(place));
+      }
+    }
+  }
+
+  void change(const cv::Mat3b& now, std::int64_t begin, std::int64_t end) {
+    bool moving = false;
+    Mask mask = off(now, moving);
+    const bool cut_in_two = end - begin >= 2 * shortest;
+    const bool lossless = !moving || (!cut_in_two && count_ % repair_interval == 0 && cv::countNonZero(kept_) > 0);
+    if (!lossless) {
+      mask.setTo(0, kept_);
+      fill_blocks(mask);
+    }
+    constexpr std::int64_t longest = 10'000'000;  // [ms]; a frame has 24 bits for it
+    if (begin - file_.last_begin() > longest) mask(0, 0) = 1;
+    show(now, mask, lossless ? Loss::none : Loss::some, begin);
+    keep_what_is_off(now, mask);
+    if (cut_in_two) show(now, stubborn(now), Loss::none, begin + (end - begin) / 2);
+  }
+
+  /// Remembers what is at rest, was just changed, and is off all the same.
+  void keep_what_is_off(const cv::Mat3b& now, const Mask& mask) {
+    for (int y = 0; y < now.rows; ++y) {
+      for (int x = 0; x < now.cols; ++x) {
+        if (mask(y, x) != 0 && rest_(y, x) >= at_rest) kept_(y, x) = is_off(now, y, x) ? 1 : 0;
+      }
+    }
+  }
+
+  /// Changes the pixels of a mask, if there are any.
+  void show(const cv::Mat3b& now, const Mask& mask, Loss loss, std::int64_t begin) {
+    const cv::Rect box = box_of(mask);
+    if (box.empty()) return;
+    const std::string still = encoded(now, mask, box, loss);
+    int width = 0, height = 0;
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(still.data());
+    const std::unique_ptr<std::uint8_t, void (*)(void*)> rgba(WebPDecodeRGBA(bytes, still.size(), &width, &height),
+                                                              WebPFree);
+    if (!rgba) throw std::bad_alloc();
+    const cv::Mat4b decoded(height, width, reinterpret_cast<cv::Vec4b*>(rgba.get()));
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const cv::Vec4b& pixel = decoded(y, x);
+        if (pixel[3] != 0) seen_(box.y + y, box.x + x) = {pixel[0], pixel[1], pixel[2]};
+      }
+    }
+    file_.show(still, box, begin);
+  }
+
+  WebpFile file_;
+  double fps_;
+  std::int64_t count_ = 0;
+  cv::Mat3b before_, seen_;  // the frame before as it was drawn, and what a viewer sees of it
+  cv::Mat1b rest_;           // for how many frames each pixel has been the same
+  cv::Mat1b kept_;           // 1: it is at rest, and lossy compression leaves it off
+};
+
+}  // namespace
+
+AnimationPen begin_webp(const std::string& file, double fps, cv::Size size) {
+  const auto animation = std::make_shared<WebpAnimation>(file, fps, size);
+  return [animation](const cv::Mat* rgb) { rgb != nullptr ? animation->add(*rgb) : animation->finish(); };
+}
+
+}  // namespace drape

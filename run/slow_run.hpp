@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "run/step_observer.hpp"
+
+namespace drape {
+
+/// How a run went so far.
+struct Pace {
+  std::int64_t steps = 0;  ///< done
+  std::int64_t left = 0;   ///< still to do
+  double seconds = 0;      ///< since its first step began [s]
+  double simulated = 0;    ///< of these, in steps [s]
+  double iterations = 0;   ///< of all steps
+  double substeps = 0;     ///< of all steps
+  bool drawn = false;      ///< it also draws
+
+  /// The time that all steps will have taken, as those so far have gone on average [s].
+  [[nodiscard]] double whole() const {
+    return seconds + seconds / static_cast<double>(steps) * static_cast<double>(left);
+  }
+};
+
+/// What makes a run slow and what would be faster: "300 steps will take about 37 s: each takes 700 iterations; faster
+/// would be …".
+std::string describe_pace(const Pace& pace, const SimulationSettings& settings);
+
+/// Tells once of a run that it will take long, as soon as that is known.
+class SlowRun final : public StepObserver {
+ public:
+  struct Limits {
+    double after = 5;      ///< the first steps whose pace is trusted [s]
+    double long_run = 30;  ///< what is told of [s]
+  };
+
+  /// @param steps of the whole run
+  /// @param drawn whether it also draws
+  /// @param tell  called from the thread that simulates
+  SlowRun(std::int64_t steps, bool drawn, std::function<void(const std::string&)> tell)
+      : SlowRun(steps, drawn, std::move(tell), Limits{}) {}
+  SlowRun(std::int64_t steps, bool drawn, std::function<void(const std::string&)> tell, const Limits& limits)
+      : steps_(steps), tell_(std::move(tell)), limits_(limits), next_look_(limits.after) {
+    pace_.drawn = drawn;
+  }
+
+  void begin(const Simulation& simulation) override;
+  void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::int64_t steps_;
+  std::function<void(const std::string&)> tell_;
+  Limits limits_;
+  double next_look_;
+  bool told_ = false;
+  Pace pace_;
+  Clock::time_point begin_;
+};
+
+}  // namespace drape

@@ -1,0 +1,25 @@
+// check.cbor of a shard of a check, and the reports that are made of it.
+
+#include "check/archive.hpp"
+#include "check/html_report.hpp"
+#include "check/json_report.hpp"
+#include "check/junit_report.hpp"
+#include "core/names_in_folders.hpp"
+#include "tests/fuzz/accepts_or_refuses.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  drape::accepts_or_refuses([&] {
+    const drape::CheckShard shard =
+        drape::unpack_shard({reinterpret_cast<const char*>(data), size}, "in/shard-1-of-2/check.cbor");
+    if (shard.missing() > shard.scenes) std::abort();
+    for (const drape::SceneResult& scene : shard.report.scenes) {
+      if (drape::name_in_folder(scene.name, "", "").find('/') != std::string::npos) std::abort();
+    }
+    const drape::CheckShard whole = drape::merge_shards({shard}, {"in/shard-1-of-2"});
+    if (drape::json_report(whole.report).empty() || drape::junit_report(whole.report).empty() ||
+        drape::html_report(whole.report).empty()) {
+      std::abort();
+    }
+  });
+  return 0;
+}
