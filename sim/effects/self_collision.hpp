@@ -15,8 +15,8 @@ struct SelfCollision {
   double thickness = 0.01;  ///< the distance that layers of the cloth keep [m]
   double repulsion = 20;    ///< the part of the missing distance by which they separate per second, at first [1/s]
   double friction = 0.3;    ///< Coulomb's coefficient between layers
-  Response response = Response::explicit_force;
-  int iterations = 10;  ///< passes over the contacts of a step, and over its collisions before they become rigid
+  int iterations = 10;      ///< passes over the contacts of a step, and over its collisions before they become rigid
+  Response response = Response::explicit_force;  ///< impulses after the step, or solved for with it
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;

@@ -19,11 +19,17 @@ constexpr double doubt = 2;                   // how much further the minimum ma
 
 Minimiser::Minimiser(const System& system, const StepObjective& objective, const IntegratorSettings& settings,
                      int default_max_iterations)
-    : objective_(objective),
+    : system_(system),
+      objective_(objective),
       stop_(system.stop),
       accuracy_(settings, system, objective.inertia()),
       max_iterations_(settings.max_iterations.value_or(default_max_iterations)) {
   trial_.gradient = trial_.x = Vertices::Zero(objective.y().rows(), 3);
+}
+
+ConstantFactor& Minimiser::constant_factor() {
+  if (!factor_) factor_ = std::make_unique<ConstantFactor>(system_, objective_.duration(), Precision::automatic);
+  return *factor_;
 }
 
 StepReport Minimiser::minimise(Iterate& point, const std::function<bool()>& may_end) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "sim/linear/constant_factor.hpp"
 #include "sim/solvers/accuracy.hpp"
@@ -45,7 +46,7 @@ class Minimiser {
   double error(const Iterate& point);
 
   /// Factor of Liu13's matrix A of this system.
-  virtual ConstantFactor& constant_factor() = 0;
+  virtual ConstantFactor& constant_factor();
   /// Model of the Hessian that steps with contact use.
   [[nodiscard]] virtual ImplicitHessian hessian() const { return ImplicitHessian::newton; }
   /// Most iterations of a step.
@@ -77,7 +78,9 @@ class Minimiser {
   /// @param change how far the last iteration has moved the point [m]
   bool balanced(const Iterate& point, double change);
 
+  const System& system_;
   const StepObjective& objective_;
+  std::unique_ptr<ConstantFactor> factor_;  // once it is asked for
   Stop stop_;
   Accuracy accuracy_;
   int max_iterations_;

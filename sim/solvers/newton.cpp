@@ -25,14 +25,8 @@ std::unique_ptr<NewtonSolver> make_solver(LinearSolver choice, const System& sys
 
 Newton::Newton(const System& system, const StepObjective& objective, const IntegratorSettings& settings)
     : Minimiser(system, objective, settings, default_iterations(settings, newton_iterations)),
-      system_(system),
       solver_(make_solver(settings.linear_solver, system, objective)),
       direction_(system.cloth.vertex_count(), 3) {}
-
-ConstantFactor& Newton::constant_factor() {
-  if (!factor_) factor_ = std::make_unique<ConstantFactor>(system_, objective().duration(), Precision::automatic);
-  return *factor_;
-}
 
 void Newton::start() {
   concavity_ = 0;

@@ -15,16 +15,13 @@ namespace drape {
 class Newton final : public Minimiser {
  public:
   Newton(const System& system, const StepObjective& objective, const IntegratorSettings& settings);
-  ConstantFactor& constant_factor() override;
 
  private:
   void start() override;
   double iterate(Iterate& point) override;
   void find_newton_step(const Iterate& point, Vertices& direction) override;
 
-  const System& system_;
   std::unique_ptr<NewtonSolver> solver_;
-  std::unique_ptr<ConstantFactor> factor_;  // once it is asked for
   double concavity_ = 0;
   Vertices direction_;
 };
