@@ -154,7 +154,7 @@ struct System {
   std::vector<std::unique_ptr<MotionFilter>> filters;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;
   std::vector<std::unique_ptr<ContactSource>> contacts;  ///< what the cloth can touch
-  std::vector<PinMotion> pin_motions;    ///< of pins that do not stay where they are
+  std::vector<PinMotion> pin_motions;                    ///< of pins that do not stay where they are
   std::vector<PinRelease> pin_releases;  ///< a simulation makes its system anew, without these pins, when it gets there
 
   System(const Cloth& c, double h, const Threads& by = one_thread())

@@ -147,7 +147,8 @@ double EnergyBooks::tolerated(const Iterate& point) const {
 
 double EnergyBooks::shed(Iterate& point, bool touches) {
   Vertices back = start_.x;
-  if (is_free(system_) && !touches) back.rowwise() += mean(system_.cloth, objective_.y()) - mean(system_.cloth, start_.x);
+  if (is_free(system_) && !touches)
+    back.rowwise() += mean(system_.cloth, objective_.y()) - mean(system_.cloth, start_.x);
   const Vertices way = point.x - back;
   Iterate trial{.x = point.x, .gradient = point.gradient};
   const auto gains_at = [&](double length) {
