@@ -13,8 +13,6 @@ class FactoredMinimiser : public Minimiser {
  public:
   FactoredMinimiser(const System& system, const StepObjective& objective, const IntegratorSettings& settings,
                     int default_max_iterations);
-
- public:
   ConstantFactor& constant_factor() override { return factor_; }
 
  protected:
