@@ -25,7 +25,7 @@ int open_folder(const fs::path& folder) {
 }
 
 /// Removes a folder of this user that nobody holds any more.
-void clear_away(const fs::path& folder) {
+void clear_folder(const fs::path& folder) {
   const int descriptor = open_folder(folder);
   if (descriptor < 0) return;
   struct stat status {};
@@ -40,7 +40,7 @@ void clear_away_all(const fs::path& place, const std::string& prefix) {
   std::error_code error;
   fs::directory_iterator entry(place, error);
   while (!error && entry != fs::directory_iterator()) {
-    if (entry->path().filename().native().starts_with(prefix)) clear_away(entry->path());
+    if (entry->path().filename().native().starts_with(prefix)) clear_folder(entry->path());
     entry.increment(error);
   }
 }

@@ -12,7 +12,7 @@ using Index = std::size_t;
 // How far a point may go from where it was before its triangles are searched anew, in reaches, if there are few.
 constexpr double walk = 0.5;
 // What is nearer than another by less is as near, in reaches: far more than rounding.
-constexpr double equal = 1e-6;
+constexpr double nearly_equal = 1e-6;
 // How often a few triangles are compared before they are measured from where the point is now.
 constexpr int patience = 16;
 
@@ -38,7 +38,7 @@ bool FootMemory::find_slowly(const PlacedMesh& mesh, std::size_t k, const Point&
     if (near.count == 0 || known.clear_squared > 0) return false;
     moved = 0;
   } else if (++near.asked > patience) {
-    look_again(mesh, point, moved, equal * reach_, near);
+    look_again(mesh, point, moved, nearly_equal * reach_, near);
     moved = 0;
   }
   if (covers(near, moved)) return find_among(mesh, point, moved, known, near, foot);
@@ -48,7 +48,7 @@ bool FootMemory::find_slowly(const PlacedMesh& mesh, std::size_t k, const Point&
 }
 
 bool FootMemory::covers(const Near& near, double moved) const {
-  return near.count > 0 && near.nearest + 2 * moved + equal * reach_ < near.all_within;
+  return near.count > 0 && near.nearest + 2 * moved + nearly_equal * reach_ < near.all_within;
 }
 
 bool FootMemory::find_among(const PlacedMesh& mesh, const Point& point, double moved, Known& known, const Near& near,
@@ -57,7 +57,7 @@ bool FootMemory::find_among(const PlacedMesh& mesh, const Point& point, double m
   Nearest best = mesh.nearest_on(triangle, point);
   // How near any other is at least: what is compared as it is here, the rest as it was.
   double second = std::numeric_limits<double>::infinity(), not_compared = near.all_within;
-  const double may_be_nearest = near.nearest + 2 * moved + equal * reach_;
+  const double may_be_nearest = near.nearest + 2 * moved + nearly_equal * reach_;
   for (Index j = 0; j < Index(near.count); ++j) {
     if (near.least[j] > may_be_nearest) {
       not_compared = std::min(not_compared, near.least[j]);
@@ -84,7 +84,7 @@ bool FootMemory::find_among(const PlacedMesh& mesh, const Point& point, double m
   known = {.point = point,
            .travel = mesh.travel(),
            .clear_squared = square_of_part(foot.distance - reach_),
-           .alone_squared = square_of_part((runner_up - std::sqrt(best.squared) - equal * reach_) / 2),
+           .alone_squared = square_of_part((runner_up - std::sqrt(best.squared) - nearly_equal * reach_) / 2),
            .triangle = triangle};
   return foot.distance < reach_;
 }

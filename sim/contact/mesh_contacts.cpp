@@ -122,7 +122,6 @@ BodyContacts::BodyContacts(std::shared_ptr<const MovingBody> body, const Contact
                            const Threads& threads)
     : body_(std::move(body)),
       terms_(terms),
-      cloth_(cloth),
       cloth_count_(cloth.vertex_count()),
       start_(body_->at(0)),
       end_(start_),

@@ -74,7 +74,6 @@ class BodyContacts final : public ContactSource {
 
   std::shared_ptr<const MovingBody> body_;
   ContactTerms terms_;
-  const Cloth& cloth_;
   int cloth_count_;
   BodyAt start_, end_;
   BodyCandidates candidates_;
