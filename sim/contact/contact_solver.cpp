@@ -16,7 +16,7 @@ constexpr double relative_stiffness = 10;     // of a contact, of what holds its
 constexpr double sufficient_decrease = 1e-4;  // Armijo's constant (Nocedal and Wright 2006, section 3.1)
 constexpr double shortest_move = 1e-6;        // of a direction
 constexpr double share_of_change = 0.01;      // tolerance of a step, of how far its forces move a vertex in it at most
-constexpr double contact_share = 0.02;  // of the tolerance, that gaps and slips may have: κ makes large forces of them
+constexpr double contact_share = 0.1;  // of the tolerance, that gaps and slips may have: κ makes large forces of them
 constexpr double linear_tolerance = 0.05;  // of conjugate gradients, in the norm of their preconditioner
 constexpr int most_linear_iterations = 300;
 constexpr double least_held = 0.1;       // of κ, from which on a direction counts as held
@@ -293,7 +293,8 @@ void ContactSolver::choose_start(ContactProblem& problem, const Vertices& steady
 
 StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accuracy, int most_iterations,
                                 Iterate& point) {
-  StepReport report{.converged = false};
+  StepReport report;
+  report.converged = false;
   bool settled = false, updated = false;
   double steepness = 0;
   concavity_ = damping_ = 0;
