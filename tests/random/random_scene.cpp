@@ -100,6 +100,7 @@ class Writer {
         (table == "effects.moving_pins" && key.name == "keyframes"))
       return true;
     if (key.name == "scheme" && explicit_) return false;
+    if (table == "effects.self_collision" && key.name == "response") return false;
     if (key.name == "samples" || key.name == "frames" || key.name == "ignore_frames") return false;
     return key.required || random_.number() < 0.35;
   }
@@ -160,7 +161,10 @@ class Writer {
   std::string value(const Key&, const std::optional<Rgb>*) { return "\"#123456\""; }
   std::string value(const Key&, const Choice& choice) {
     if (random_.number() < 0.3 * wild_) return "\"nothing\"";
-    return '"' + choice.names[static_cast<std::size_t>(random_.below(static_cast<int>(choice.names.size())))] + '"';
+    // Contact that is solved goes with few other keys.
+    const bool contact = !choice.names.empty() && choice.names.back() == "solved";
+    const int count = static_cast<int>(choice.names.size()) - (contact ? 1 : 0);
+    return '"' + choice.names[static_cast<std::size_t>(random_.below(count))] + '"';
   }
   std::string value(const Key&, const OwnForm& form) {
     const bool track = std::any_cast<std::shared_ptr<const SphereTrack>*>(&form.target) != nullptr;
