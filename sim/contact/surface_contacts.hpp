@@ -26,9 +26,9 @@ inline double distance_at_end(double before, double kept, double duration) {
   return before >= kept ? kept : before + (kept - before) * std::min(1.0, separation_rate * duration);
 }
 
-/// Contacts of vertices with a smooth surface S that moves as a whole: S.center(time) is its place [m], and of a place
-/// relative to that S.gap(place) is the distance [m] and S.normal(place) the direction outwards, and
-/// S.normal_on_way(from, to) that in which what goes straight has to be stopped.
+/// Contacts of vertices with a smooth surface that moves as a whole. Surface::at(time) returns a Placed: its `center`
+/// [m], and for a place relative to that `gap` [m], `crosses`, `normal_on_way` and `surface_point`. `margin` is how far
+/// beyond twice the distance vertices count as near [m].
 template <class Surface>
 class SurfaceContacts final : public ContactSource {
  public:

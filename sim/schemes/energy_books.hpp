@@ -41,6 +41,8 @@ class EnergyBooks {
   void end(const Iterate& point);
 
  private:
+  /// Computes g at the start exactly.
+  void evaluate_start();
   /// ΔK + ΔE − W of a point [J], or an upper bound of it as long as start_ is not exact.
   [[nodiscard]] double gain(const Iterate& point) const;
   /// The error that rounding can be expected to make in it [J].
@@ -57,11 +59,10 @@ class EnergyBooks {
   const State* state_ = nullptr;  // at the start of the step
   Iterate start_;                 // its x with its pins where they are when the step ends, and g there…
   bool start_exact_ = false;      // …or, where it has not been needed, a lower bound of g and nothing else
-  void evaluate_start();
-  double start_kinetic_ = 0;  // ½‖v‖²_M [J]
-  double end_energy_ = 0;     // a lower bound of E where the last step ended [J]
-  bool steady_;               // E is at the start of a step what it was there when the last one ended…
-  bool springs_;              // …and nothing but that of springs
+  double start_kinetic_ = 0;      // ½‖v‖²_M [J]
+  double end_energy_ = 0;         // a lower bound of E where the last step ended [J]
+  bool steady_;                   // E is at the start of a step what it was there when the last one ended…
+  bool springs_;                  // …and nothing but that of springs
 };
 
 /// The mean of n×3 numbers, weighted by mass.
