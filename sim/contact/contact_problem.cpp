@@ -33,6 +33,7 @@ void ImplicitProblem::linearise(const Vertices& x, double concavity, double damp
 NewtonCholesky* ImplicitProblem::factor() {
   if (hessian_ == ImplicitHessian::constant) return nullptr;
   if (!newton_) newton_ = std::make_unique<NewtonCholesky>(system_, objective_);
+  newton_->set_damping(damping_ * most_);
   return newton_.get();
 }
 

@@ -20,7 +20,7 @@ class ContactProblem {
   virtual void linearise(const Vertices& x, double concavity, double damping) = 0;
   /// Whether the Hessian is Newton's, so that a small step means that the minimum is near.
   [[nodiscard]] virtual bool exact() const = 0;
-  /// Whether it can solve with a factor of H and of contacts that couple what H couples.
+  /// A factor of H, damped as in linearise(), that also takes contacts which couple what H couples; null: none.
   [[nodiscard]] virtual NewtonCholesky* factor() { return nullptr; }
   /// product = H·vector, zero on pins.
   virtual void multiply(const Vertices& vector, Vertices& product) = 0;

@@ -175,7 +175,6 @@ std::vector<char> ContactSolver::solve_with_factor(NewtonCholesky& factor, const
     if (solved[k] != 0 && !block.stiffness.isZero(0)) blocks.push_back(block);
   }
   factor.set_contacts(std::move(blocks));
-  factor.set_damping(damping_);
   factor.begin();
   factor.solve(x, gradient_, concavity_, direction_);
   return solved;

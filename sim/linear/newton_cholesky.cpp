@@ -66,12 +66,6 @@ NewtonCholesky::NewtonCholesky(const System& system, const StepObjective& object
   pattern_ = spring_pattern(bound, free);
   const LowerPattern& blocks = pattern_;
   for (int i = 0; i < system.cloth.vertex_count(); ++i) numbers_.push_back(free.number(i));
-  Eigen::VectorXd sums = objective.inertia() + bound.vertices;
-  bound.for_each_pair([&](const Spring& pair) {
-    sums[pair.i] += std::max(0.0, pair.stiffness);
-    sums[pair.j] += std::max(0.0, pair.stiffness);
-  });
-  for (const int vertex : vertices_) bound_.push_back(sums[vertex]);
   bound.for_each_pair([&](const Spring& spring) {
     const auto [low, high] = std::minmax({free.number(spring.i), free.number(spring.j)});
     places_.push_back({low, high, 0});
@@ -147,7 +141,8 @@ void NewtonCholesky::add_below(int column_block, int rank, const Eigen::Matrix3d
 void NewtonCholesky::assemble(const Vertices& x, double concavity) {
   std::fill(values_.begin(), values_.end(), 0.0);
   for (Index row = 0; row < inertia_.size(); ++row) {
-    add_diagonal(static_cast<int>(row), (inertia_[row] + damping_ * bound_[row]) * Eigen::Matrix3d::Identity());
+    const double damping = damping_.size() == 0 ? 0 : damping_[vertices_[row]];
+    add_diagonal(static_cast<int>(row), (inertia_[row] + damping) * Eigen::Matrix3d::Identity());
   }
   for (Index s = 0; s < system_.springs.size(); ++s) {
     if (places_[s].high >= 0) add(places_[s], spring_hessian(system_.springs[s], x, concavity));

@@ -32,8 +32,8 @@ class NewtonCholesky final : public NewtonSolver {
   [[nodiscard]] bool couples(const ContactBlock& block) const;
   /// Has H contain these from now on, all of which couple what H couples anyway.
   void set_contacts(std::vector<ContactBlock> contacts) { contacts_ = std::move(contacts); }
-  /// Has H contain this times the diagonal of springs, inertia and energies' bound as well.
-  void set_damping(double damping) { damping_ = damping; }
+  /// Has H contain these on its diagonal, one for each vertex [N/m].
+  void set_damping(Eigen::VectorXd damping) { damping_ = std::move(damping); }
   /// direction = H⁻¹ vector with the factor of the last solve().
   void solve_again(const Vertices& vector, Vertices& direction);
   /// Share of the negative eigenvalues in that factor.
@@ -67,10 +67,10 @@ class NewtonCholesky final : public NewtonSolver {
   [[nodiscard]] int rank_of(int low, int high) const;
 
   std::vector<ContactBlock> contacts_;
-  double damping_ = 0, share_ = 0;
+  Eigen::VectorXd damping_;  // of each vertex; empty: none [N/m]
+  double share_ = 0;
   LowerPattern pattern_;            // of blocks
   std::vector<int> numbers_;        // of each vertex, its block row; −1: pinned
-  std::vector<double> bound_;       // of each block row: what holds it at most [N/m]
   double concavity_ = 1;            // that is tried next
   std::vector<int> vertices_;       // of each block row
   std::vector<Place> places_;       // of each spring, then of each pair of each energy
