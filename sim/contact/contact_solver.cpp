@@ -60,6 +60,15 @@ bool ContactSolver::touches(const Vertices& target) {
   return !contacts_.empty();
 }
 
+bool ContactSolver::collides(const Vertices& target) {
+  find(target, true);
+  return any_collides();
+}
+
+bool ContactSolver::any_collides() const {
+  return std::ranges::any_of(contacts_, [](const ContactConstraint& contact) { return contact.collides; });
+}
+
 bool ContactSolver::can_move(const ContactConstraint& contact) const {
   double moved = 0, all = 0;
   for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
@@ -352,14 +361,11 @@ void ContactSolver::go_with_obstacles(Vertices& x) {
 }
 
 void ContactSolver::retreat(ContactProblem& problem, Iterate& point) {
-  const auto collides = [&] {
-    return std::ranges::any_of(contacts_, [](const ContactConstraint& contact) { return contact.collides; });
-  };
-  if (!collides()) return;
-  for (int round = 0; round < most_rounds && carried() && collides(); ++round) go_with_obstacles(point.x);
+  if (!any_collides()) return;
+  for (int round = 0; round < most_rounds && carried() && any_collides(); ++round) go_with_obstacles(point.x);
   const Vertices way = point.x - start_;
   double part = 1;
-  for (int halving = 0; halving < most_halvings && collides(); ++halving) {
+  for (int halving = 0; halving < most_halvings && any_collides(); ++halving) {
     part /= 2;
     point.x = start_ + part * way;
     find(point.x, true);
@@ -367,10 +373,14 @@ void ContactSolver::retreat(ContactProblem& problem, Iterate& point) {
   point.value = problem.evaluate(point.x, point.gradient);
 }
 
-double ContactSolver::work(const Vertices& x) const {
+double ContactSolver::work(const Vertices& x, bool converged) const {
   double work = 0;
   for (const ContactConstraint& contact : contacts_) {
-    work += respond(contact, x).force.dot(contact.gather(x) - contact.gather(start_));
+    const Eigen::Vector3d force = respond(contact, x).force;
+    const double missing = std::max(0.0, contact.distance - contact.start.dot(contact.normal));
+    const double by_force = force.dot(contact.place(x) - contact.start);
+    const double explained = converged ? by_force : std::min(by_force, force.dot(contact.normal) * missing);
+    work += explained - force.dot(contact.carried);
   }
   return work;
 }

@@ -32,6 +32,9 @@ class ContactSolver {
   /// Finds the contacts of a cloth that goes straight to `target`. Returns whether there are any.
   [[nodiscard]] bool touches(const Vertices& target);
 
+  /// Whether a cloth that goes straight to `target` passes through anything.
+  [[nodiscard]] bool collides(const Vertices& target);
+
   /// Moves the point, which has g's value and gradient, to the minimum under the contacts. Gaps and slips of contacts
   /// that hold are as small as the tolerance; by default that is a hundredth of how far the
   /// step's forces move a vertex at most, if that is more than elsewhere. Where features still collide at the end, the
@@ -42,9 +45,10 @@ class ContactSolver {
   /// @param steady that place, n×3 [m]
   void choose_start(ContactProblem& problem, const Vertices& steady, Iterate& point);
 
-  /// Work of the contacts on a cloth that goes from the start of the step to x, by their forces there [J]: negative but
-  /// for what obstacles do by moving, and for features that were too near and separate.
-  [[nodiscard]] double work(const Vertices& x) const;
+  /// Work of the contacts on a cloth that goes from the start of the step to x, by their forces there [J]: what
+  /// obstacles do by moving, and what it takes to separate features that were too near. The forces of a step that has
+  /// not converged may do more. That would be energy out of nothing, and is left out.
+  [[nodiscard]] double work(const Vertices& x, bool converged) const;
 
   /// Whether the cloth touches anything but itself.
   [[nodiscard]] bool touches_obstacles() const;
@@ -74,6 +78,8 @@ class ContactSolver {
     double error;     // estimated, of a vertex [m]
     bool collides;    // on the straight way
   };
+  /// Whether it does with the contacts as they were found last.
+  [[nodiscard]] bool any_collides() const;
   [[nodiscard]] bool can_move(const ContactConstraint& contact) const;
   /// Finds the contacts of a cloth that goes straight to `target`.
   /// @param turn known ones to how their features touch now, too

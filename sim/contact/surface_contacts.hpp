@@ -68,6 +68,7 @@ class SurfaceContacts final : public ContactSource {
     contact.distance = distance_at_end(from_.gap(from), terms_.distance, duration_);
     contact.friction = terms_.friction;
     contact.restitution = terms_.restitution;
+    contact.collides = terms_.distance > 0 && from_.gap(from) >= 0 && to_.gap(to) < 0;
     return contact;
   }
 

@@ -7,6 +7,16 @@ namespace drape {
 BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver)
     : MinimisingScheme(system, system.step, make_solver), books_(system, objective_, solver_->accuracy()) {}
 
+double BackwardEuler::shed(bool held) {
+  if (!contact_ || held) return books_.shed(point_, held);
+  const Iterate end = point_;
+  const double part = books_.shed(point_);
+  // Where the cloth would be as a whole may be beyond an obstacle; the way back is not.
+  if (!contact_->collides(point_.x)) return part;
+  point_ = end;
+  return books_.shed(point_, true);
+}
+
 StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   const Expected expected = take_expected();
   system_.begin(state);
@@ -27,12 +37,12 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   if (free_ && !held) balance_momentum(system_.cloth, objective_, point_);
   // A step that a small change ended has been looked at, unless it has just been moved.
   const bool looked = !free_ && report.converged && solver_->accuracy().rule == StoppingRule::change;
-  if (touches && books_.gains_in_contact(point_, contact_->work(point_.x))) {
-    if (!contact_->carried()) report.kept = books_.shed(point_, held);
+  if (touches && books_.gains_in_contact(point_, contact_->work(point_.x, report.converged))) {
+    if (!contact_->carried()) report.kept = shed(held);
     report.converged = false;
   }
   if (!touches && !looked && books_.gains(point_, report.converged)) {
-    report.kept = books_.shed(point_);
+    report.kept = shed(false);
     report.converged = false;
   }
   books_.end(point_);

@@ -15,6 +15,10 @@ class BackwardEuler final : public MinimisingScheme {
   StepReport advance(State& state, StepForces& forces) override;
 
  private:
+  /// Goes back until the step gains nothing, on a way that nothing is in; returns what part of it is left.
+  /// @param held whether contacts hold the cloth
+  double shed(bool held);
+
   EnergyBooks books_;
 };
 

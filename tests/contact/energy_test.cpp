@@ -134,14 +134,18 @@ double to_give(const Trial& run, const SimulationSettings& settings) {
   return energies.kinetic + energies.elastic + settings.cloth.masses.sum() * g * fall;
 }
 
-/// Cloth that crumples on itself, whose steps take seconds; and 16, of which a vertex ends 1.7 mm in the sphere.
-constexpr std::array left_out{4, 16, 19, 24, 29, 39};
+/// Cloth that crumples on itself, whose steps take long.
+constexpr std::array left_out{4, 19, 24, 29, 39};
+/// Of later numbers: in 83 liu13 does not finish its first step, and where its cloth would fall as a whole is beyond
+/// the pole.
+constexpr std::array later{83};
 
 std::vector<Trial> all_runs() {
   std::vector<Trial> all;
   for (int i = 0; i < 42; ++i) {
     if (std::ranges::find(left_out, i) == left_out.end()) all.push_back({i});
   }
+  for (const int i : later) all.push_back({i});
   return all;
 }
 
