@@ -117,18 +117,18 @@ int curves_in(const Box& box, const Chart& chart, const Frame& frame) {
 /// The label of a level, above or below its line, where the fewest curves are in its way: at the right if that is as
 /// good as elsewhere.
 Markup level_label(const Chart& chart, const ChartLevel& level, const Frame& frame) {
-  constexpr double size = 12, wide = 0.56, gap = 4;  // see diagram.css
+  constexpr double gap = 4, capitals = 0.75;  // of the letters' height
   constexpr int places = 12;
-  const double y = frame.down(level.y), length = wide * size * letters(level.label);
+  const double y = frame.down(level.y), length = large * wide_letter * letters(level.label);
   const double first = left + gap, last = std::max(first, width - right - gap - length);
   int fewest = INT_MAX;
   std::pair<double, double> best;
   bool at_end = false;  // where the label may be as wide as the reader's letters are
-  for (const double base : {y - 5, y + 14}) {
-    if (base - size < top || base > height - bottom) continue;
+  for (const double base : {y - 5, y + 5 + capitals * large}) {
+    if (base - large < top || base > height - bottom) continue;
     for (int k = places; k >= 0; --k) {
       const double x = first + (last - first) * k / places;
-      const int found = curves_in({x - gap, base - size, x + length + gap, base + gap}, chart, frame);
+      const int found = curves_in({x - gap, base - large, x + length + gap, base + gap}, chart, frame);
       if (found >= fewest) continue;
       fewest = found;
       best = {x, base};

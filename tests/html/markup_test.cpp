@@ -131,18 +131,18 @@ TEST(AxisMap, KeepsAPlaceForZeroOnALogarithmicAxis) {
   EXPECT_EQ(axis.ticks().front().label, "0");
 }
 
-/// Where a level's label stands in a chart of one curve: "end" or "start", its x and its base.
-std::array<std::string, 3> place_of_label(const std::vector<std::array<double, 2>>& points, double level) {
+/// Where a level's label stands in a chart of one curve: "end" or "start", its x and its base, and where its line is.
+std::array<std::string, 4> place_of_label(const std::vector<std::array<double, 2>>& points, double level) {
   Chart chart{.title = "t", .x_title = "x", .y_title = "y", .series = {}, .levels = {{level, "the limit here"}}};
   chart.series.push_back({"a", {}, false});
   for (const auto& [x, y] : points) chart.series.back().points.push_back({x, y, "", ""});
   const std::string svg = still_chart(chart).drawing.html();
-  const std::size_t at = svg.rfind("<text", svg.find("the limit here"));
-  const auto attribute = [&](const std::string& name) {
+  const std::size_t text = svg.rfind("<text", svg.find("the limit here")), line = svg.find("class=\"level\"");
+  const auto attribute = [&](const std::string& name, std::size_t at) {
     const std::size_t begin = svg.find(name + "=\"", at) + name.size() + 2;
     return svg.substr(begin, svg.find('"', begin) - begin);
   };
-  return {attribute("text-anchor"), attribute("x"), attribute("y")};
+  return {attribute("text-anchor", text), attribute("x", text), attribute("y", text), attribute("y1", line)};
 }
 
 TEST(Chart, PutsNoLabelAcrossACurve) {
@@ -154,6 +154,16 @@ TEST(Chart, PutsNoLabelAcrossACurve) {
   // One that runs along the line, just above it: the label is below.
   const auto along = place_of_label({{0, 0.52}, {1, 0.52}, {1, 0}, {1, 1}}, 0.5);
   EXPECT_GT(std::stod(along[2]), std::stod(usual[2])) << along[2];
+}
+
+TEST(Chart, PutsNoLabelAcrossItsOwnLine) {
+  constexpr double large = 19,
+                   capitals = 0.75;  // letters in a narrow window and on paper, and their height above the base
+  for (const double level : {0.0, 0.3, 0.9, 1.0}) {
+    const auto place = place_of_label({{0, 0}, {1, 0.1}}, level);
+    const double base = std::stod(place[2]), line = std::stod(place[3]);
+    EXPECT_TRUE(base < line || base - capitals * large > line) << level << ": " << base << " by " << line;
+  }
 }
 
 TEST(Chart, HasWhatItsAxesHoldInAnyCase) {
