@@ -76,6 +76,17 @@ void refuse_empty_values(CLI::App& app) {
   for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) refuse_empty_values(*subcommand);
 }
 
+/// "--frames=" has an empty value, as where a shell's variable is unset. CLI11 would take the next argument for it.
+/// @throws CLI::ValidationError
+void refuse_nothing_after_equals(std::span<const char* const> arguments) {
+  for (const std::string_view argument : arguments) {
+    if (argument == "--") return;
+    if (!argument.starts_with("--") || argument.find('=') + 1 != argument.size()) continue;
+    throw CLI::ValidationError(std::string(argument.substr(0, argument.size() - 1)),
+                               "expected a value, found an empty text");
+  }
+}
+
 void print_help(const CLI::App& of, const std::string& name, const CommonOptions& common) {
   // Not of.help(), which is that of the subcommand that was chosen.
   const std::string help = of.get_formatter()->make_help(&of, name, CLI::AppFormatMode::Normal);
@@ -186,6 +197,7 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   name_values(app);
   refuse_empty_values(app);
   try {
+    refuse_nothing_after_equals(std::span(argv, static_cast<std::size_t>(argc)));
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     const CLI::App& of = command_of_help(app);

@@ -96,6 +96,7 @@ TEST(Terminal, ValuesAreNotEmpty) {
   };
   for (const std::string option : {"--max-size", "--every", "--sheet", "--frames", "--stats"}) {
     expect_refused("render x.toml " + option + " ''", option + ": expected a value, found an empty text");
+    expect_refused("render x.toml " + option + "= x.toml", option + ": expected a value, found an empty text");
   }
   expect_refused("sweep x.toml --vary cloth.mass=1,2 --slurm-option --partition=short",
                  "--slurm-option requires --slurm");
