@@ -24,8 +24,7 @@ Reason of_iterations(double iterations, const SimulationSettings& settings) {
   const std::string why = fmt::format("each takes {:.0f} iterations", iterations);
   if (integrator.method != Method::quasi_newton) return {why, "method = \"quasi-newton\""};
   if (integrator.stop || integrator.tolerance) return {why, "a larger [integrator] tolerance"};
-  return {why, fmt::format("[integrator] stop = \"error\" with tolerance = {:.1g}, or a shorter [time] step",
-                           coarse * size_of(settings.cloth))};
+  return {why, fmt::format("[integrator] stop = \"error\" with tolerance = {:.1g}", coarse * size_of(settings.cloth))};
 }
 
 Reason reason(const Pace& pace, const SimulationSettings& settings) {

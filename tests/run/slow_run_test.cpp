@@ -30,10 +30,7 @@ TEST(Pace, SaysHowLongAndWhy) {
   EXPECT_NE(text(slow, settings).find("faster would be a larger [integrator] tolerance"), std::string::npos);
 
   settings.integrator.tolerance.reset();
-  EXPECT_NE(
-      text(slow, settings)
-          .find("faster would be [integrator] stop = \"error\" with tolerance = 0.0003, or a shorter [time] step"),
-      std::string::npos)
+  EXPECT_TRUE(text(slow, settings).ends_with("faster would be [integrator] stop = \"error\" with tolerance = 0.0003"))
       << text(slow, settings);
 
   Pace other = slow;
