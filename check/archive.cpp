@@ -7,7 +7,9 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "core/hash.hpp"
 #include "core/names_in_folders.hpp"
 #include "core/text.hpp"
 
@@ -63,10 +65,24 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckShard, report, places, scenes, whole)
 
 std::string pack_shard(const CheckShard& shard) {
   const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(shard);
-  return {bytes.begin(), bytes.end()};
+  return seal_shard({bytes.begin(), bytes.end()});
 }
 
 namespace {
+
+std::string checksum_of(std::string_view bytes) {
+  Hash hash;
+  hash.add(bytes);
+  return hash.text();
+}
+
+/// The bytes before their checksum; nothing if that is not theirs.
+std::optional<std::string_view> opened(std::string_view sealed) {
+  constexpr std::size_t checksum_size = 16;
+  if (sealed.size() < checksum_size) return std::nullopt;
+  const std::string_view bytes = sealed.substr(0, sealed.size() - checksum_size);
+  return sealed.ends_with(checksum_of(bytes)) ? std::optional(bytes) : std::nullopt;
+}
 
 /// Reads CBOR without keeping anything, down to some depth: the library takes a stack frame for each level.
 class DepthLimit final : public nlohmann::json_sax<nlohmann::json> {
@@ -124,6 +140,11 @@ bool has_places(const CheckShard& shard) {
 
 }  // namespace
 
+std::string seal_shard(std::string cbor) {
+  cbor += checksum_of(cbor);
+  return cbor;
+}
+
 CheckShard unpack_shard(std::string_view bytes, const std::filesystem::path& file) {
   const auto damaged = [&] {
     return UsageError(fmt::format("{}: it is damaged, or of another version of drape check", shown(file)));
@@ -131,8 +152,9 @@ CheckShard unpack_shard(std::string_view bytes, const std::filesystem::path& fil
   CheckShard shard;
   try {
     DepthLimit limit;
-    if (!nlohmann::json::sax_parse(bytes, &limit, nlohmann::json::input_format_t::cbor)) throw damaged();
-    nlohmann::json::from_cbor(bytes).get_to(shard);
+    const std::optional<std::string_view> cbor = opened(bytes);
+    if (!cbor || !nlohmann::json::sax_parse(*cbor, &limit, nlohmann::json::input_format_t::cbor)) throw damaged();
+    nlohmann::json::from_cbor(*cbor).get_to(shard);
   } catch (const nlohmann::json::exception&) {  // says no more than this
     throw damaged();
   }

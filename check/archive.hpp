@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,8 +19,11 @@ struct CheckShard {
   [[nodiscard]] std::size_t missing() const { return whole ? scenes - places.size() : 0; }
 };
 
-/// All of it, with the pictures, as bytes (CBOR, RFC 8949).
+/// All of it, with the pictures, as bytes (CBOR, RFC 8949) with their checksum.
 std::string pack_shard(const CheckShard& shard);
+
+/// Bytes of CBOR with their checksum after them (16 hexadecimal digits of Hash), as unpack_shard() expects them.
+std::string seal_shard(std::string cbor);
 
 /// @param file that they are from
 /// @throws UsageError if they are damaged, or name something that is not in a folder

@@ -52,12 +52,12 @@ inline ExitCode exit_code(const RunRecord& record) {
     case RunOutcome::failed:
       return ExitCode::output;
     case RunOutcome::not_run:
-      return ExitCode::interrupted;
+      return record.damaged ? ExitCode::usage : ExitCode::interrupted;
   }
   return ExitCode::interrupted;
 }
 
-/// That of the run that is worst off; interrupted if one was not run.
+/// That of the run that is worst off; interrupted if one was not run, usage if its record is damaged.
 inline ExitCode exit_code(const SweepResults& results) {
   ExitCode worst = ExitCode::ok;
   for (const SweepRow& row : results.rows) worst = std::max(worst, exit_code(row.record));

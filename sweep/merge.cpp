@@ -89,38 +89,49 @@ std::vector<fs::path> parts_in(const fs::path& folder, const char* mark) {
 
 namespace {
 
+/// What a folder has of a run, the better the later.
+enum class Found { damaged, unsettled, settled };
+
+/// By the keys of runs.
+using FoundRuns = std::map<std::string, Found>;
+
 /// A part of a sweep as its folder says it, all of which is read before anything is written.
 struct SweepPart {
   fs::path folder;
   SweepFile file;
-  std::map<std::string, bool> settled;  // by the keys of its runs
+  FoundRuns runs;
 };
 
-/// Notes whether a run is settled, if the folder of the sweep has it and its record is not damaged.
-void note_run(const fs::path& sweep, const std::string& key, std::map<std::string, bool>& settled) {
-  const std::optional<RunRecord> found = read_run(sweep, key);
-  if (found && found->outcome != RunOutcome::not_run) settled.emplace(key, found->settled());
+/// Notes what the folder of a sweep has of a run, if anything.
+void note_run(const fs::path& sweep, const std::string& key, FoundRuns& runs) {
+  const std::optional<RunRecord> record = read_run(sweep, key);
+  if (!record) return;
+  if (record->damaged) {
+    runs.emplace(key, Found::damaged);
+  } else if (record->outcome != RunOutcome::not_run) {
+    runs.emplace(key, record->settled() ? Found::settled : Found::unsettled);
+  }
 }
 
 SweepPart read_part(const fs::path& folder) {
   require_links_inside(folder);
   std::optional<SweepFile> file = read_sweep_file(folder);
   if (!file) throw UsageError(fmt::format("{}: there is no sweep in it", shown(folder)));
-  SweepPart part{.folder = folder, .file = std::move(*file), .settled = {}};
-  for (const PlannedRun& run : part.file.plan.runs) note_run(folder, run.key, part.settled);
+  SweepPart part{.folder = folder, .file = std::move(*file), .runs = {}};
+  for (const PlannedRun& run : part.file.plan.runs) note_run(folder, run.key, part.runs);
   return part;
 }
 
-/// The runs that the folder of the whole has already, and whether they are settled.
+/// The runs that the folder of the whole has already.
 /// @throws UsageError if links lead from there elsewhere
-std::map<std::string, bool> runs_already_in(const fs::path& folder, const SweepPlan& plan) {
-  std::map<std::string, bool> settled;
+FoundRuns runs_already_in(const fs::path& folder, const SweepPlan& plan) {
+  FoundRuns runs;
   for (const PlannedRun& run : plan.runs) {
     if (run.key.empty()) continue;
     require_inside(run_place(folder, run.key), folder);
-    note_run(folder, run.key, settled);
+    note_run(folder, run.key, runs);
   }
-  return settled;
+  return runs;
 }
 
 }  // namespace
@@ -136,7 +147,7 @@ SweepFile merge_sweeps(const std::vector<fs::path>& folders, const fs::path& fol
   SweepFile whole = parts.front().file;
   whole.shard = {};
   require_inside(folder / "runs", folder);
-  std::map<std::string, bool> merged = runs_already_in(folder, whole.plan);
+  FoundRuns merged = runs_already_in(folder, whole.plan);
   const SweepLock lock(folder);
   remove_unfinished(folder);
   write_sweep_file(folder, whole);
@@ -144,11 +155,10 @@ SweepFile merge_sweeps(const std::vector<fs::path>& folders, const fs::path& fol
     if (stop.stop_requested()) break;
     for (const SweepPart& part : parts) {
       const auto has = merged.find(run.key);
-      if (has != merged.end() && has->second) break;
-      const auto found = part.settled.find(run.key);
+      const auto found = part.runs.find(run.key);
       std::error_code ignored;
-      if (found == part.settled.end() || fs::equivalent(part.folder, folder, ignored)) continue;
-      if (has != merged.end() && !found->second) continue;
+      if (found == part.runs.end() || fs::equivalent(part.folder, folder, ignored)) continue;
+      if (has != merged.end() && found->second <= has->second) continue;
       take_over(run_place(part.folder, run.key), run_place(folder, run.key));
       merged.insert_or_assign(run.key, found->second);
     }

@@ -93,17 +93,19 @@ std::optional<RunRecord> read_run(const fs::path& sweep, const std::string& key)
   std::error_code ignored;
   if (key.empty() || !fs::exists(file, ignored)) return std::nullopt;
   RunRecord damaged;
+  damaged.damaged = true;
   damaged.reason = fmt::format("{} is damaged: --resume runs it again", shown(file));
   const std::optional<Json> parsed = parsed_record(file);
   if (!parsed) return damaged;
   const Json& json = *parsed;
   require_names(json, file);
   try {
-    if (json.at("format") != 1 || json.at("key") != key) return std::nullopt;
+    if (json.at("format") != 1 || json.at("key") != key) return damaged;
     const auto* const name = std::ranges::find(run_outcome_names, json.at("outcome").get<std::string>());
-    if (name == run_outcome_names.end()) return std::nullopt;
+    if (name == run_outcome_names.end()) return damaged;
     RunRecord record{.outcome = static_cast<RunOutcome>(name - run_outcome_names.begin()),
                      .reason = json.at("reason"),
+                     .damaged = false,
                      .timed = json.at("timed"),
                      .seconds = json.at("seconds"),
                      .files = json.at("files"),

@@ -20,6 +20,7 @@ inline const char* name_of(RunOutcome outcome) { return run_outcome_names[static
 struct RunRecord {
   RunOutcome outcome = RunOutcome::not_run;
   std::string reason;              ///< why it is not complete, a sentence; empty: it is
+  bool damaged = false;            ///< its file cannot be read, so that it counts as not run
   std::string timed;               ///< what else ran beside it, as far as its sweep knows: "alone", "beside 3 others"
   double seconds = 0;              ///< that it took, with drawing and encoding
   std::vector<std::string> files;  ///< in its folder, that it wrote
@@ -35,7 +36,7 @@ struct RunRecord {
 /// Where a run's folder is.
 std::filesystem::path run_place(const std::filesystem::path& sweep, const std::string& key);
 
-/// What a run's folder says of it; nothing if there is none, or it is no record of this run. One that is damaged is a
+/// What a run's folder says of it; nothing if there is none. A record that is damaged, or of another run, is that of a
 /// run that was not run, with the reason.
 /// @throws UsageError if it names a file that is not in the folder
 std::optional<RunRecord> read_run(const std::filesystem::path& sweep, const std::string& key);

@@ -1,4 +1,4 @@
-// check.cbor of a shard of a check, and the reports that are made of it.
+// check.cbor of a shard of a check, whose checksum is right, and the reports that are made of it.
 
 #include "check/archive.hpp"
 #include "check/html_report.hpp"
@@ -9,8 +9,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   drape::accepts_or_refuses([&] {
-    const drape::CheckShard shard =
-        drape::unpack_shard({reinterpret_cast<const char*>(data), size}, "in/shard-1-of-2/check.cbor");
+    const drape::CheckShard shard = drape::unpack_shard(drape::seal_shard({reinterpret_cast<const char*>(data), size}),
+                                                        "in/shard-1-of-2/check.cbor");
     if (shard.missing() > shard.scenes) std::abort();
     for (const drape::SceneResult& scene : shard.report.scenes) {
       if (drape::name_in_folder(scene.name, "", "").find('/') != std::string::npos) std::abort();

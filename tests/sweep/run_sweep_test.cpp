@@ -172,7 +172,7 @@ TEST_F(Sweep, IsNotMergedWithAnother) {
 TEST_F(Sweep, OfAnotherFormatIsRefused) {
   folder_.write("out/sweep.json", "{\"format\": 99}");
   EXPECT_NE(test::usage_error([&] { read_sweep_file(folder_.path("out")); }).find("format 99"), std::string::npos);
-  folder_.write("out/sweep.json", "{\"format\": 2}");
+  folder_.write("out/sweep.json", "{\"format\": 3}");
   EXPECT_NE(test::usage_error([&] { read_sweep_file(folder_.path("out")); }).find("damaged"), std::string::npos);
 }
 
@@ -201,10 +201,13 @@ TEST_F(Sweep, SaysThatARecordIsDamaged) {
   const SweepRequest request = request_of(scene_, {"cloth.stiffness=10,20"});
   const SweepResults whole = sweep(request, into("out"));
   const std::filesystem::path record = run_place(folder_.path("out"), whole.planned(whole.rows[0]).key) / "run.json";
-  for (const std::string text : {"{", "{\"format\": 1}", ""}) {
+  std::string of_another = test::content(record);
+  of_another.replace(of_another.find("\"key\": \"") + 8, 1, "x");
+  for (const std::string& text : {std::string("{"), std::string("{\"format\": 1}"), std::string(), of_another}) {
     folder_.write(std::filesystem::relative(record, folder_.path()).string(), text);
     const SweepResults read = read_results(folder_.path("out"), *read_sweep_file(folder_.path("out")));
     EXPECT_EQ(read.count(RunOutcome::not_run), 1U);
+    EXPECT_TRUE(read.rows[0].record.damaged) << text;
     const std::vector<std::string> troubles = read.troubles();
     ASSERT_EQ(troubles.size(), 1U) << text;
     EXPECT_NE(troubles[0].find("run.json is damaged: --resume runs it again"), std::string::npos) << troubles[0];
@@ -212,7 +215,7 @@ TEST_F(Sweep, SaysThatARecordIsDamaged) {
   SweepOptions again = into("out");
   again.resume = true;
   EXPECT_EQ(sweep(request, again).count(RunOutcome::completed), 2U);
-  for (const std::string text : {"{", "{\"format\": 2, \"shard\": \"1/1\"}", "{\"format\": \"x\"}"}) {
+  for (const std::string text : {"{", "{\"format\": 3, \"shard\": \"1/1\"}", "{\"format\": \"x\"}"}) {
     folder_.write("out/sweep.json", text);
     const std::string problem = test::usage_error([&] { read_sweep_file(folder_.path("out")); });
     EXPECT_NE(problem.find("sweep.json: it is damaged"), std::string::npos) << problem;
