@@ -70,13 +70,7 @@ std::string pack_shard(const CheckShard& shard) {
 
 namespace {
 
-std::string checksum_of(std::string_view bytes) {
-  Hash hash;
-  hash.add(bytes);
-  return hash.text();
-}
-
-/// The bytes before their checksum; nothing if that is not theirs.
+/// Returns the bytes before their checksum; nothing if it is not theirs.
 std::optional<std::string_view> opened(std::string_view sealed) {
   constexpr std::size_t checksum_size = 16;
   if (sealed.size() < checksum_size) return std::nullopt;

@@ -31,9 +31,7 @@ constexpr std::uintmax_t most_report = 1 << 28;       // bytes
 fs::path description_file(const fs::path& report, const std::string& name) { return report / name / "candidate.json"; }
 
 std::string candidate_hash(const fs::path& folder) {
-  Hash hash;
-  hash.add(read_golden_file(folder / "manifest.json", UINTMAX_MAX));
-  return hash.text();
+  return checksum_of(read_golden_file(folder / "manifest.json", UINTMAX_MAX));
 }
 
 /// A path to the byte: JSON holds UTF-8 alone, which the names of files need not be.

@@ -141,9 +141,8 @@ Golden read_golden(const fs::path& folder) {
   }
   try {
     const std::string bytes = read_golden_file(motion_file, most_motion_bytes(manifest.golden));
-    Hash hash;
-    hash.add(bytes);
-    if (hash.text() != manifest.motion_hash) throw std::invalid_argument("has been modified since it was recorded");
+    if (checksum_of(bytes) != manifest.motion_hash)
+      throw std::invalid_argument("has been modified since it was recorded");
     unpack_motion(bytes, manifest.golden);
   } catch (const std::invalid_argument& error) {
     fail_to_read(motion_file, error.what());

@@ -152,15 +152,13 @@ void give_name(const fs::path& complete, const fs::path& folder) {
 
 std::uintmax_t write_files(const fs::path& folder, const Golden& golden, const std::vector<Png>& pictures) {
   const std::string motion = pack_motion(golden);
-  Hash hash;
-  hash.add(motion);
   Golden sealed = golden;
   std::uintmax_t size = write_file_atomically(folder / "motion.bin", motion);
   for (std::size_t i = 0; i < golden.frames.size(); ++i) {
     sealed.frames[i].pixels = pixel_hash(decode_png(pictures[i], golden.size));
     size += write_file_atomically(golden_picture(folder, golden.frames[i].frame), pictures[i]);
   }
-  return size + write_file_atomically(folder / "manifest.json", manifest_text(sealed, hash.text()));
+  return size + write_file_atomically(folder / "manifest.json", manifest_text(sealed, checksum_of(motion)));
 }
 
 /// Hidden, beside a folder, and of this process alone.

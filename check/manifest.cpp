@@ -9,13 +9,14 @@
 
 #include "check/json_fields.hpp"
 #include "check/machine.hpp"
-#include "core/hash.hpp"
+#include "core/sealed_json.hpp"
 #include "core/text.hpp"
 
 namespace drape {
 namespace {
 
 constexpr int format_version = 3;
+constexpr int indent = 2;  // of the text, in spaces
 
 template <int n, class T>
 Json array_of(const Eigen::Matrix<T, n, 1>& v) {
@@ -139,17 +140,6 @@ Manifest manifest_from(const Fields& fields) {
   return manifest;
 }
 
-std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
-/// The text of a manifest with the checksum of everything before it.
-std::string sealed(Json json) {
-  json.erase("checksum");
-  Hash hash;
-  hash.add(text_of(json));
-  json["checksum"] = hash.text();
-  return text_of(json);
-}
-
 /// A manifest that this version of drape has written, and nobody else.
 void require_own(const Json& json, std::string_view bytes) {
   constexpr std::int64_t any = std::numeric_limits<int>::max();
@@ -162,7 +152,7 @@ void require_own(const Json& json, std::string_view bytes) {
     throw std::invalid_argument(
         fmt::format("was recorded by a newer drape in format {}; this one reads format {}", version, format_version));
   }
-  if (sealed(json) != bytes) throw std::invalid_argument("has been modified since it was recorded");
+  if (sealed_json(json, indent) != bytes) throw std::invalid_argument("has been modified since it was recorded");
 }
 
 }  // namespace
@@ -174,7 +164,7 @@ std::string manifest_text(const Golden& golden, const std::string& motion_hash) 
   for (const GoldenFrame& frame : golden.frames) frames.push_back(to_json(frame));
   for (const View& view : golden.frames_views) frames_views.push_back(to_json(view));
   const Quanta& quanta = golden.quanta;
-  return sealed(
+  return sealed_json(
       {{"format", format_version},
        {"scene_hash", golden.scene_digest},
        {"date", golden.date},
@@ -191,7 +181,8 @@ std::string manifest_text(const Golden& golden, const std::string& motion_hash) 
        {"camera", to_json(golden.camera)},
        {"frames_views", std::move(frames_views)},
        {"frames", std::move(frames)},
-       {"motion", motion_hash}});
+       {"motion", motion_hash}},
+      indent);
 }
 
 Manifest read_manifest(std::string_view bytes) {
@@ -203,7 +194,7 @@ Manifest read_manifest(std::string_view bytes) {
 std::string sealed_manifest(std::string_view text) {
   Json json = parse_json(text);
   if (!json.is_object()) throw std::invalid_argument("is not a JSON object");
-  return sealed(std::move(json));
+  return sealed_json(std::move(json), indent);
 }
 
 }  // namespace drape

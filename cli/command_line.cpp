@@ -63,10 +63,12 @@ void name_values(CLI::App& app) {
   for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) name_values(*subcommand);
 }
 
+constexpr const char* empty_value = "expected a value, found an empty text";
+
 /// An option that takes a value does not take an empty one for its absence. What says so itself is left to it.
 void refuse_empty_values(CLI::App& app) {
   const auto problem = [](const std::string& value) {
-    return value.empty() ? std::string("expected a value, found an empty text") : std::string();
+    return value.empty() ? std::string(empty_value) : std::string();
   };
   for (CLI::Option* option : app.get_options()) {
     const bool own = option->check_lname("set") || option->check_lname("vary") || option->check_lname("output") ||
@@ -82,8 +84,7 @@ void refuse_nothing_after_equals(std::span<const char* const> arguments) {
   for (const std::string_view argument : arguments) {
     if (argument == "--") return;
     if (!argument.starts_with("--") || argument.find('=') + 1 != argument.size()) continue;
-    throw CLI::ValidationError(std::string(argument.substr(0, argument.size() - 1)),
-                               "expected a value, found an empty text");
+    throw CLI::ValidationError(std::string(argument.substr(0, argument.size() - 1)), empty_value);
   }
 }
 

@@ -57,7 +57,7 @@ inline ExitCode exit_code(const RunRecord& record) {
   return ExitCode::interrupted;
 }
 
-/// That of the run that is worst off; interrupted if one was not run, usage if its record is damaged.
+/// Exit code of the worst run. A run that was not run counts as interrupted, or as usage if its record is damaged.
 inline ExitCode exit_code(const SweepResults& results) {
   ExitCode worst = ExitCode::ok;
   for (const SweepRow& row : results.rows) worst = std::max(worst, exit_code(row.record));

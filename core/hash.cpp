@@ -12,4 +12,10 @@ void Hash::add(const void* bytes, std::size_t count) {
 
 std::string Hash::text() const { return fmt::format("{:016x}", value_); }
 
+std::string checksum_of(std::string_view bytes) {
+  Hash hash;
+  hash.add(bytes);
+  return hash.text();
+}
+
 }  // namespace drape

@@ -22,4 +22,7 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325;
 };
 
+/// Hash of some bytes as text: 16 hexadecimal digits.
+std::string checksum_of(std::string_view bytes);
+
 }  // namespace drape

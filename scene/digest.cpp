@@ -45,9 +45,7 @@ void write(const TomlValue& value, const std::vector<std::string>& ignored, std:
 std::string digest(const TomlValue& document, const std::vector<std::string>& ignored) {
   std::string text;
   write(document, ignored, text);
-  Hash hash;
-  hash.add(text);
-  return hash.text();
+  return checksum_of(text);
 }
 
 }  // namespace drape

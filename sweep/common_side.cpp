@@ -20,9 +20,7 @@ bool chooses_side(const SweepRequest& request, const Camera& camera) {
 
 std::string key_seen_from(const std::string& key, const std::string& side) {
   if (side.empty() || side == key) return key;
-  Hash hash;
-  hash.add(key + ", seen as " + side);
-  return hash.text();
+  return checksum_of(key + ", seen as " + side);
 }
 
 Camera side_of_films(const SweepPlan& plan, const std::stop_token& stop) {

@@ -89,7 +89,7 @@ std::vector<fs::path> parts_in(const fs::path& folder, const char* mark) {
 
 namespace {
 
-/// What a folder has of a run, the better the later.
+/// State of a run in a folder, from worst to best.
 enum class Found { damaged, unsettled, settled };
 
 /// By the keys of runs.

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.hpp"
-#include "core/hash.hpp"
 #include "core/names_in_folders.hpp"
 #include "core/read_file.hpp"
+#include "core/sealed_json.hpp"
 #include "core/text.hpp"
 
 namespace drape {
@@ -18,16 +18,8 @@ namespace {
 
 constexpr int format_number = 3;
 constexpr const char* sweep_name = "sweep.json";
+constexpr int indent = 1;  // of sweep.json, in spaces
 constexpr std::size_t most_sweep_bytes = std::size_t{1} << 30;
-
-std::string text_of(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
-/// The checksum of a sweep's file without its checksum.
-std::string checksum_of(const Json& json) {
-  Hash hash;
-  hash.add(text_of(json));
-  return hash.text();
-}
 
 /// The keys of runs name their folders. A run that was refused has none.
 void require_names(const SweepPlan& plan, const std::filesystem::path& file) {
@@ -89,9 +81,8 @@ RunRecord record_of(const PlannedRun& run, const std::filesystem::path& folder) 
 }  // namespace
 
 void write_sweep_file(const std::filesystem::path& folder, const SweepFile& file) {
-  Json json{{"format", format_number}, {"shard", file.shard.text()}, {"plan", plan_json(file.plan)}};
-  json["checksum"] = checksum_of(json);
-  write_file_atomically(folder / sweep_name, text_of(json));
+  const Json json{{"format", format_number}, {"shard", file.shard.text()}, {"plan", plan_json(file.plan)}};
+  write_file_atomically(folder / sweep_name, sealed_json(json, indent));
 }
 
 std::optional<SweepFile> read_sweep_file(const std::filesystem::path& folder) {
@@ -99,14 +90,13 @@ std::optional<SweepFile> read_sweep_file(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return std::nullopt;
   try {
-    Json json = Json::parse(read_file(file, most_sweep_bytes));
+    const Json json = Json::parse(read_file(file, most_sweep_bytes));
     if (const int found = json.at("format"); found != format_number) {
       throw UsageError(fmt::format("{}: it is of format {}, and this drape reads format {}: use the one that wrote it",
                                    shown(file), found, format_number));
     }
-    const std::string checksum = json.at("checksum");
-    json.erase("checksum");
-    if (checksum != checksum_of(json)) throw std::invalid_argument("its checksum is wrong");
+    if (json.at("checksum").get<std::string>() != json_checksum(json, indent))
+      throw std::invalid_argument("its checksum is wrong");
     SweepFile sweep{plan_of(json.at("plan")), parse_shard(json.at("shard"))};
     require_names(sweep.plan, file);
     return sweep;

@@ -36,7 +36,7 @@ struct RunRecord {
 /// Where a run's folder is.
 std::filesystem::path run_place(const std::filesystem::path& sweep, const std::string& key);
 
-/// What a run's folder says of it; nothing if there is none. A record that is damaged, or of another run, is that of a
+/// Reads the record of a run; nothing if there is none. A record that is damaged, or of another run, reads as that of a
 /// run that was not run, with the reason.
 /// @throws UsageError if it names a file that is not in the folder
 std::optional<RunRecord> read_run(const std::filesystem::path& sweep, const std::string& key);

@@ -32,7 +32,7 @@ class ContactSolver {
   /// Finds the contacts of a cloth that goes straight to `target`. Returns whether there are any.
   [[nodiscard]] bool touches(const Vertices& target);
 
-  /// Whether a cloth that goes straight to `target` passes through anything.
+  /// Returns true if a cloth that goes straight to `target` passes through anything.
   [[nodiscard]] bool collides(const Vertices& target);
 
   /// Moves the point, which has g's value and gradient, to the minimum under the contacts. Gaps and slips of contacts
@@ -78,7 +78,7 @@ class ContactSolver {
     double error;     // estimated, of a vertex [m]
     bool collides;    // on the straight way
   };
-  /// Whether it does with the contacts as they were found last.
+  /// Returns true if any contact, as found last, is a collision.
   [[nodiscard]] bool any_collides() const;
   [[nodiscard]] bool can_move(const ContactConstraint& contact) const;
   /// Finds the contacts of a cloth that goes straight to `target`.

@@ -65,10 +65,11 @@ class SurfaceContacts final : public ContactSource {
     contact.offset = -to_.center - to_.surface_point(contact.normal);
     contact.carried = -(to_.center - from_.center);
     contact.start = from - to_.surface_point(contact.normal);
-    contact.distance = distance_at_end(from_.gap(from), terms_.distance, duration_);
+    const double before = from_.gap(from);
+    contact.distance = distance_at_end(before, terms_.distance, duration_);
     contact.friction = terms_.friction;
     contact.restitution = terms_.restitution;
-    contact.collides = terms_.distance > 0 && from_.gap(from) >= 0 && to_.gap(to) < 0;
+    contact.collides = terms_.distance > 0 && before >= 0 && to_.gap(to) < 0;
     return contact;
   }
 

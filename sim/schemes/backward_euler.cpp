@@ -11,7 +11,7 @@ double BackwardEuler::shed(bool held) {
   if (!contact_ || held) return books_.shed(point_, held);
   const Iterate end = point_;
   const double part = books_.shed(point_);
-  // Where the cloth would be as a whole may be beyond an obstacle; the way back is not.
+  // The place of free fall may lie beyond an obstacle. The way back to the start of the step is clear.
   if (!contact_->collides(point_.x)) return part;
   point_ = end;
   return books_.shed(point_, true);

@@ -4,9 +4,9 @@
 
 #include <random>
 
+#include "core/sealed_json.hpp"
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"
-#include "tests/support/sealed_sweep.hpp"
 #include "tests/sweep/sweep_runs.hpp"
 
 namespace drape::sweep_cli {
@@ -119,7 +119,7 @@ TEST(SweepCommand, RefusesInOneMessageWithExitCode2) {
   ASSERT_EQ(drape(folder, "sweep a.toml -o out --steps 1 --quiet").code, 0);
   std::string json = test::content(folder.path("out/sweep.json"));
   json.replace(json.find("revision "), 9, "revision x");
-  json = test::sealed_sweep(json);
+  json = sealed_json(nlohmann::ordered_json::parse(json), 1);
   folder.write("out/sweep.json", json);
   EXPECT_NE(message("sweep a.toml -o out --steps 1 --resume").find("choose another folder with -o"), std::string::npos);
   EXPECT_EQ(test::content(folder.path("out/sweep.json")), json);
