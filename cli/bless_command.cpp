@@ -37,8 +37,8 @@ ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
       return ExitCode::interrupted;
     }
     if (!common.quiet) {
-      print_text(stdout, fmt::format("{}: recorded {} frames, {} kB\n", shown(blessing->folder), blessing->frames,
-                                     (blessing->size + 500) / 1000));
+      print_text(stdout, fmt::format("{}: recorded {} frame{}, {} kB\n", shown(blessing->folder), blessing->frames,
+                                     blessing->frames == 1 ? "" : "s", (blessing->size + 500) / 1000));
     }
   }
   return ExitCode::ok;
