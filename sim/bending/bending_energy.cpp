@@ -9,29 +9,42 @@
 namespace drape {
 namespace {
 
+// Pairs are added up before there are more than so many of them, and then as many again as are left.
+constexpr std::size_t most_unsorted = 1 << 20;
+
+/// Sorts pairs, and adds up those of the same vertices in the order in which they came.
+void add_up(std::vector<Spring>& pairs) {
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Spring& a, const Spring& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); });
+  std::size_t count = 0;
+  for (const Spring& s : pairs) {
+    if (count > 0 && pairs[count - 1].i == s.i && pairs[count - 1].j == s.j) {
+      pairs[count - 1].stiffness += s.stiffness;
+    } else {
+      pairs[count++] = s;
+    }
+  }
+  pairs.resize(count);
+}
+
 /// The pairs of vertices that the elements couple, sorted, each once.
 std::vector<Spring> couplings(std::span<const CurvatureElement> elements) {
-  std::vector<Spring> all;
+  std::vector<Spring> pairs;
+  std::size_t most = most_unsorted;
   for (const CurvatureElement& e : elements) {
-    for (int c = 0; c < e.count; ++c) {
-      for (int d = c + 1; d < e.count; ++d) {
-        const auto [i, j] =
-            std::minmax({e.vertices[static_cast<std::size_t>(c)], e.vertices[static_cast<std::size_t>(d)]});
-        const double stiffness = -e.weights.col(c).dot(e.weights.col(d));
-        if (i != j) all.push_back({.i = i, .j = j, .rest_length = 0, .stiffness = stiffness});
+    for (std::size_t c = 0; c < e.vertices.size(); ++c) {
+      for (std::size_t d = c + 1; d < e.vertices.size(); ++d) {
+        const auto [i, j] = std::minmax({e.vertices[c], e.vertices[d]});
+        const double stiffness =
+            -e.weights.col(static_cast<Eigen::Index>(c)).dot(e.weights.col(static_cast<Eigen::Index>(d)));
+        pairs.push_back({.i = i, .j = j, .rest_length = 0, .stiffness = stiffness});
       }
     }
+    if (pairs.size() < most) continue;
+    add_up(pairs);
+    most = std::max(most, 2 * pairs.size());
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Spring& a, const Spring& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); });
-  std::vector<Spring> pairs;
-  for (const Spring& s : all) {
-    if (!pairs.empty() && pairs.back().i == s.i && pairs.back().j == s.j) {
-      pairs.back().stiffness += s.stiffness;
-    } else {
-      pairs.push_back(s);
-    }
-  }
+  add_up(pairs);
   return pairs;
 }
 
@@ -44,13 +57,14 @@ class BendingHessian final : public EnergyHessian {
   explicit BendingHessian(const BendingEnergy& energy) : energy_(energy), curved_(energy.curved_.size()) {
     const std::vector<Spring>& pairs = energy.pairs();
     for (const auto& component : energy.curved_) {
-      for (std::size_t c = 0; c < 6; ++c) {
-        for (std::size_t d = c + 1; d < 6; ++d) {
-          const auto [i, j] = std::minmax({component.vertices[c], component.vertices[d]});
+      const auto terms = energy.terms(component);
+      for (std::size_t c = 0; c < terms.size(); ++c) {
+        for (std::size_t d = c + 1; d < terms.size(); ++d) {
+          const auto [i, j] = std::minmax({terms[c].vertex, terms[d].vertex});
           const auto place = std::lower_bound(pairs.begin(), pairs.end(), std::pair{i, j}, [](const Spring& s, auto p) {
             return std::pair{s.i, s.j} < p;
           });
-          places_.push_back(i == j ? -1 : static_cast<int>(place - pairs.begin()));
+          places_.push_back(static_cast<std::size_t>(place - pairs.begin()));
         }
       }
     }
@@ -58,7 +72,7 @@ class BendingHessian final : public EnergyHessian {
 
   void linearise(const Vertices& x, double, double concavity) override {
     for (std::size_t k = 0; k < curved_.size(); ++k) {
-      const Eigen::Vector3d q = energy_.curved_[k].bent(x).transpose();
+      const Eigen::Vector3d q = energy_.bent(energy_.curved_[k], x).transpose();
       const double length = q.norm();
       curved_[k].setZero();
       if (!(length > 0)) continue;
@@ -71,22 +85,20 @@ class BendingHessian final : public EnergyHessian {
     energy_.quadratic_.add_value_gradient(vector, product);  // a linear function, as no pair has a rest length
     for (std::size_t k = 0; k < curved_.size(); ++k) {
       const auto& component = energy_.curved_[k];
-      const Eigen::RowVector3d force = component.bent(vector) * curved_[k];
-      for (std::size_t c = 0; c < 6; ++c) {
-        product.row(component.vertices[c]) += component.weights[static_cast<Eigen::Index>(c)] * force;
-      }
+      const Eigen::RowVector3d force = energy_.bent(component, vector) * curved_[k];
+      for (const auto& [vertex, weight] : energy_.terms(component)) product.row(vertex) += weight * force;
     }
   }
 
   void add_blocks(HessianBlocks& blocks) const override {
     const std::size_t first = blocks.pairs.size();
     for (const Spring& pair : energy_.pairs()) blocks.pairs.emplace_back(pair.stiffness * Eigen::Matrix3d::Identity());
-    const int* place = places_.data();
+    const std::size_t* place = places_.data();
     for (std::size_t k = 0; k < curved_.size(); ++k) {
-      const auto& w = energy_.curved_[k].weights;
-      for (int c = 0; c < 6; ++c) {
-        for (int d = c + 1; d < 6; ++d, ++place) {
-          if (*place >= 0) blocks.pairs[first + static_cast<std::size_t>(*place)] -= w[c] * w[d] * curved_[k];
+      const auto terms = energy_.terms(energy_.curved_[k]);
+      for (std::size_t c = 0; c < terms.size(); ++c) {
+        for (std::size_t d = c + 1; d < terms.size(); ++d, ++place) {
+          blocks.pairs[first + *place] -= terms[c].weight * terms[d].weight * curved_[k];
         }
       }
     }
@@ -95,41 +107,37 @@ class BendingHessian final : public EnergyHessian {
  private:
   const BendingEnergy& energy_;
   std::vector<Eigen::Matrix3d> curved_;  // −s(I − q̂q̂ᵀ) of each curved component
-  std::vector<int> places_;              // among the pairs, of the 15 of each curved component; −1 for none
+  std::vector<std::size_t> places_;      // among the pairs, of the pairs of each curved component's terms
 };
 
 BendingEnergy::BendingEnergy(std::span<const CurvatureElement> elements, int vertex_count, const Threads& threads)
     : quadratic_(couplings(elements), vertex_count, threads) {
   for (const CurvatureElement& e : elements) {
-    for (int k = 0; k < 3; ++k) {
-      if (e.rest[k] == 0) continue;
-      Curved component{.vertices = e.vertices, .weights = e.weights.row(k).transpose(), .rest = e.rest[k]};
-      std::fill(component.vertices.begin() + e.count, component.vertices.end(), e.vertices[0]);
-      curved_.push_back(component);
+    if (e.rest == 0) continue;
+    curved_.push_back({.first = terms_.size(), .last = terms_.size() + e.vertices.size(), .rest = e.rest});
+    for (std::size_t c = 0; c < e.vertices.size(); ++c) {
+      terms_.push_back({e.vertices[c], e.weights(0, static_cast<Eigen::Index>(c))});
     }
   }
 }
 
-Eigen::RowVector3d BendingEnergy::Curved::bent(const Vertices& x) const {
+Eigen::RowVector3d BendingEnergy::bent(const Curved& component, const Vertices& x) const {
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   // Differences from one vertex: as the weights sum to zero, the cloth's place does not enter.
-  for (std::size_t c = 1; c < 6; ++c) {
-    sum += weights[static_cast<Eigen::Index>(c)] * (x.row(vertices[c]) - x.row(vertices[0]));
-  }
+  const Eigen::RowVector3d origin = x.row(terms_[component.first].vertex);
+  for (const auto& [vertex, weight] : terms(component)) sum += weight * (x.row(vertex) - origin);
   return sum;
 }
 
 double BendingEnergy::add_gradient(const Vertices& x, double, Vertices& gradient) const {
   double value = quadratic_.add_value_gradient(x, gradient);
   for (const Curved& component : curved_) {
-    const Eigen::RowVector3d q = component.bent(x);
+    const Eigen::RowVector3d q = bent(component, x);
     const double length = q.norm(), r = component.rest;
     value += r * (0.5 * r - length);
     if (!(length > 0)) continue;  // bent to nothing: no direction to bend back to
     const Eigen::RowVector3d force = -r / length * q;
-    for (std::size_t c = 0; c < 6; ++c) {
-      gradient.row(component.vertices[c]) += component.weights[static_cast<Eigen::Index>(c)] * force;
-    }
+    for (const auto& [vertex, weight] : terms(component)) gradient.row(vertex) += weight * force;
   }
   return value;
 }

@@ -8,7 +8,7 @@
 
 namespace drape {
 
-/// The bending energy of a cloth, E = ½ Σ (‖q‖ − r)² over the components of its curvature elements.
+/// The bending energy of a cloth, E = ½ Σ (‖q‖ − r)² over the components of its curvature elements; r = 0 for most.
 ///
 /// Its quadratic part ½ Σ ‖q‖² couples pairs of vertices as springs without a length do, E = Σ k/2 ‖xᵢ − xⱼ‖² with
 /// k = −Σ wᵢ wⱼ of either sign, and is evaluated as such. It is all there is where the rest shape is flat, and the
@@ -28,17 +28,24 @@ class BendingEnergy final : public Energy {
  private:
   friend class BendingHessian;
 
-  /// A component whose rest curvature is not zero.
+  /// A component whose rest curvature is not zero: its vertices are terms_[first] up to terms_[last].
   struct Curved {
-    std::array<int, 6> vertices;  // those beyond the element's count weigh nothing
-    Eigen::Matrix<double, 6, 1> weights;
+    std::size_t first, last;
     double rest;  // r [√J]
-
-    [[nodiscard]] Eigen::RowVector3d bent(const Vertices& x) const;
   };
+  struct Term {
+    int vertex;
+    double weight;
+  };
+
+  [[nodiscard]] std::span<const Term> terms(const Curved& component) const {
+    return std::span(terms_).subspan(component.first, component.last - component.first);
+  }
+  [[nodiscard]] Eigen::RowVector3d bent(const Curved& component, const Vertices& x) const;
 
   SpringNetwork quadratic_;
   std::vector<Curved> curved_;
+  std::vector<Term> terms_;
 };
 
 }  // namespace drape
