@@ -12,6 +12,7 @@
 #include "scene/pins.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/values.hpp"
+#include "sim/grid_springs.hpp"
 
 namespace drape {
 namespace {
@@ -87,6 +88,13 @@ bool says(const TomlValue& value, const char* key) {
   return table != nullptr && table->find(key) != nullptr;
 }
 
+/// Whether a grid's cells have both diagonals, alternating or crossed.
+bool has_both_diagonals(const ClothTable& table) {
+  const std::optional<Grid> grid = grid_of(*table.mesh);
+  return grid && (grid->pattern == GridPattern::alternating || grid->pattern == GridPattern::x) &&
+         (table.rest == nullptr || grid_of(*table.rest));
+}
+
 /// Gives a cloth the masses and stiffnesses that its table asks for by area; false if there were problems.
 bool give_material(const ClothTable& table, const TomlValue& value, Cloth& cloth, Problems& problems) {
   const auto by_area = [&](const char* key, bool one, const auto& other, double of_fabric, const auto& give) {
@@ -103,7 +111,8 @@ bool give_material(const ClothTable& table, const TomlValue& value, Cloth& cloth
   };
   const Fabric fabric = table.material != nullptr ? *table.material : Fabric{};
   const bool massive = by_area("density", says(value, "mass"), table.density, fabric.density, share_mass_by_area);
-  return by_area("modulus", table.stiffness.has_value(), table.modulus, fabric.modulus, stiffen_by_area) && massive;
+  const auto stiffen = has_both_diagonals(table) ? stiffen_evenly : stiffen_by_area;
+  return by_area("modulus", table.stiffness.has_value(), table.modulus, fabric.modulus, stiffen) && massive;
 }
 
 /// Complains where a table says its mass or its stiffness twice.
@@ -113,6 +122,26 @@ void check_said_once(const ClothTable& table, const TomlValue& value, Problems& 
   };
   if (says(value, "mass") && table.density) both("mass", "density");
   if (table.stiffness && table.modulus) both("stiffness", "modulus");
+}
+
+/// Complains where a table says of its springs what they cannot be.
+void check_springs(const ClothTable& table, const TomlValue& value, Problems& problems) {
+  if (table.springs == ClothTable::Springs::edges) {
+    for (const char* key : {"shear_stiffness", "bend_stiffness"}) {
+      if (!says(value, key)) continue;
+      problems.add(place_of(value, key), fmt::format("{}: only with spring = \"edges+bend\"", key));
+    }
+    return;
+  }
+  const auto wrong = [&](const char* what) {
+    problems.add(place_of(value, "spring"), fmt::format("spring: \"edges+bend\" needs {}", what));
+  };
+  if (!table.stiffness) wrong("a 'stiffness'");
+  if (table.mesh == nullptr) return;
+  const std::optional<Grid> grid = grid_of(*table.mesh);
+  if (!grid || grid->pattern == GridPattern::x || grid->pattern == GridPattern::equilateral) {
+    wrong("a grid, of pattern \"diagonal\" or \"alternating\"");
+  }
 }
 
 }  // namespace
@@ -136,6 +165,7 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
   if (table.pins != nullptr) pins = read_pins(*table.pins, selectable ? &*selectable : nullptr, problems);
   const std::optional<Eigen::Vector3d> scale = read_scale(table.scale, problems);
   check_said_once(table, value, problems);
+  check_springs(table, value, problems);
   if (!start || !scale || problems.count() != problems_before) return std::nullopt;
 
   // Turning and moving would only round the rest lengths, so they are taken before that.
@@ -162,6 +192,13 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
                      std::move(inputs),
                      {}};
   if (!give_material(table, value, result.cloth, problems)) return std::nullopt;
+  if (table.springs == ClothTable::Springs::edges_and_bend) {
+    const double stiffness = *table.stiffness;
+    result.cloth.springs = springs_of_grid(grid_of(*table.mesh)->columns, result.cloth.rest,
+                                           {.structural = stiffness,
+                                            .shear = table.shear_stiffness.value_or(stiffness),
+                                            .bend = table.bend_stiffness.value_or(stiffness)});
+  }
   result.cloth.velocities.rowwise() = table.velocity.transpose();
   for (const int pin : result.cloth.pins) result.cloth.velocities.row(pin).setZero();
   if (!(result.cloth.masses.array() > 0).all()) {

@@ -21,30 +21,53 @@ constexpr std::int64_t most_grid_cells = 4'000'000;
 const std::vector<std::string> mesh_name_keys = {"file", "prim", "up"};
 const std::vector<std::string> motion_name_keys = {"file", "prim", "up", "fps"};
 
-std::optional<Mesh> read_grid(const TomlValue& value, const std::string& name, Problems& problems) {
-  const TomlTable& table = *value.as<TomlTable>();
-  bool good = true;
-  for (const TomlEntry& entry : table.entries) {
-    if (entry.name == "grid") continue;
-    static const std::vector<std::string> keys = {"grid", "file"};
+/// Reads what a grid's table says beside `grid`; false after a complaint.
+bool read_grid_key(const TomlEntry& entry, const std::string& name, Grid& grid, Problems& problems) {
+  static const std::vector<std::string> keys = {"grid", "pattern", "size", "file"};
+  static const std::vector<std::string> patterns = {"diagonal", "alternating", "x", "equilateral"};
+  if (entry.name == "size") {
+    grid.size = read_pair(entry.value, name + ".size", {.minimum = 0, .minimum_excluded = true}, problems);
+    return grid.size.has_value();
+  }
+  if (entry.name != "pattern") {
     problems.add(entry.place, fmt::format("{}: unknown key '{}'{}", name, entry.name,
                                           did_you_mean(entry.name, keys, "a mesh has one of the keys")));
-    good = false;
+    return false;
   }
-  const TomlValue* grid = table.find("grid");
-  if (grid == nullptr) {
+  const auto pattern = read_string(entry.value, name + ".pattern", problems);
+  if (!pattern) return false;
+  const auto place = std::ranges::find(patterns, *pattern);
+  if (place == patterns.end()) {
+    problems.add(entry.value.place, fmt::format("{}.pattern: unknown pattern '{}'{}", name, *pattern,
+                                                did_you_mean(*pattern, patterns, "the patterns are")));
+    return false;
+  }
+  grid.pattern = static_cast<GridPattern>(place - patterns.begin());
+  return true;
+}
+
+std::optional<Grid> read_grid(const TomlValue& value, const std::string& name, Problems& problems) {
+  const TomlTable& table = *value.as<TomlTable>();
+  bool good = true;
+  Grid grid;
+  for (const TomlEntry& entry : table.entries) {
+    if (entry.name != "grid") good = read_grid_key(entry, name, grid, problems) && good;
+  }
+  const TomlValue* cells = table.find("grid");
+  if (cells == nullptr) {
     if (good) problems.add(value.place, name + ": missing key 'grid' or 'file'");
     return std::nullopt;
   }
-  const auto cells = read_int_pair(*grid, name + ".grid", {.minimum = 1}, problems);
-  if (!cells || !good) return std::nullopt;
-  const int columns = (*cells)[0], rows = (*cells)[1];
-  if (std::int64_t{columns} * rows > most_grid_cells) {
-    problems.add(grid->place, fmt::format("{}.grid: a grid has at most {} cells, found {}×{}", name, most_grid_cells,
-                                          columns, rows));
+  const auto counts = read_int_pair(*cells, name + ".grid", {.minimum = 1}, problems);
+  if (!counts || !good) return std::nullopt;
+  grid.columns = (*counts)[0];
+  grid.rows = (*counts)[1];
+  if (std::int64_t{grid.columns} * grid.rows > most_grid_cells) {
+    problems.add(cells->place, fmt::format("{}.grid: a grid has at most {} cells, found {}×{}", name, most_grid_cells,
+                                           grid.columns, grid.rows));
     return std::nullopt;
   }
-  return make_grid(columns, rows);
+  return grid;
 }
 
 std::optional<Mesh> read_named(const TomlValue& value, const std::string& name, const std::filesystem::path& folder,
@@ -100,6 +123,13 @@ std::optional<MeshName> read_mesh_name(const TomlValue& value, const std::string
   return problems.count() == before ? std::optional(mesh) : std::nullopt;
 }
 
+std::optional<Grid> grid_of(const TomlValue& value) {
+  const TomlTable* table = value.as<TomlTable>();
+  if (table == nullptr || table->find("grid") == nullptr) return std::nullopt;
+  Problems told({}, {});  // when the mesh was read
+  return read_grid(value, "mesh", told);
+}
+
 std::optional<Mesh> read_mesh_value(const TomlValue& value, const std::string& name,
                                     const std::filesystem::path& folder, std::vector<std::filesystem::path>& inputs,
                                     Problems& problems) {
@@ -113,7 +143,9 @@ std::optional<Mesh> read_mesh_value(const TomlValue& value, const std::string& n
   const bool named = table == nullptr || std::ranges::any_of(mesh_name_keys, [&](const std::string& key) {
                        return table->find(key) != nullptr;
                      });
-  return named ? read_named(value, name, folder, inputs, problems) : read_grid(value, name, problems);
+  if (named) return read_named(value, name, folder, inputs, problems);
+  const std::optional<Grid> grid = read_grid(value, name, problems);
+  return grid ? std::optional(make_grid(*grid)) : std::nullopt;
 }
 
 }  // namespace drape

@@ -8,7 +8,7 @@
 #include "scene/document.hpp"
 #include "scene/mesh/options.hpp"
 #include "scene/problems.hpp"
-#include "sim/mesh.hpp"
+#include "sim/grid.hpp"
 
 namespace drape {
 
@@ -23,7 +23,10 @@ struct MeshName {
 std::optional<MeshName> read_mesh_name(const TomlValue& value, const std::string& name, bool may_move,
                                        Problems& problems);
 
-/// Reads a mesh: { grid = [columns, rows] }, or one that is named as above.
+/// The grid that a mesh which has been read is; nothing where it is from a file.
+std::optional<Grid> grid_of(const TomlValue& value);
+
+/// Reads a mesh: { grid = [columns, rows] }, of a `pattern` and a `size`, or one that is named as above.
 /// @param folder the scene's, where its files are
 /// @param inputs every file that is read for it is added
 std::optional<Mesh> read_mesh_value(const TomlValue& value, const std::string& name,

@@ -33,6 +33,16 @@ Keys cloth_keys(ClothTable& cloth) {
            "",
            "A measured fabric. Sets density, modulus and bending rigidity unless the scene gives them, see "
            "[Materials](#materials).");
+  keys.choice("spring", cloth.springs, {"edges", "edges+bend"},
+              "Springs along the mesh's edges, or those of a course's grid: along the sides of its cells with "
+              "`stiffness`, along both diagonals, and between every other vertex of a row or column, see "
+              "[Springs of a grid](#springs-of-a-grid).");
+  keys.add("shear_stiffness", &cloth.shear_stiffness, "N/m",
+           "With `spring = \"edges+bend\"`: stiffness along the diagonals. Default: `stiffness`.")
+      .above(0);
+  keys.add("bend_stiffness", &cloth.bend_stiffness, "N/m",
+           "With `spring = \"edges+bend\"`: stiffness between every other vertex. Default: `stiffness`.")
+      .above(0);
   keys.add("pins", OwnForm{"pins", &cloth.pins}, "", "Vertices that do not move.");
   keys.add("velocity", &cloth.velocity, "m/s", "Initial velocity of every vertex that is not pinned.");
   return keys;

@@ -20,11 +20,13 @@ struct ClothTable {
   const TomlValue* mesh = nullptr;
   const TomlValue* rest = nullptr;
   const TomlValue* pins = nullptr;
-  const Fabric* material = nullptr;                    ///< of what nothing else says
-  double mass = 1;                                     ///< of the whole, where no density is said [kg]
-  std::optional<double> density;                       ///< [kg/m²]
-  std::optional<double> stiffness, modulus;            ///< at most one; of every spring, and by area [N/m]
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
+  const Fabric* material = nullptr;          ///< of what nothing else says
+  double mass = 1;                           ///< of the whole, where no density is said [kg]
+  std::optional<double> density;             ///< [kg/m²]
+  std::optional<double> stiffness, modulus;  ///< at most one; of every spring, and by area [N/m]
+  enum class Springs { edges, edges_and_bend } springs = Springs::edges;
+  std::optional<double> shear_stiffness, bend_stiffness;  ///< of edges_and_bend; else as `stiffness` [N/m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();     ///< [m/s]
 
   const TomlValue* scale = nullptr;
   Eigen::Vector3d rotate = Eigen::Vector3d::Zero();     ///< [degrees]

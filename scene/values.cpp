@@ -112,6 +112,15 @@ std::optional<Eigen::Vector3d> read_vector(const TomlValue& value, const std::st
   return good ? std::optional(vector) : std::nullopt;
 }
 
+std::optional<Eigen::Vector2d> read_pair(const TomlValue& value, const std::string& name, const Range& range,
+                                         Problems& problems) {
+  const TomlArray* array = read_array(value, name, 2, "numbers", problems);
+  if (array == nullptr) return std::nullopt;
+  const std::optional<double> first = read_number((*array)[0], item_name(name, 0), range, problems);
+  const std::optional<double> second = read_number((*array)[1], item_name(name, 1), range, problems);
+  return first && second ? std::optional(Eigen::Vector2d(*first, *second)) : std::nullopt;
+}
+
 std::optional<Eigen::Vector2i> read_int_pair(const TomlValue& value, const std::string& name, const Range& range,
                                              Problems& problems) {
   const TomlArray* array = read_array(value, name, 2, "whole numbers", problems);

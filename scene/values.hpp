@@ -45,6 +45,10 @@ std::optional<std::string> read_string(const TomlValue& value, const std::string
 std::optional<Eigen::Vector3d> read_vector(const TomlValue& value, const std::string& name, const Range& range,
                                            Problems& problems);
 
+/// Reads an array of two numbers, each in the range.
+std::optional<Eigen::Vector2d> read_pair(const TomlValue& value, const std::string& name, const Range& range,
+                                         Problems& problems);
+
 /// Reads an array of two whole numbers, each in the range.
 std::optional<Eigen::Vector2i> read_int_pair(const TomlValue& value, const std::string& name, const Range& range,
                                              Problems& problems);

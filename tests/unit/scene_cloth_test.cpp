@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "scene/cloth_shape.hpp"
@@ -142,6 +143,32 @@ TEST(SceneMesh, EveryOtherFormIsAnError) {
   EXPECT_EQ(problem("{ grid = 20 }"),
             "scene.toml:2:17: mesh.grid: expected an array of 2 whole numbers, found a whole number");
   EXPECT_EQ(problem("{ grid = [2, -1] }"), "scene.toml:2:21: mesh.grid[1] must be at least 1, found -1");
+}
+
+TEST(SceneMesh, AGridHasAPatternAndASize) {
+  const SceneFolder folder;
+  const auto grid = [&](const std::string& keys) {
+    return folder.load("[cloth]\nmesh = { grid = [4, 2]" + keys + " }\nstiffness = 7\n").simulation.cloth;
+  };
+  const Cloth crossed = grid(", pattern = \"x\", size = [1.5, 1]");
+  EXPECT_EQ(crossed.vertex_count(), 5 * 3 + 4 * 2);
+  EXPECT_EQ(crossed.rest.colwise().maxCoeff(), Eigen::RowVector3d(0.75, 0.5, 0));
+  EXPECT_EQ(crossed.rest.colwise().minCoeff(), Eigen::RowVector3d(-0.75, -0.5, 0));
+  EXPECT_EQ(grid(", pattern = \"diagonal\"").rest, grid("").rest);
+  EXPECT_EQ(grid(", pattern = \"alternating\"").triangles[2], (Triangle{1, 2, 7}));
+  EXPECT_NEAR(grid(", pattern = \"equilateral\"").rest.col(1).maxCoeff(), std::sqrt(3.0) / 4, 1e-15);
+}
+
+TEST(SceneMesh, AGridOfAnotherPatternOrWithoutASizeIsAnError) {
+  const SceneFolder folder;
+  const auto problem = [&](const std::string& keys) {
+    return folder.problems("[cloth]\nmesh = { grid = [4, 2], " + keys + " }\nstiffness = 1\n");
+  };
+  EXPECT_EQ(problem("pattern = \"alternate\""),
+            "scene.toml:2:35: mesh.pattern: unknown pattern 'alternate'; did you mean 'alternating'?");
+  EXPECT_EQ(problem("pattern = 1"), "scene.toml:2:35: mesh.pattern: expected a string, found a whole number");
+  EXPECT_EQ(problem("size = [1, 0]"), "scene.toml:2:36: mesh.size[1] must be above 0, found 0");
+  EXPECT_EQ(problem("size = 2"), "scene.toml:2:32: mesh.size: expected an array of 2 numbers, found a whole number");
 }
 
 TEST(SceneMesh, AHugeGridIsRefusedBeforeItIsMade) {
