@@ -171,5 +171,74 @@ TEST_P(OnEveryMesh, ANarrowStripBucklesToTheSide) {
   EXPECT_NEAR(buckling_load(GetParam(), 64, 4), 12.85 * std::numbers::sqrt2, 0.03 * 18.2);
 }
 
+/// A strip of unit length whose rest shape is a quarter of a circle from its clamp on.
+Cloth quarter_circle(Division division, int cells) {
+  constexpr double radius = 2 / std::numbers::pi;
+  test::Sheet sheet = test::clamped_strip(division, cells, cells / 4, 1);
+  for (Eigen::Index i = 0; i < sheet.mesh.positions.rows(); ++i) {
+    const double angle = std::max(0.0, sheet.mesh.positions(i, 0)) / radius;
+    sheet.mesh.positions(i, 0) = radius * std::sin(angle) + std::min(0.0, sheet.mesh.positions(i, 0));
+    sheet.mesh.positions(i, 2) = radius * (1 - std::cos(angle));
+  }
+  return test::cloth_of(sheet, 1);
+}
+
+/// How far the tip of a quarter circle of unit length sinks under a weight of 1 for each area, small against D = 1.
+double curved_tip(const Cloth& cloth) {
+  const SmallBending unknowns(cloth, 1);
+  const auto count = unknowns.masses.size();
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](const Spring& pair, const Eigen::Matrix3d& block) {
+    const std::array ends{unknowns.numbers[static_cast<std::size_t>(pair.i)],
+                          unknowns.numbers[static_cast<std::size_t>(pair.j)]};
+    for (std::size_t a = 0; a < 2; ++a) {
+      for (std::size_t b = 0; b < 2; ++b) {
+        if (ends[a] < 0 || ends[b] < 0) continue;
+        for (int k = 0; k < 9; ++k) {
+          entries.emplace_back(3 * ends[a] + k / 3, 3 * ends[b] + k % 3, (a == b ? 1 : -1) * block(k / 3, k % 3));
+        }
+      }
+    }
+  };
+  for (const Spring& s : cloth.springs) {
+    const Eigen::Vector3d along = (cloth.rest.row(s.j) - cloth.rest.row(s.i)).normalized().transpose();
+    add(s, s.stiffness * along * along.transpose());
+  }
+  const BendingEnergy energy(curvature_elements(cloth, 1), cloth.vertex_count());
+  const auto hessian = energy.make_hessian();
+  hessian->linearise(cloth.rest, 0, 1);
+  HessianBlocks blocks;
+  hessian->add_blocks(blocks);
+  for (std::size_t p = 0; p < blocks.pairs.size(); ++p) add(energy.pairs()[p], blocks.pairs[p]);
+  Eigen::SparseMatrix<double> matrix(3 * count, 3 * count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(3 * count);
+  for (Eigen::Index i = 0; i < count; ++i) weight[3 * i + 2] = unknowns.masses[i];
+  const Eigen::VectorXd moved = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(weight);
+  double sum = 0;
+  int tips = 0;
+  for (int v = 0; v < cloth.vertex_count(); ++v) {
+    if (cloth.rest(v, 2) < cloth.rest.col(2).maxCoeff() - 1e-9) continue;
+    sum += moved[3 * unknowns.numbers[static_cast<std::size_t>(v)] + 2];
+    ++tips;
+  }
+  return sum / tips;
+}
+
+// By Castigliano: δ = ∫ M m/D ds, M the moment of the weight beyond, m that of a unit load at the tip.
+TEST_P(OnEveryMesh, ACurvedStripSinksAsACurvedBeam) {
+  constexpr int parts = 2000;
+  const double radius = 2 / std::numbers::pi, end = std::numbers::pi / 2;
+  double expected = 0;
+  for (int k = 0; k < parts; ++k) {
+    const double angle = end * (k + 0.5) / parts;
+    const double moment = radius * radius * (std::cos(angle) - (end - angle) * std::sin(angle));
+    expected += moment * radius * (1 - std::sin(angle)) * radius * end / parts;
+  }
+  Cloth cloth = quarter_circle(GetParam(), 24);
+  stiffen_by_area(1e5, cloth);
+  EXPECT_NEAR(curved_tip(cloth) / expected, 1, 0.02);
+}
+
 }  // namespace
 }  // namespace drape::bending_equilibrium_test
