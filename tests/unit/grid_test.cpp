@@ -46,14 +46,14 @@ TEST_P(PatternedGrid, TilesItsRectangle) {
   }
 }
 
-TEST(PatternedGrid, OfOneDiagonalIsTheHomeworks) {
+TEST(GridPatterns, OfOneDiagonalIsTheHomeworks) {
   const Mesh homework = make_grid(7, 5), mesh = make_grid({.columns = 7, .rows = 5});
   EXPECT_EQ(mesh.positions, homework.positions);
   EXPECT_EQ(mesh.triangles, homework.triangles);
   EXPECT_EQ(mesh.uvs, homework.uvs);
 }
 
-TEST(PatternedGrid, OfEquilateralTrianglesHasThemAllAlike) {
+TEST(GridPatterns, OfEquilateralTrianglesHasThemAllAlike) {
   const Mesh mesh = make_grid({.columns = 8, .rows = 6, .pattern = GridPattern::equilateral});
   int whole = 0;
   for (const Triangle& t : mesh.triangles) {
@@ -66,7 +66,7 @@ TEST(PatternedGrid, OfEquilateralTrianglesHasThemAllAlike) {
   EXPECT_EQ(whole, 6 * (2 * 8 - 1));
 }
 
-TEST(PatternedGrid, NeedsCellsAndAPositiveSize) {
+TEST(GridPatterns, NeedsCellsAndAPositiveSize) {
   EXPECT_THROW(make_grid({.columns = 0}), std::invalid_argument);
   EXPECT_THROW(make_grid({.columns = 100'000, .rows = 100'000}), std::invalid_argument);
   EXPECT_THROW(make_grid({.size = Eigen::Vector2d(1, 0)}), std::invalid_argument);
