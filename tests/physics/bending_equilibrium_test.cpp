@@ -152,7 +152,7 @@ TEST_P(OnEveryMesh, AHeavyStripSinksAsABeam) {
   EXPECT_NEAR(tip_ratio(GetParam(), 40), 1, 1e-3);
 }
 
-// By regression over three meshes, each of half the cells' size.
+// Cells of a quarter of the size.
 TEST_P(OnEveryMesh, AHeavyStripIsMetToTheSecondOrder) {
   const double coarse = std::abs(tip_ratio(GetParam(), 16) - 1), fine = std::abs(tip_ratio(GetParam(), 64) - 1);
   EXPECT_GT(std::log2(coarse / fine) / 2, 1.5) << coarse << ", " << fine;

@@ -11,6 +11,7 @@
 #include "sim/simulation.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/setups.hpp"
+#include "tests/support/sheets_to_bend.hpp"
 
 namespace drape::materials_test {
 namespace {
@@ -83,6 +84,24 @@ void expect_second_order(const Elastica& exact, int cells) {
 class HeavyElastica : public testing::TestWithParam<Elastica> {};
 INSTANTIATE_TEST_SUITE_P(Of, HeavyElastica, testing::ValuesIn(elasticas));
 TEST_P(HeavyElastica, IsMetThreeTimesAsWellWithTwiceTenCells) { expect_second_order(GetParam(), 10); }
+
+// With w L³/D = 1 and E L²/D = 1e5, cloth whose springs hardly stretch, on whichever mesh.
+class HeavyStripOnEveryMesh : public testing::TestWithParam<test::Division> {};
+INSTANTIATE_TEST_SUITE_P(, HeavyStripOnEveryMesh, testing::ValuesIn(test::all_divisions()),
+                         [](const auto& tested) { return test::name_of(tested.param); });
+TEST_P(HeavyStripOnEveryMesh, SagsAsTheElastica) {
+  constexpr double drop = 0.1235;  // Romero et al. 2021, "Physical validation of simulators in computer graphics"
+  const test::Sheet sheet = test::clamped_strip(GetParam(), 40, 12, 1);
+  const Vertices rest = at_rest(by_area(sheet.mesh, 1e5 * weight, sheet.pins), {Bending{.rigidity = weight}});
+  double sum = 0;
+  int tips = 0;
+  for (Eigen::Index i = 0; i < rest.rows(); ++i) {
+    if (sheet.mesh.positions(i, 0) < 1 - 1e-9) continue;
+    sum -= rest(i, 2);
+    ++tips;
+  }
+  EXPECT_NEAR(sum / tips, drop, 0.01 * drop);
+}
 
 class FineElastica : public testing::TestWithParam<Elastica> {};
 INSTANTIATE_TEST_SUITE_P(Nightly, FineElastica, testing::ValuesIn(elasticas));

@@ -105,11 +105,11 @@ TEST(SceneSprings, OfAGridNeedOne) {
     return folder.problems("[cloth]\nmesh = { " + mesh + " }\n" + keys);
   };
   EXPECT_EQ(problem("grid = [2, 2], pattern = \"x\"", "spring = \"edges+bend\"\nstiffness = 1\n"),
-            "scene.toml:3:1: spring: \"edges+bend\" needs a grid, of pattern \"diagonal\" or \"alternating\"");
+            "scene.toml:3:10: spring: \"edges+bend\" needs a grid, of pattern \"diagonal\" or \"alternating\"");
   EXPECT_EQ(problem("grid = [2, 2]", "spring = \"edges+bend\"\nmodulus = 1\n"),
-            "scene.toml:3:1: spring: \"edges+bend\" needs a 'stiffness'");
+            "scene.toml:3:10: spring: \"edges+bend\" needs a 'stiffness'");
   EXPECT_EQ(problem("grid = [2, 2]", "bend_stiffness = 1\nstiffness = 1\n"),
-            "scene.toml:3:1: bend_stiffness: only with spring = \"edges+bend\"");
+            "scene.toml:3:18: bend_stiffness: only with spring = \"edges+bend\"");
 }
 
 TEST(SceneSprings, OfMaterialsAreEvenOnGridsOfBothDiagonals) {
