@@ -104,7 +104,7 @@ Eigen::VectorXd forces_of_weight(const Cloth& cloth, const std::vector<int>& num
   for (Eigen::Index s = 0; s < forces.size(); ++s) {
     const Spring& spring = cloth.springs[static_cast<std::size_t>(s)];
     const auto at = [&](int vertex) -> Eigen::RowVector2d {
-      const int number = numbers[static_cast<std::size_t>(vertex)];
+      const Eigen::Index number = numbers[static_cast<std::size_t>(vertex)];
       return number < 0 ? Eigen::RowVector2d::Zero() : Eigen::RowVector2d(moved[2 * number], moved[2 * number + 1]);
     };
     const Eigen::RowVector2d along = (cloth.rest.row(spring.j) - cloth.rest.row(spring.i)).head<2>().normalized();
