@@ -30,9 +30,9 @@ Plane middle(const PlacedTriangle& t, int side) {
 }
 
 /// Two triangles at a side and their surroundings, unfolded into one plane.
-class Patch {
+class Surroundings {
  public:
-  Patch(const RestSurface& surface, const PlacedTriangle& t, int side) : surface_(surface) {
+  Surroundings(const RestSurface& surface, const PlacedTriangle& t, int side) : surface_(surface) {
     add(t);
     add(surface.unfold(t, side));
   }
@@ -174,7 +174,7 @@ LinearForm edge_slope(const RestSurface& surface, const PlacedTriangle& t, int s
     return slope_inside(surface, surface.unfold(t, side), along);
   }
   if (auto form = slope_of_parallelogram(surface, t, side)) return *form;
-  Patch patch(surface, t, side);
+  Surroundings patch(surface, t, side);
   patch.grow();
   Fit fit(patch.samples(), middle(t, side));
   for (int ring = 1; ring < most_rings && !fit.determined(); ++ring) {
