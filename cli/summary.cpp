@@ -102,6 +102,12 @@ std::vector<std::string> doubts(const RunResult& result) {
     found.push_back(fmt::format("the cloth is at rest with {}, so this is not an equilibrium: {}",
                                 out_of_balance(*unbalanced), remedy));
   }
+  if (const auto rise = result.statistics.energy_rise(); rise && rise->notable()) {
+    found.push_back(fmt::format(
+        "the cloth's energy rose by {:.2g} J with nothing that gives any, {:.2g} times all that it ever had: "
+        "solve contact with the cloth, response = \"solved\", or use method = \"verlet\" with [time] accuracy",
+        rise->energy, rise->of_available));
+  }
   return found;
 }
 

@@ -11,6 +11,7 @@ namespace drape {
 
 void Statistics::begin(const Simulation& simulation) {
   exactness_.begin(simulation);
+  energy_rise_.begin(simulation);
   method_ = method_name(simulation.settings().integrator.method);
   const IntegratorSettings& integrator = simulation.settings().integrator;
   scheme_ = is_explicit(integrator.method) ? method_ : scheme_name(integrator.scheme);
@@ -22,11 +23,13 @@ void Statistics::begin(const Simulation& simulation) {
 
 void Statistics::after_step(const Simulation& simulation, const StepReport& report, double seconds) {
   exactness_.after_step(simulation, report, seconds);
+  energy_rise_.after_step(simulation, report, seconds);
   effect_seconds_ = simulation.effect_seconds();
   note(report.iterations, report.substeps, report.converged, report.converged ? 0 : simulation.residual(), seconds);
 }
 
 void Statistics::replay(const StepRow& row, double time, double seconds) {
+  energy_rise_.replay(row, time, seconds);
   if (row.step == 0) return;
   exactness_.replay(row, time, seconds);
   note(row.iterations, row.substeps, row.converged, row.residual, seconds);
@@ -109,6 +112,13 @@ nlohmann::ordered_json accuracy_json(const Statistics& statistics) {
   return json;
 }
 
+/// null where something gives the cloth energy, or nothing can touch it.
+nlohmann::ordered_json rise_json(const Statistics& statistics) {
+  const auto rise = statistics.energy_rise();
+  if (!rise) return nullptr;
+  return {{"energy", rise->energy}, {"of_available", rise->of_available}};
+}
+
 }  // namespace
 
 std::string Statistics::to_json(const std::string& outcome) const {
@@ -131,6 +141,7 @@ std::string Statistics::to_json(const std::string& outcome) const {
                                          {"steps_not_converged", not_converged_},
                                          {"worst_residual", worst_residual_}}},
                                        {"accuracy", accuracy_json(*this)},
+                                       {"energy_rise", rise_json(*this)},
                                        {"step_us", {{"mean", mean_microseconds()}, {"median", median_microseconds()}}},
                                        {"effects", names},
                                        {"effect_shares", shares},

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "run/energy_rise.hpp"
 #include "run/exactness.hpp"
 
 namespace drape {
@@ -29,6 +30,7 @@ class Statistics final : public StepObserver {
   [[nodiscard]] double mean_substeps() const;
   [[nodiscard]] std::int64_t max_substeps() const { return max_substeps_; }
   [[nodiscard]] const Exactness& exactness() const { return exactness_; }
+  [[nodiscard]] std::optional<EnergyRise::Rise> energy_rise() const { return energy_rise_.rise(); }
   /// Of every step.
   [[nodiscard]] const std::vector<float>& microseconds() const { return microseconds_; }
   [[nodiscard]] double mean_microseconds() const;
@@ -63,6 +65,7 @@ class Statistics final : public StepObserver {
   std::size_t replayed_ = 0;  // steps
   double worst_residual_ = 0;
   Exactness exactness_;
+  EnergyRise energy_rise_;
 };
 
 }  // namespace drape

@@ -185,6 +185,11 @@ const SimulationSettings& Simulation::settings() const { return motion_->setting
 const std::vector<Spring>& Simulation::springs() const { return motion_->system->springs; }
 const std::vector<double>& Simulation::effect_seconds() const { return motion_->effect_seconds; }
 Energies Simulation::energies() const { return motion_->energies(); }
+bool Simulation::only_loses_energy() const {
+  const System& system = *motion_->system;
+  const bool touches = !system.filters.empty() || !system.contacts.empty();
+  return touches && !is_explicit(settings().integrator.method) && system.only_loses_energy();
+}
 double Simulation::residual() const {
   return motion_->said([](Scheme& scheme) { return scheme.residual(); });
 }

@@ -83,6 +83,9 @@ class Simulation {
   [[nodiscard]] const std::vector<double>& effect_seconds() const;
 
   [[nodiscard]] Energies energies() const;
+  /// Whether a scheme solves for the end of a step in which the cloth may touch something, and nothing gives it energy:
+  /// the total can then only fall, see System::only_loses_energy().
+  [[nodiscard]] bool only_loses_energy() const;
   /// ‖∇g‖ [N] where the last step ended, see Scheme::residual.
   [[nodiscard]] double residual() const;
   /// The estimated error of the last step's solve [m], see Scheme::error. @throws Interrupted

@@ -136,6 +136,8 @@ struct MotionFilter {
 struct ColliderMotion {
   virtual ~ColliderMotion() = default;
   [[nodiscard]] virtual Collider at(double time) const = 0;
+  /// Whether it is the same at every time.
+  [[nodiscard]] virtual bool rests() const = 0;
 };
 
 /// What acts on a cloth, as the schemes evaluate it. Filled by the effects a scene calls for, in the order of the
@@ -168,6 +170,10 @@ struct System {
 
   /// Where everything is that the cloth can touch, at a time [s].
   [[nodiscard]] std::vector<Collider> colliders_at(double at) const;
+
+  /// Whether nothing gives the cloth energy: it can touch only what rests and itself, no pin is moved, and gravity
+  /// alone acts from afar. Then kinetic, elastic and potential energy together can only fall.
+  [[nodiscard]] bool only_loses_energy() const;
 
   /// When a step begins, and so the one before it ends [s]: never a running sum.
   [[nodiscard]] double time(std::int64_t number) const { return static_cast<double>(number) * step; }

@@ -66,10 +66,13 @@ struct DrawnBody final : ColliderMotion {
   std::shared_ptr<const MovingBody> body;
   std::shared_ptr<const std::vector<Triangle>> triangles;
   double thickness;
-  DrawnBody(std::shared_ptr<const MovingBody> b, double t)
+  bool resting;
+  DrawnBody(std::shared_ptr<const MovingBody> b, double t, bool still)
       : body(std::move(b)),
         triangles(std::make_shared<std::vector<Triangle>>(body->topology().triangles)),
-        thickness(t) {}
+        thickness(t),
+        resting(still) {}
+  [[nodiscard]] bool rests() const override { return resting; }
   [[nodiscard]] Collider at(double time) const override {
     return MeshShape{triangles, body->positions(time), thickness};
   }
@@ -122,7 +125,8 @@ void Body::check(const SimulationSettings& settings, const ProblemSink& problem)
 
 void Body::install(System& system) const {
   const std::shared_ptr<const MovingBody> moving = body();
-  system.colliders.push_back(std::make_unique<DrawnBody>(moving, thickness));
+  const bool rests = !velocity && !orbit_period && keyframes.empty() && turns.empty() && !moving->deforms();
+  system.colliders.push_back(std::make_unique<DrawnBody>(moving, thickness, rests));
   if (response == Response::solved) {
     const ContactTerms terms{thickness, friction, restitution.value_or(0)};
     system.contacts.push_back(std::make_unique<BodyContacts>(moving, terms, system.cloth, system.threads));

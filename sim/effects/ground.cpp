@@ -31,6 +31,7 @@ struct RestingGround final : ColliderMotion {
   GroundShape shape;
   explicit RestingGround(const GroundShape& s) : shape(s) {}
   [[nodiscard]] Collider at(double) const override { return shape; }
+  [[nodiscard]] bool rests() const override { return true; }
 };
 
 }  // namespace

@@ -53,7 +53,10 @@ struct SphereSurface {
 struct TrackedSphere final : ColliderMotion {
   std::shared_ptr<const SphereTrack> track;
   Reach reach;
-  TrackedSphere(std::shared_ptr<const SphereTrack> t, const Reach& r) : track(std::move(t)), reach(r) {}
+  bool resting;
+  TrackedSphere(std::shared_ptr<const SphereTrack> t, const Reach& r, bool still)
+      : track(std::move(t)), reach(r), resting(still) {}
+  [[nodiscard]] bool rests() const override { return resting; }
   [[nodiscard]] Collider at(double time) const override {
     SphereShape shape = track->at(time);
     shape.reach = reach.of(shape.radius);
@@ -99,7 +102,8 @@ void Sphere::check(const SimulationSettings& settings, const ProblemSink& proble
 void Sphere::install(System& system) const {
   const std::shared_ptr<const SphereTrack> moving = motion();
   const Reach reach = thickness ? Reach{1, *thickness} : Reach{scale.value_or(usual_scale), 0};
-  system.colliders.push_back(std::make_unique<TrackedSphere>(moving, reach));
+  const bool rests = !velocity && !orbit_period && keyframes.empty() && track == nullptr;
+  system.colliders.push_back(std::make_unique<TrackedSphere>(moving, reach, rests));
   if (response == Response::solved) {
     const ContactTerms terms{reach.thickness, friction, restitution.value_or(0)};
     system.contacts.push_back(
