@@ -24,7 +24,7 @@ install(FILES ${PROJECT_BINARY_DIR}/drapeConfig.cmake ${PROJECT_BINARY_DIR}/drap
 # include each other by that name: a folder `core` or `run` would clash with anybody's.
 set(public_headers
   core/error.hpp
-  sim/cloth.hpp sim/collider.hpp sim/energies.hpp sim/fabrics.hpp sim/frame.hpp sim/instruction_set.hpp sim/keyframes.hpp
+  sim/body_shape.hpp sim/cloth.hpp sim/collider.hpp sim/energies.hpp sim/fabrics.hpp sim/frame.hpp sim/instruction_set.hpp sim/keyframes.hpp
   sim/grid.hpp sim/mesh.hpp sim/mesh_motion.hpp sim/settings.hpp sim/simulation.hpp sim/sphere_track.hpp sim/state.hpp sim/step_report.hpp sim/stop.hpp
   sim/effects/air.hpp sim/effects/bending.hpp sim/effects/body.hpp sim/effects/damping.hpp sim/effects/effect.hpp sim/effects/field.hpp
   sim/effects/gravity.hpp sim/effects/ground.hpp sim/effects/moving_pins.hpp sim/effects/self_collision.hpp

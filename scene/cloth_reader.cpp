@@ -8,6 +8,7 @@
 
 #include "scene/cloth_shape.hpp"
 #include "scene/mesh_file.hpp"
+#include "scene/mesh_shape.hpp"
 #include "scene/mesh_value.hpp"
 #include "scene/pins.hpp"
 #include "scene/table_reader.hpp"
@@ -73,7 +74,7 @@ std::vector<std::string> doubts_of(const ClothTable& table, const ClothAndUvs& r
 SelectableMesh selectable_mesh(const Mesh& mesh, const TomlValue& value, const std::filesystem::path& folder) {
   SelectableMesh selectable{mesh.positions, mesh.triangles, {}, {}};
   const TomlTable* table = value.as<TomlTable>();
-  if (table != nullptr && table->find("grid") != nullptr) return selectable;
+  if (table != nullptr && (table->find("grid") != nullptr || mesh_shape_kind(value))) return selectable;
   Problems told({}, {});  // when the mesh was read
   const std::optional<MeshName> named = read_mesh_name(value, "mesh", false, told);
   if (!named) return selectable;

@@ -10,6 +10,7 @@
 #include "core/nearest.hpp"
 #include "core/text.hpp"
 #include "scene/mesh_file.hpp"
+#include "scene/mesh_shape.hpp"
 #include "scene/values.hpp"
 
 namespace drape {
@@ -23,7 +24,7 @@ const std::vector<std::string> motion_name_keys = {"file", "prim", "up", "fps"};
 
 /// Reads what a grid's table says beside `grid`; false after a complaint.
 bool read_grid_key(const TomlEntry& entry, const std::string& name, Grid& grid, Problems& problems) {
-  static const std::vector<std::string> keys = {"grid", "pattern", "size", "file"};
+  static const std::vector<std::string> keys = {"grid", "pattern", "size", "file", "disc", "strip", "tube"};
   static const std::vector<std::string> patterns = {"diagonal", "alternating", "x", "equilateral"};
   if (entry.name == "size") {
     grid.size = read_pair(entry.value, name + ".size", {.minimum = 0, .minimum_excluded = true}, problems);
@@ -55,7 +56,7 @@ std::optional<Grid> read_grid(const TomlValue& value, const std::string& name, P
   }
   const TomlValue* cells = table.find("grid");
   if (cells == nullptr) {
-    if (good) problems.add(value.place, name + ": missing key 'grid' or 'file'");
+    if (good) problems.add(value.place, name + ": missing key 'grid', 'disc', 'strip', 'tube' or 'file'");
     return std::nullopt;
   }
   const auto counts = read_int_pair(*cells, name + ".grid", {.minimum = 1}, problems);
@@ -140,6 +141,7 @@ std::optional<Mesh> read_mesh_value(const TomlValue& value, const std::string& n
                                           name, value.kind()));
     return std::nullopt;
   }
+  if (mesh_shape_kind(value)) return read_mesh_shape(value, name, problems);
   const bool named = table == nullptr || std::ranges::any_of(mesh_name_keys, [&](const std::string& key) {
                        return table->find(key) != nullptr;
                      });

@@ -12,6 +12,7 @@
 #include "scene/effects_reader.hpp"
 #include "scene/tables.hpp"
 #include "scene/value_text.hpp"
+#include "sim/body_shape.hpp"
 #include "sim/mesh_motion.hpp"
 
 namespace drape {
@@ -59,9 +60,19 @@ std::string motion_text(const MeshMotion* motion) {
   return fmt::format("{} vertices at {} times ({})", motion->mesh.positions.rows(), motion->times.size(), hash.text());
 }
 
+/// A shape of a body, if it is of the key's kind.
+std::string shape_text(const BodyShapeKey& key) {
+  if (!*key.shape || (*key.shape)->kind != key.kind) return "";
+  const BodyShape& s = **key.shape;
+  return fmt::format("{} {} {} {} {} {}", s.radius, s.height, s.top, s.width, s.depth, s.segments);
+}
+
 /// What stands for a value of a form of its own; nothing where it is not one that effects have.
 std::optional<std::string> own_text(const Key& key) {
   const auto* form = std::get_if<OwnForm>(&key.target);
+  if (const auto* shape = form == nullptr ? nullptr : std::any_cast<BodyShapeKey>(&form->target)) {
+    return shape_text(*shape);
+  }
   auto* const* motion = form == nullptr ? nullptr : std::any_cast<std::shared_ptr<const MeshMotion>*>(&form->target);
   return motion == nullptr ? std::nullopt : std::optional(motion_text((*motion)->get()));
 }
@@ -86,6 +97,8 @@ std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, 
     Keys keys;
     effect.describe(keys);
     for (const Key& key : keys.all()) {
+      const auto* form = std::get_if<OwnForm>(&key.target);
+      if (form != nullptr && std::any_cast<BodyShapeKey>(&form->target) != nullptr && own_text(key)->empty()) continue;
       if (const auto text = own_text(key)) {
         values.push_back({paths[i] + "." + key.name, *text});
         continue;

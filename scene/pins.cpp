@@ -12,7 +12,7 @@
 namespace drape {
 namespace {
 
-constexpr std::string_view corner_prefix = "corner:";
+constexpr std::string_view corner_prefix = "corner:", edge_prefix = "edge:";
 
 class PinReader {
  public:
@@ -23,13 +23,13 @@ class PinReader {
     if (item.as<std::int64_t>() != nullptr) {
       read_vertex(item, name);
     } else if (const std::string* text = item.as<std::string>()) {
-      read_corner(*text, item.place, name);
+      read_text(*text, item.place, name);
     } else if (item.as<TomlTable>() != nullptr) {
       const std::vector<int> selected = read_selection(item, name, mesh_, problems_);
       pins_.insert(pins_.end(), selected.begin(), selected.end());
     } else {
       problems_.add(item.place,
-                    fmt::format("{}: expected a vertex number, a corner like 'corner:x-y-' or {{ box = … }}, "
+                    fmt::format("{}: expected a vertex number, 'corner:x-y-', 'edge:x-', 'border' or {{ box = … }}, "
                                 "found {}",
                                 name, item.kind()));
     }
@@ -53,15 +53,34 @@ class PinReader {
     }
   }
 
-  void read_corner(const std::string& text, const Place& place, const std::string& name) {
-    const std::optional<Eigen::Vector3d> direction =
-        text.starts_with(corner_prefix) ? parse_direction(std::string_view(text).substr(corner_prefix.size()))
-                                        : std::nullopt;
+  void read_text(const std::string& text, const Place& place, const std::string& name) {
+    if (text == "border") {
+      if (mesh_ == nullptr) return;
+      for (const std::vector<int>& ring : border_rings(mesh_->triangles))
+        pins_.insert(pins_.end(), ring.begin(), ring.end());
+      return;
+    }
+    const bool edge = text.starts_with(edge_prefix), corner = text.starts_with(corner_prefix);
+    std::optional<Eigen::Vector3d> direction;
+    if (edge || corner) direction = parse_direction(std::string_view(text).substr(text.find(':') + 1));
     if (!direction) {
-      problems_.add(place,
-                    fmt::format("{}: expected a corner like 'corner:x-y-' or 'corner:x+y+z-', found '{}'", name, text));
-    } else if (vertices_ != nullptr) {
+      problems_.add(place, fmt::format("{}: expected a corner like 'corner:x-y-', an edge like 'edge:x-' or 'border', "
+                                       "found '{}'",
+                                       name, text));
+    } else if (vertices_ != nullptr && corner) {
       pins_.push_back(farthest_vertex(*direction));
+    } else if (vertices_ != nullptr) {
+      add_edge(*direction);
+    }
+  }
+
+  /// Pins every vertex that is as far in a direction as the farthest, but for rounding.
+  void add_edge(const Eigen::Vector3d& direction) {
+    const Eigen::VectorXd distances = *vertices_ * direction;
+    constexpr double rounding = 1e-6;
+    const double least = distances.maxCoeff() - rounding * (distances.maxCoeff() - distances.minCoeff());
+    for (Eigen::Index i = 0; i < distances.size(); ++i) {
+      if (distances[i] >= least) pins_.push_back(static_cast<int>(i));
     }
   }
 

@@ -16,6 +16,7 @@
 #include "scene/pins.hpp"
 #include "scene/usd/motion.hpp"
 #include "scene/values.hpp"
+#include "sim/body_shape.hpp"
 #include "sim/mesh_motion.hpp"
 
 namespace drape {
@@ -92,6 +93,8 @@ class KeyReader {
       read_track(**track);
     } else if (auto* const* moving = std::any_cast<std::shared_ptr<const MeshMotion>*>(&form.target)) {
       read_moving_mesh(**moving);
+    } else if (const auto* shape = std::any_cast<BodyShapeKey>(&form.target)) {
+      read_shape(*shape);
     } else if (auto* const* rectangles = std::any_cast<std::vector<PixelRectangle>*>(&form.target)) {
       **rectangles = read_rectangles(value_, key_.name, problems_);
     } else {
@@ -151,6 +154,24 @@ class KeyReader {
       track = read_sphere_track(folder_ / *file);
     } catch (const UsageError& error) {
       problems_.add(value_.place, fmt::format("{}: '{}' cannot be read:\n{}", key_.name, *file, error.what()));
+    }
+  }
+
+  void read_shape(const BodyShapeKey& key) const {
+    if (*key.shape) {
+      const std::string& other = body_shape_names()[static_cast<std::size_t>((*key.shape)->kind)];
+      problems_.add(value_.place,
+                    fmt::format("give only one of '{}' and '{}': each is the body's shape", other, key_.name));
+      return;
+    }
+    const std::size_t before = problems_.count();
+    BodyShape shape{.kind = key.kind};
+    TableReader(folder_, problems_).read(value_, {.name = key_.name, .help = {}, .keys = body_shape_keys(shape)});
+    if (problems_.count() != before) return;
+    if (const auto problem = body_shape_problem(shape)) {
+      problems_.add(value_.place, key_.name + ": " + *problem);
+    } else {
+      *key.shape = shape;
     }
   }
 

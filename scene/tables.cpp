@@ -31,7 +31,7 @@ Keys cloth_keys(ClothTable& cloth) {
   if (cloth.material != nullptr) chosen = static_cast<std::size_t>(cloth.material - fabrics().data());
   keys.add("material", Choice{std::move(names), [&cloth](std::size_t i) { cloth.material = &fabrics()[i]; }, chosen},
            "",
-           "A measured fabric. Sets density, modulus and bending rigidity unless the scene gives them, see "
+           "A fabric. Sets density, modulus and bending rigidity unless the scene gives them, see "
            "[Materials](#materials).");
   keys.choice("spring", cloth.springs, {"edges", "edges+bend"},
               "Springs along the mesh's edges, or those of a course's grid: along the sides of its cells with "

@@ -78,6 +78,19 @@ struct DrawnBody final : ColliderMotion {
   }
 };
 
+void describe_shapes(Keys& keys, std::optional<BodyShape>& shape) {
+  const auto add = [&](BodyShape::Kind kind, const char* form, const char* help) {
+    const std::string& name = body_shape_names()[static_cast<std::size_t>(kind)];
+    keys.add(name, OwnForm{form, BodyShapeKey{kind, &shape}}, "m", help);
+  };
+  using Kind = BodyShape::Kind;
+  add(Kind::cylinder, "{ radius, height }", "A cylinder around `center`, its axis along z; `segments` sides, 64.");
+  add(Kind::capsule, "{ radius, height }", "The same with round ends, within `height`.");
+  add(Kind::cone, "{ radius, height, top }", "A cone, or with a radius `top` of its upper end a frustum.");
+  add(Kind::plane, "{ width, depth }", "A rectangle across z with two sides.");
+  add(Kind::sphere, "{ radius }", "A ball of triangles; `[effects.sphere]` is a smooth one.");
+}
+
 }  // namespace
 
 Mesh make_box(const Eigen::Vector3d& size) {
@@ -92,7 +105,10 @@ Mesh make_box(const Eigen::Vector3d& size) {
 }
 
 void Body::describe(Keys& keys) {
-  keys.add("box", &box, "m", "Sides of a box around `center`.").must_be_given_unless({"file"}).above(0);
+  std::vector<std::string> others = body_shape_names();
+  others.insert(others.begin(), "file");
+  keys.add("box", &box, "m", "Sides of a box around `center`.").must_be_given_unless(std::move(others)).above(0);
+  describe_shapes(keys, shape);
   keys.add(
       "file", OwnForm{"file", &mesh}, "",
       "Mesh file instead, which may move: as for a cloth, or an OBJ sequence, `\"arm/{frame:04}.obj\"`; or `{ file, "
@@ -112,6 +128,11 @@ void Body::describe(Keys& keys) {
 
 void Body::check(const SimulationSettings& settings, const ProblemSink& problem) const {
   if (box && mesh) problem("box", "give only one of 'box' and 'file': each is the body's shape");
+  if (shape && (box || mesh)) {
+    const std::string& name = body_shape_names()[static_cast<std::size_t>(shape->kind)];
+    problem(name, std::string("give only one of '") + (box ? "box" : "file") + "' and '" + name +
+                      "': each is the body's shape");
+  }
   if (!prim.empty() && !mesh) problem("prim", "names a mesh in a 'file', and there is none");
   if (mesh && mesh->mesh.triangles.empty()) problem("file", "the mesh has no triangles for the cloth to collide with");
   if (int{velocity.has_value()} + int{orbit_period.has_value()} + int{!keyframes.empty()} > 1) {
@@ -141,12 +162,14 @@ void Body::install(System& system) const {
 ContactLaw Body::law() const { return {stiffness, response, friction, restitution}; }
 
 std::shared_ptr<const MovingBody> Body::body() const {
-  const auto shape = box ? std::make_shared<const MeshMotion>(MeshMotion{.mesh = make_box(*box)}) : mesh;
+  std::shared_ptr<const MeshMotion> form = mesh;
+  if (box) form = std::make_shared<const MeshMotion>(MeshMotion{.mesh = make_box(*box)});
+  if (shape) form = std::make_shared<const MeshMotion>(MeshMotion{.mesh = make_body_shape(*shape)});
   std::optional<Orbit> orbit;
   if (orbit_period) orbit = Orbit{orbit_center, orbit_axis, *orbit_period};
   std::optional<Keyframes> angles;
   if (!turns.empty()) angles = Keyframes(starting_at(turns, Eigen::Vector3d::Zero()), interpolation);
-  return std::make_shared<MovingBody>(shape, RigidMotion(path(orbit), turn_about_axes(rotate), orbit, angles));
+  return std::make_shared<MovingBody>(form, RigidMotion(path(orbit), turn_about_axes(rotate), orbit, angles));
 }
 
 std::shared_ptr<const SphereTrack> Body::path(const std::optional<Orbit>& orbit) const {

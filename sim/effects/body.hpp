@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/body_shape.hpp"
 #include "sim/effects/effect.hpp"
 #include "sim/effects/response.hpp"
 #include "sim/keyframes.hpp"
@@ -48,7 +49,8 @@ struct Body {
   Eigen::Vector3d orbit_axis = Orbit{}.axis;      ///< of any length but 0; counterclockwise seen from its tip
   std::vector<Keyframe> keyframes = {};           ///< of `center`, at increasing times from 0 s on [s, m]
   Interpolation interpolation = Interpolation::linear;
-  std::vector<Keyframe> turns = {};  ///< angles about the fixed x axis, then y, then z, from 0 at 0 s on [degrees]
+  std::vector<Keyframe> turns = {};     ///< angles about the fixed x axis, then y, then z, from 0 at 0 s on [degrees]
+  std::optional<BodyShape> shape = {};  ///< in place of a box or a mesh, around `center`
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;

@@ -37,8 +37,7 @@ struct RestingGround final : ColliderMotion {
 }  // namespace
 
 void Ground::describe(Keys& keys) {
-  keys.add("height", &height, "m", "Distance from the origin along its normal: for a level ground, its z.")
-      .must_be_given();
+  keys.add("height", &height, "m", "Distance from the origin along its normal: for a level ground, its z.");
   keys.add("normal", &normal, "", "Outward direction, of any length; a ground can be tilted.");
   keys.add("thickness", &thickness, "m",
            "Reach of the push: within this distance of the drawn surface, so that cloth lies on it and not in it.")

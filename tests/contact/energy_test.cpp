@@ -28,6 +28,15 @@ constexpr std::array obstacles{"ground", "sphere", "box", "pole", "itself"};
 constexpr std::array steps{0.001, 0.002, 0.005, 0.01, 0.02};     // [s]
 constexpr std::array stiffnesses{18.0, 180.0, 1800.0, 18000.0};  // [N/m]
 
+const std::vector<Fabric>& measured_fabrics() {
+  static const std::vector<Fabric> measured = [] {
+    std::vector<Fabric> found;
+    std::ranges::copy_if(fabrics(), std::back_inserter(found), &Fabric::measured);
+    return found;
+  }();
+  return measured;
+}
+
 /// One run of the set: all that it is made from follows from its number.
 struct Trial {
   int number;
@@ -39,9 +48,9 @@ struct Trial {
   }
   [[nodiscard]] std::size_t material() const { return static_cast<std::size_t>(number) % 14; }
   [[nodiscard]] std::string title() const {
-    const bool fabric = material() < fabrics().size();
-    std::string cloth = fabric ? std::string(fabrics()[material()].name)
-                               : "k" + std::to_string(std::lround(stiffnesses[material() - fabrics().size()]));
+    const bool fabric = material() < measured_fabrics().size();
+    std::string cloth = fabric ? std::string(measured_fabrics()[material()].name)
+                               : "k" + std::to_string(std::lround(stiffnesses[material() - measured_fabrics().size()]));
     std::erase(cloth, '-');
     return "Run" + std::to_string(number) + "_" + obstacles[static_cast<std::size_t>(number % 5)] + "_" + cloth + "_" +
            std::to_string(std::lround(step() * 1000)) + "ms_" + method().name;
@@ -111,14 +120,14 @@ SimulationSettings make(const Trial& run) {
   settings.step = run.step();
   settings.integrator.method = run.method().method;
   settings.effects = {Gravity{}};
-  if (run.material() < fabrics().size()) {
-    const Fabric& fabric = fabrics()[run.material()];
+  if (run.material() < measured_fabrics().size()) {
+    const Fabric& fabric = measured_fabrics()[run.material()];
     settings.cloth = make_cloth(start, rest, 1, 1, {});
     share_mass_by_area(fabric.density, settings.cloth);
     stiffen_by_area(fabric.modulus, settings.cloth);
     settings.effects.add(Bending{.rigidity = fabric.rigidity});
   } else {
-    settings.cloth = make_cloth(start, rest, 0.2, stiffnesses[run.material() - fabrics().size()], {});
+    settings.cloth = make_cloth(start, rest, 0.2, stiffnesses[run.material() - measured_fabrics().size()], {});
   }
   settings.cloth.velocities = velocities(run, settings.cloth, random);
   add_obstacle(run.obstacle(), settings.effects);

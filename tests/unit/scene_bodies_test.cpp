@@ -83,7 +83,8 @@ TEST(SceneBodies, AreFilesWithYUpAndSequencesOfAnyRate) {
 TEST(SceneBodies, SayWhatIsWrong) {
   const SceneFolder folder;
   EXPECT_EQ(folder.problems(with_body("thickness = 0.1")),
-            "scene.toml:6:1: missing key 'box' or 'file' in [effects.body]");
+            "scene.toml:6:1: missing key 'box', 'file', 'cylinder', 'capsule', 'cone', 'plane' or 'sphere' in "
+            "[effects.body]");
   EXPECT_EQ(folder.problems(with_body("box = [1, 1, 0]")).substr(0, 20), "scene.toml:7:14: box");
   EXPECT_EQ(folder.problems(with_body("box = [1, 1, 1]\nprim = \"/a\"")),
             "scene.toml:8:8: prim: names a mesh in a 'file', and there is none");

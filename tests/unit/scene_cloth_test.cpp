@@ -134,7 +134,7 @@ TEST(SceneMesh, EveryOtherFormIsAnError) {
   EXPECT_EQ(problem("20"),
             "scene.toml:2:8: mesh: expected the name of a file, { file = …, prim = … } or { grid = [columns, rows] }, "
             "found a whole number");
-  EXPECT_EQ(problem("{}"), "scene.toml:2:8: mesh: missing key 'grid' or 'file'");
+  EXPECT_EQ(problem("{}"), "scene.toml:2:8: mesh: missing key 'grid', 'disc', 'strip', 'tube' or 'file'");
   EXPECT_EQ(problem("{ file = \"a.obj\", grid = [2, 2] }"),
             "scene.toml:2:26: mesh: unknown key 'grid'; the keys are 'file', 'prim', 'up'");
   EXPECT_EQ(problem("{ prim = \"/a\" }"), "scene.toml:2:8: mesh: missing key 'file'");
@@ -215,15 +215,17 @@ TEST(ScenePins, EveryWrongOneIsReported) {
       folder.problems(cloth("pins = [9, -1, 1.0, true]")),
       "scene.toml:4:9: pins[0]: the mesh has the vertices 0 to 8, found 9\n"
       "scene.toml:4:12: pins[1]: the mesh has the vertices 0 to 8, found -1\n"
-      "scene.toml:4:16: pins[2]: expected a vertex number, a corner like 'corner:x-y-' or { box = … }, found a "
+      "scene.toml:4:16: pins[2]: expected a vertex number, 'corner:x-y-', 'edge:x-', 'border' or { box = … }, found a "
       "number\n"
-      "scene.toml:4:21: pins[3]: expected a vertex number, a corner like 'corner:x-y-' or { box = … }, found true "
+      "scene.toml:4:21: pins[3]: expected a vertex number, 'corner:x-y-', 'edge:x-', 'border' or { box = … }, found "
+      "true "
       "or false");
   for (const std::string corner : {"", "corner", "corner:", "corner:x", "corner:x-y", "corner:x-x+", "corner:w-",
                                    "corner:x*", "corner:x-y-z-x-", "CORNER:x-", "corner: x-"}) {
     EXPECT_EQ(
         folder.problems(cloth("pins = [\"" + corner + "\"]")),
-        "scene.toml:4:9: pins[0]: expected a corner like 'corner:x-y-' or 'corner:x+y+z-', found '" + corner + "'");
+        "scene.toml:4:9: pins[0]: expected a corner like 'corner:x-y-', an edge like 'edge:x-' or 'border', found '" +
+            corner + "'");
   }
   EXPECT_EQ(folder.problems(cloth("pins = \"corner:x-y-\"")),
             "scene.toml:4:8: pins: expected an array, found a string");

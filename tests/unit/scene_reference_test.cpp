@@ -35,10 +35,11 @@ TEST(SceneReference, ThePageHasTheProgramsOwnDescriptionOfItsKeys) { expect_page
 
 /// The fabrics as the page lists them.
 std::string fabrics_table() {
-  std::string text = "| `material` | sample | density, kg/m² | modulus, N/m | rigidity, N·m |\n|---|---|---|---|---|\n";
+  std::string text =
+      "| `material` | sample | density, kg/m² | modulus, N/m | rigidity, N·m | source |\n|---|---|---|---|---|---|\n";
   for (const Fabric& f : fabrics()) {
-    text += fmt::format("| `\"{}\"` | {} | {} | {} | {:g}e-6 |\n", f.name, f.sample, f.density, f.modulus,
-                        1e6 * f.rigidity);
+    text += fmt::format("| `\"{}\"` | {} | {} | {} | {:g}e-6 | {} |\n", f.name, f.sample, f.density, f.modulus,
+                        1e6 * f.rigidity, f.measured ? "Wang et al. 2011" : "estimate");
   }
   return text + "\n";
 }
