@@ -15,6 +15,7 @@
 #include "scene/method_names.hpp"
 #include "scene/overrides.hpp"
 #include "scene/physics.hpp"
+#include "scene/quality.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/tables.hpp"
 #include "sim/effects/bending.hpp"
@@ -220,6 +221,10 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   }
 
   for (const ReadEffect& read : effects) scene.simulation.effects.add(read.effect);
+  apply_quality(scene, [&](const char* key) {
+    const TomlValue* value = find_path(document, key);
+    return value != nullptr && value->place.override_number > 0;
+  });
 
   scene.fields = scene_fields(scene.name, scene_tables(cloth_table, scene), effects, document);
   if (const TomlValue* caption = find_path(document, "caption")) {

@@ -6,6 +6,7 @@
 //   while (simulation.state().step < scene.step_count()) simulation.step();
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct SceneField {
 struct SceneValue {
   std::string key, text;
 };
+
+/// How much time a film may take, in one word, see apply_quality().
+enum class Quality { draft, film, print };
 
 /// A scene: plain data, complete and checked.
 struct Scene {
@@ -52,6 +56,7 @@ struct Scene {
   std::vector<SceneValue> tables;   ///< what the tables say on which the motion depends, see physics_values()
   PortableScene portable;           ///< all that it was read from
   std::vector<std::string> doubts;  ///< what may not be meant, though it can be simulated: "scene.toml:2:8: …"
+  std::optional<Quality> quality;   ///< that its numbers were changed for
 
   /// The number of steps that cover the duration: duration/step, rounded to the nearest whole number.
   [[nodiscard]] std::int64_t step_count() const;

@@ -125,7 +125,7 @@ Keys camera_keys(Camera& camera) {
   return keys;
 }
 
-Keys look_keys(Look& look) {
+Keys look_keys(Look& look, std::optional<Quality>& quality) {
   Keys keys;
   keys.add("texture", &look.texture, "", "Picture on the cloth. Needs a mesh with texture coordinates.");
   keys.add("color", &look.color, "", "Colour of the cloth without a texture.");
@@ -158,6 +158,10 @@ Keys look_keys(Look& look) {
       .at_least(0)
       .at_most(1);
   keys.add("samples", &look.samples, "", "Antialiasing samples per pixel: 1 (off), 2 or 4.").at_least(1).at_most(4);
+  keys.choice("quality", quality, {"draft", "film", "print"},
+              "Everything that trades time for detail, relative to what the scene says: draft halves the film's size "
+              "and rate and solves coarsely, film changes nothing, print doubles the size and filters textures, see "
+              "[usage.md](usage.md#quality).");
   return keys;
 }
 
@@ -238,7 +242,7 @@ std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene) {
   add("time", "Time step and duration.", time_keys(scene));
   add("integrator", "How the motion is computed.", integrator_keys(scene.simulation.integrator));
   add("camera", "The point of view.", camera_keys(scene.camera));
-  add("look", "Appearance.", look_keys(scene.look));
+  add("look", "Appearance.", look_keys(scene.look, scene.quality));
   add("video", "The film.", video_keys(scene.video));
   add("caption", "Text on every frame of a film. `drape check` ignores it.", caption_keys(scene.caption));
   add("overlay", "Curves below the film, see [captions.md](captions.md). `drape check` ignores them.",
