@@ -27,20 +27,29 @@ from ._drape import (
     render,
     use_data_folder,
 )
+from .notebook import Check, Film, Motion, Sweep, check, film, load, sweep
 
 __all__ = [
+    "Check",
     "DivergedError",
     "Energies",
     "Error",
+    "Film",
+    "Motion",
     "OutputError",
     "Simulation",
     "State",
     "StepReport",
+    "Sweep",
     "UsageError",
+    "check",
     "data_folder",
+    "film",
     "instruction_set",
     "instruction_sets",
     "limit_instruction_set",
+    "load",
     "render",
+    "sweep",
     "use_data_folder",
 ]

@@ -108,3 +108,41 @@ def instruction_sets() -> list[str]: ...
 def limit_instruction_set(name: str) -> None: ...
 def data_folder() -> Path: ...
 def use_data_folder(folder: Union[str, PathLike[str]]) -> None: ...
+
+class Film(bytes):
+    def save(self, file: Union[str, PathLike[str]]) -> None: ...
+
+class Motion:
+    name: str
+    times: npt.NDArray[np.float64]
+    positions: npt.NDArray[np.float64]
+    triangles: npt.NDArray[np.int32]
+    def __len__(self) -> int: ...
+    def __getitem__(self, moment: Any) -> npt.NDArray[np.float64]: ...
+
+class Check:
+    ok: bool
+    text: str
+    page: str
+    def __bool__(self) -> bool: ...
+
+class Sweep(list[dict[str, str]]):
+    folder: str
+
+def film(
+    simulation: Simulation, seconds: Optional[float] = None, *, fps: float = 25.0, speed: float = 1.0, **camera: Any
+) -> Film: ...
+def load(file: Union[str, PathLike[str]]) -> Motion: ...
+def check(
+    *scenes: Union[str, PathLike[str]],
+    report: Union[str, PathLike[str]] = "out/check",
+    update: str = "none",
+    set: dict[str, Any] = {},
+) -> Check: ...
+def sweep(
+    *scenes: Union[str, PathLike[str]],
+    vary: dict[str, Any],
+    set: dict[str, Any] = {},
+    folder: Union[str, PathLike[str]] = "out/sweep",
+    jobs: int = 1,
+) -> Sweep: ...
