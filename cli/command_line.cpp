@@ -119,7 +119,7 @@ void print_commands(const CLI::App& app) {
     if (command->get_group().empty()) continue;
     text += fmt::format("  {:<10}{}\n", command->get_name(), command->get_description());
   }
-  text += "\nBegin with: drape render SCENE.toml\nOptions and examples of a command: drape help COMMAND\n";
+  text += "\nBegin with: drape new flag\nOptions and examples of a command: drape help COMMAND\n";
   constexpr std::size_t descriptions_at = 12;
   print_text(stdout, wrapped(text, terminal(stdout, ColorMode::never).width, descriptions_at - 2));
 }
@@ -183,7 +183,10 @@ ExitCode run_command_line(int argc, const char* const* argv) {
              "Colours in messages; default auto; NO_COLOR turns them off too");
 
   Command command;
+  add_new_command(app, common, command);
   add_run_commands(app, common, command);
+  add_watch_command(app, common, command);
+  add_lint_command(app, common, command);
   add_compare_command(app, common, command);
   add_sweep_command(app, common, command);
   add_merge_command(app, common, command);
@@ -191,6 +194,7 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   add_accept_command(app, common, command);
   add_bless_command(app, common, command);
   add_study_command(app, common, command);
+  add_schema_command(app, command);
   add_doctor_command(app, command);
   add_help_command(app, common, command);
   add_manual_command(app, command);

@@ -22,6 +22,13 @@ using Command = std::function<ExitCode()>;
 /// Adds the subcommands that run scenes, render and simulate. The one that is chosen sets `command`.
 void add_run_commands(CLI::App& app, const CommonOptions& common, Command& command);
 
+/// Add new, which writes a scene to begin with, and lint, which says what may not be meant in scenes.
+void add_new_command(CLI::App& app, const CommonOptions& common, Command& command);
+void add_lint_command(CLI::App& app, const CommonOptions& common, Command& command);
+
+/// Adds watch, which shows a scene's film in a browser while the scene is edited.
+void add_watch_command(CLI::App& app, const CommonOptions& common, Command& command);
+
 /// Adds compare, which draws motions side by side.
 void add_compare_command(CLI::App& app, const CommonOptions& common, Command& command);
 
@@ -36,6 +43,9 @@ void add_merge_command(CLI::App& app, const CommonOptions& common, Command& comm
 
 /// Adds study, whose subcommands are the studies.
 void add_study_command(CLI::App& app, const CommonOptions& common, Command& command);
+
+/// Adds schema, which prints a JSON schema of scenes.
+void add_schema_command(CLI::App& app, Command& command);
 
 /// Adds doctor, which says what drape finds on this machine.
 void add_doctor_command(CLI::App& app, Command& command);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "cli/command_line.hpp"
+#include "cli/film_times.hpp"
 #include "cli/frame_list.hpp"
 #include "cli/grid_option.hpp"
 #include "cli/interruption.hpp"
@@ -13,6 +14,7 @@
 #include "cli/motion_runs.hpp"
 #include "cli/number_option.hpp"
 #include "cli/output_clashes.hpp"
+#include "cli/quality_option.hpp"
 #include "cli/run_arguments.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/summary.hpp"
@@ -30,7 +32,8 @@ namespace {
 
 struct CompareArguments {
   std::vector<std::string> scenes, overrides, varied;
-  std::string grid, sheet, frames, max_size, keep;
+  std::string grid, sheet, frames, every, max_size, keep;
+  FilmTimes times;
   CompareOptions options;
 };
 
@@ -84,10 +87,34 @@ std::string command_line(const CompareArguments& arguments) {
   if (arguments.options.difference) text += " --difference";
   if (arguments.options.steps) text += fmt::format(" --steps {}", *arguments.options.steps);
   if (!arguments.frames.empty()) text += " --frames " + arguments.frames;
+  for (const auto& [option, value] :
+       {std::pair(" --at ", arguments.times.at), std::pair(" --from ", arguments.times.from),
+        std::pair(" --to ", arguments.times.to), std::pair(" --every ", arguments.every)}) {
+    if (!value.empty()) text += option + value;
+  }
   if (!arguments.sheet.empty()) text += " --sheet " + arguments.sheet;
   if (!arguments.max_size.empty()) text += " --max-size " + shell_word(arguments.max_size);
   if (!arguments.keep.empty()) text += " --keep " + arguments.keep;
   return text;
+}
+
+/// Sets how far apart the frames are and which of them are drawn. The clock is the first scene's.
+void choose_moments(const CompareArguments& arguments, std::vector<Scene>& scenes, CompareOptions& options) {
+  Scene& first = scenes.front();
+  if (!arguments.every.empty()) {
+    const double step = first.simulation.step;
+    const RecordedSteps found = parse_every(arguments.every, step);
+    if (!found.every)
+      throw UsageError("--every frames is for motion files; give a number of steps or a time like 0.1s");
+    first.video.speed = static_cast<double>(*found.every) * step * first.video.fps;
+  }
+  if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
+  if (!arguments.times.any()) return;
+  FilmExtent whole = compared_extent(scenes, options, 0);
+  for (std::size_t i = 1; i < scenes.size(); ++i) {
+    whole.frames.last = std::max(whole.frames.last, compared_extent(scenes, options, i).frames.last);
+  }
+  options.frames = frames_at(arguments.times, whole, "these motions");
 }
 
 ExitCode conclude(const CompareResult& result) {
@@ -114,13 +141,13 @@ ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& com
   } else if (arguments.varied.size() > 1) {
     options.columns = last_of(arguments.varied);  // so that a row is what only the last key tells apart
   }
-  if (!arguments.frames.empty()) options.frames = parse_frames(arguments.frames);
   if (options.outputs.empty()) options.outputs = {arguments.sheet.empty() ? "out/compare.gif" : "out/compare.png"};
   options.sheet = parse_sheet(arguments.sheet, options.outputs);
   options.largest_file = parse_file_limit(arguments.max_size, arguments.keep, options.outputs);
   options.command = command_line(arguments);
   std::vector<Scene> scenes;
   std::tie(scenes, options.recorded) = load_variations(arguments);
+  choose_moments(arguments, scenes, options);
   std::vector<RunOptions> files(scenes.size());
   files.front().outputs = options.outputs;
   require_files_of_their_own(scenes, files);
@@ -173,7 +200,12 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
   add_file_limit(*sub, arguments->max_size, arguments->keep);
   sub->add_option("--steps", options.steps, "Simulate this many steps instead of the scenes' durations")
       ->check(whole_number_in({0, 1e9}));
-  sub->add_option("--frames", arguments->frames, "Only these frames of the film: A..B");
+  add_film_times(*sub, arguments->times,
+                 sub->add_option("--frames", arguments->frames, "Only these frames of the film: A..B"));
+  sub->add_option("--every", arguments->every,
+                  "N: a frame after every N steps of the first motion instead of by its [video] fps and speed; 0.1s: "
+                  "the same in time");
+  add_quality_option(*sub, arguments->overrides);
   add_backend_option(*sub, options.backend);
   sub->callback(
       [arguments, &common, &command] { command = [arguments, &common] { return run_compare(*arguments, common); }; });

@@ -13,17 +13,28 @@ struct Examples {
   std::string_view lines;    ///< what stands after "drape", with a line feed after each
 };
 
-constexpr std::array<Examples, 16> all_examples{{
+constexpr std::array<Examples, 20> all_examples{{
     {"",
-     "render scene.toml\n"
-     "render scene.toml --set cloth.stiffness=1800 -o stiff.mp4\n"
+     "new flag\n"
+     "render flag.toml\n"
+     "render flag.toml --set look.color=navy -o navy.mp4\n"
      "help render\n"},
+    {"new",
+     "new flag\n"
+     "new tablecloth table.toml\n"},
     {"render",
      "render scene.toml                                    # out/scene.gif\n"
+     "render scene.toml --quality draft --open\n"
      "render scene.toml -o film.mp4 -o frames/{frame:04}.png\n"
      "render scene.toml --set video.fps=50 --frames 100..120\n"
      "render scene.toml -o film.webp --max-size 2MB --poster\n"
      "render motion.drape --set video.speed=0.1 -o slow.mp4\n"},
+    {"watch",
+     "watch scene.toml\n"
+     "watch scene.toml --port 8000 --no-open\n"},
+    {"lint",
+     "lint scene.toml\n"
+     "lint scenes/*.toml\n"},
     {"simulate",
      "simulate scene.toml --energies energies.csv --stats stats.json\n"
      "simulate scene.toml -o meshes/{frame:04}.obj\n"
@@ -58,6 +69,9 @@ constexpr std::array<Examples, 16> all_examples{{
     {"study homework", "study homework --runs 3 -o out/homework\n"},
     {"study scaling", "study scaling --largest 40\n"},
     {"study stability", "study stability --per-decade 2 -o out/maps\n"},
+    {"schema",
+     "schema\n"
+     "schema -o scene.schema.json\n"},
     {"doctor",
      "doctor\n"
      "doctor --json\n"},

@@ -40,14 +40,12 @@ std::int64_t steps_in(const std::string& option, const std::string& text, double
                                option, text, h, below * h, (below + 1) * h));
 }
 
-void choose_frames(const FilmTimes& times, const Scene& scene, RunOptions& options) {
-  if (!times.any()) return;
-  const FilmExtent whole = whole_extent(scene, options);
+FrameRange frames_at(const FilmTimes& times, const FilmExtent& whole, const std::string& film) {
   const double end = whole.time(whole.frames.last);
   const auto frame_at = [&](const std::string& option, const std::string& text) {
     const double frame = parse_time(option, text) / whole.seconds_per_frame;
     if (frame <= whole.frames.last + 0.5) return frame;
-    throw UsageError(fmt::format("{} {}: the film of {} ends at {:g} s", option, text, shown(scene.file), end));
+    throw UsageError(fmt::format("{} {}: the film of {} ends at {:g} s", option, text, film, end));
   };
   FrameRange range = whole.frames;
   if (!times.at.empty()) {
@@ -62,7 +60,11 @@ void choose_frames(const FilmTimes& times, const Scene& scene, RunOptions& optio
                                  times.from.empty() ? "the start" : "--from " + times.from,
                                  times.to.empty() ? "the end" : "--to " + times.to, whole.seconds_per_frame));
   }
-  options.frames = range;
+  return range;
+}
+
+void choose_frames(const FilmTimes& times, const Scene& scene, RunOptions& options) {
+  if (times.any()) options.frames = frames_at(times, whole_extent(scene, options), shown(scene.file));
 }
 
 void add_film_times(CLI::App& command, FilmTimes& times, CLI::Option* frames) {

@@ -28,6 +28,12 @@ inline bool is_time(const std::string& text) { return text.ends_with('s') && tex
 /// @throws UsageError if it has no whole number of them; it names the two nearest times that have
 std::int64_t steps_in(const std::string& option, const std::string& text, double h);
 
+/// The frames of a film that are meant.
+/// @param whole all of the film's moments
+/// @param film  what messages call it
+/// @throws UsageError if it has no such frames
+FrameRange frames_at(const FilmTimes& times, const FilmExtent& whole, const std::string& film);
+
 /// Sets the frames of a run whose steps are known.
 /// @throws UsageError if the film has no such frames
 void choose_frames(const FilmTimes& times, const Scene& scene, RunOptions& options);

@@ -34,12 +34,23 @@ struct GrowingMotion {
       : from(read_resumption(file)), folder(*from.partial), scene(folder.scene()) {}
 };
 
+/// A quality also says how exactly steps are solved. Those of a recorded motion are solved already.
+void keep_solver(const Scene& scene, Scene& other) {
+  if (other.quality == scene.quality) return;
+  for (SceneValue& value : other.tables) {
+    if (value.key != "integrator.tolerance" && value.key != "integrator.stop") continue;
+    const auto own = std::ranges::find(scene.tables, value.key, &SceneValue::key);
+    if (own != scene.tables.end()) value.text = own->text;
+  }
+}
+
 /// The scene that says how a motion is drawn: its own, unless it is told otherwise.
 Scene scene_to_draw(const std::string& file, const MotionScene& folder, const std::vector<std::string>& overrides,
                     const std::string& look) {
   Scene scene = folder.scene();
   if (!look.empty() || !overrides.empty()) {
     Scene other = look.empty() ? folder.load(overrides) : load_scene(look, overrides);
+    keep_solver(scene, other);
     require_same_physics(file, scene, other, look.empty() ? "--set" : look);
     scene = std::move(other);
   }

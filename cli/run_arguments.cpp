@@ -10,6 +10,7 @@
 #include "cli/line_option.hpp"
 #include "cli/motion_runs.hpp"
 #include "cli/number_option.hpp"
+#include "cli/quality_option.hpp"
 #include "core/error.hpp"
 #include "output/path_template.hpp"
 #include "output/registry.hpp"
@@ -105,6 +106,7 @@ void add_shared_options(CLI::App& command, RunArguments& arguments, const char* 
   const auto one_each = [](CLI::Option* option) { option->allow_extra_args(false); };
   one_each(
       command.add_option("--set", arguments.overrides, "Override a value of the scene: key.path=value; repeatable"));
+  add_quality_option(command, arguments.overrides);
   command.add_option("--steps", arguments.steps, "Simulate this many steps instead of the scene's duration")
       ->check(whole_number_in({0, 1e9}));
   add_film_times(command, arguments.times,

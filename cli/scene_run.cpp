@@ -10,6 +10,7 @@
 
 #include "cli/interruption.hpp"
 #include "cli/motion_runs.hpp"
+#include "cli/open_file.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
 #include "core/shell.hpp"
@@ -92,6 +93,7 @@ ExitCode SceneRun::conclude() const {
   const ExitCode outputs = result_.problems.empty() ? ExitCode::ok : ExitCode::output;
   switch (result_.outcome) {
     case Outcome::completed:
+      if (arguments_.open && !result_.outputs.empty()) open_file(result_.outputs.front().front().path.string());
       return outputs;
     case Outcome::interrupted:
       spdlog::error("interrupted {}",

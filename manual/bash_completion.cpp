@@ -32,6 +32,8 @@ _drape() {
     values="${_drape_options[$command]} ${_drape_options[drape]}"
   elif [[ $previous != -* && ${_drape_commands[$command]} ]]; then
     values=${_drape_commands[$command]}
+  elif [[ $previous == "${command##* }" && ${_drape_words[$command]} ]]; then
+    values=${_drape_words[$command]}
   elif [[ $previous != -o && ${_drape_scenes[$command]} ]]; then
     compopt -o filenames 2>/dev/null
     mapfile -t COMPREPLY < <(compgen -d -- "$current"; compgen -f -X '!*.toml' -- "$current"; compgen -f -X '!*.drape' -- "$current")
@@ -58,9 +60,10 @@ std::string row(const std::string& index, const std::vector<std::string>& words)
 }  // namespace
 
 std::string bash_completion(const CommandText& drape, const std::vector<TableText>& tables) {
-  std::string commands, options, scenes, values, key_values, keys;
+  std::string commands, options, words, scenes, values, key_values, keys;
   each_command(drape, [&](const CommandText& command) {
     if (!command.subcommands.empty()) commands += row(command.name, subcommand_words(command));
+    if (!first_words(command).empty()) words += row(command.name, first_words(command));
     options += row(command.name, option_names(command));
     if (takes_scenes(command)) scenes += row(command.name, {"yes"});
     for (const OptionText& option : command.options) {
@@ -75,8 +78,9 @@ std::string bash_completion(const CommandText& drape, const std::vector<TableTex
     if (!key.values.empty()) key_values += row(path, key.values);
   });
   return "# bash completion of drape, written by drape itself\n" + table("_drape_commands", commands) +
-         table("_drape_options", options) + table("_drape_scenes", scenes) + table("_drape_values", values) +
-         table("_drape_key_values", key_values) + "_drape_keys='" + keys + "'\n" + bash_body;
+         table("_drape_options", options) + table("_drape_words", words) + table("_drape_scenes", scenes) +
+         table("_drape_values", values) + table("_drape_key_values", key_values) + "_drape_keys='" + keys + "'\n" +
+         bash_body;
 }
 
 }  // namespace drape

@@ -21,6 +21,8 @@ OptionText describe_option(const CLI::Option& option) {
   text.positional = option.get_positional();
   if (text.positional) {
     text.names = {option.get_name(true)};
+    if (option.get_type_name().find('|') != std::string::npos)
+      text.choices = words_between(option.get_type_name(), '|');
     return text;
   }
   for (const std::string& name : option.get_snames()) text.names.push_back("-" + name);

@@ -30,6 +30,11 @@ std::vector<std::string> subcommand_words(const CommandText& command) {
   return words;
 }
 
+std::vector<std::string> first_words(const CommandText& command) {
+  const auto first = std::ranges::find_if(command.options, &OptionText::positional);
+  return first == command.options.end() ? std::vector<std::string>() : first->choices;
+}
+
 bool takes_scenes(const CommandText& command) {
   return std::ranges::any_of(command.options,
                              [](const OptionText& o) { return o.positional && o.names.front() == "SCENE"; });

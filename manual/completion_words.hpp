@@ -24,6 +24,9 @@ void each_key(const std::vector<TableText>& tables,
 std::vector<std::string> option_names(const CommandText& command);
 std::vector<std::string> subcommand_words(const CommandText& command);
 
+/// What the first word behind a command may be, where its first positional is one of a few words.
+std::vector<std::string> first_words(const CommandText& command);
+
 /// Whether files of scenes can follow it.
 bool takes_scenes(const CommandText& command);
 

@@ -51,6 +51,9 @@ std::string fish_completion(const CommandText& drape, const std::vector<TableTex
     for (const CommandText& one : command.subcommands) {
       text += fmt::format("{} -a {} -d {}\n", start, one.word(), fish_quoted(brief(one.help)));
     }
+    if (const auto words = first_words(command); !words.empty()) {
+      text += fmt::format("{} -a '{}'\n", start, fmt::join(words, " "));
+    }
     if (takes_scenes(command)) text += start + " -k -a '(__fish_complete_suffix .toml)'\n";
     // What all commands share is written of drape itself, and holds behind any.
     for (const OptionText& option : command.options) {

@@ -55,7 +55,10 @@ std::string zsh_options(const CommandText& command) {
 std::string zsh_function(const CommandText& command) {
   std::string text = fmt::format("\n{}() {{\n", function_name(command));
   if (command.subcommands.empty()) {
-    const char* rest = takes_scenes(command) ? "'*:scene:_files -g \"*.(toml|drape)\"'" : "'*: :_files'";
+    std::string rest = takes_scenes(command) ? "'*:scene:_files -g \"*.(toml|drape)\"'" : "'*: :_files'";
+    if (const auto words = first_words(command); !words.empty()) {
+      rest = fmt::format("'1: :({})' {}", fmt::join(words, " "), rest);
+    }
     return text + "  _arguments -s" + zsh_options(command) + " \\\n    " + rest + "\n}\n";
   }
   text += "  local curcontext=$curcontext state line\n  typeset -A opt_args\n  _arguments -C" + zsh_options(command) +

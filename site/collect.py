@@ -65,7 +65,8 @@ def described(text):
     for line in text.splitlines():
         if not line.startswith("#"):
             break
-        lines.append(line[1:].strip())
+        if not line.startswith("#:"):  # what an editor reads
+            lines.append(line[1:].strip())
     return [" ".join(p.split()) for p in "\n".join(lines).split("\n\n") if p.strip()]
 
 

@@ -94,6 +94,8 @@ TEST(Completion, OffersCommandsOptionsKeysAndValuesInBash) {
   EXPECT_EQ(manual.completed("drape ren"), "render\n");
   EXPECT_EQ(manual.completed("drape study sc"), "scaling\n");
   EXPECT_EQ(manual.completed("drape render --max"), "--max-size\n");
+  EXPECT_EQ(manual.completed("drape new fl"), "flag\n");
+  EXPECT_EQ(manual.completed("drape watch a.toml --quality d"), "draft\n");
   EXPECT_EQ(manual.completed("drape render a.toml --backend os"), "osmesa\n");
   EXPECT_EQ(manual.completed("drape render a.toml --set effects.gravity.acc"), "effects.gravity.acceleration=\n");
   // Where = ends a word, as in every bash that nobody has set up otherwise, only what follows it is put in.
