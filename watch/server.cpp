@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <httplib.h>
+#include <sys/socket.h>
 
 #include <atomic>
 #include <chrono>
@@ -16,7 +17,14 @@ namespace {
 
 constexpr const char* host = "127.0.0.1";
 
-/// What the page asks for again and again.
+/// Lets a port be used again at once after its server has ended, but by one server at a time: the library's own options
+/// let several share it.
+void take_port_alone(int socket) {
+  const int yes = 1;
+  setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+}
+
+/// The session's state as JSON, which the page polls.
 std::string state_text(const WatchSession& session) {
   const WatchedFilm film = session.film();
   const Progress& progress = session.progress();
@@ -70,6 +78,7 @@ WatchServer::WatchServer(const WatchSession& session, int port) : parts_(std::ma
     response.set_header("Cache-Control", "no-store");
     response.set_content(session.film().film, "image/gif");
   });
+  server.set_socket_options(take_port_alone);
   parts_->port = port != 0 && server.bind_to_port(host, port) ? port : port == 0 ? server.bind_to_any_port(host) : -1;
   if (parts_->port < 0) throw OutputError(fmt::format("cannot listen on port {} of {}: it is in use", port, host));
   parts_->thread = std::jthread([this] {
