@@ -110,12 +110,12 @@ class Advice {
     const double step = settings.step, per_frame = scene_.video.speed / scene_.video.fps;
     if (step > per_frame * (1 + 1e-9)) {
       add("time.step", fmt::format("steps are longer than the {:.3g} s between frames, so the film shows straight ways "
-                                   "between them; try {:.2g}",
+                                   "between them; try step = {:.2g}",
                                    per_frame, per_frame));
     }
     if (is_explicit(settings.integrator.method) || settings.accuracy) return;
     const double safe = safe_step(system_);
-    if (!(step > many * safe)) return;
+    if (!(safe > 0) || step <= many * safe) return;  // 0: a field of unknown steepness
     add("time.step",
         fmt::format("{:g} s is {:.0f} times what the springs' vibrations take, so backward Euler damps motion that is "
                     "not theirs as well; try step = {:.1g}, a smaller stiffness, or [integrator] scheme = \"sdirk2\"",

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "compare/differences.hpp"
+#include "overlay/color_scale.hpp"
 #include "overlay/pen.hpp"
+#include "overlay/vertex_coloring.hpp"
 #include "render/renderer.hpp"
-#include "run/color_scale.hpp"
-#include "run/vertex_coloring.hpp"
 #include "scene/scene.hpp"
 
 namespace drape {

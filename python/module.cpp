@@ -28,16 +28,20 @@ void add_functions(py::module_& module) {
   module.def(
       "render",
       [](SceneSimulation& simulation, const std::optional<std::array<int, 2>>& size, const Point& position,
-         const Point& target, const Number& azimuth, const Number& elevation, const Number& field_of_view) {
-        return render(simulation, {size, position, target, azimuth, elevation, field_of_view});
+         const Point& target, const Number& azimuth, const Number& elevation, const Number& field_of_view,
+         const std::optional<std::string>& color_by, const Number& color_limit) {
+        return render(simulation, {size, position, target, azimuth, elevation, field_of_view, color_by, color_limit});
       },
       py::arg("simulation"), py::kw_only(), py::arg("size") = py::none(), py::arg("position") = py::none(),
       py::arg("target") = py::none(), py::arg("azimuth") = py::none(), py::arg("elevation") = py::none(),
-      py::arg("field_of_view") = py::none(),
+      py::arg("field_of_view") = py::none(), py::arg("color_by") = py::none(), py::arg("color_limit") = py::none(),
       "Draws the cloth as it is now: height×width×3 bytes, sRGB.\n\n"
       "What is not given is as the scene has it: size [pixels], position and target [m], azimuth, elevation and\n"
-      "field_of_view [degrees]. A camera without a position stands where all of this moment is in view. Captions and\n"
-      "colours by stretch or speed belong to films, and are not drawn.");
+      "field_of_view [degrees]. A camera without a position stands where all of this moment is in view. color_by "
+      "colours\n"
+      "the cloth by \"stretch\" (0.1: 10 %), \"speed\" [m/s] or \"curvature\" [1/m], from 0 to color_limit, by default "
+      "what\n"
+      "95 % of the vertices stay below. Captions belong to films, and are not drawn.");
   module.def("instruction_set", &instruction_set, "The instruction set that the hot loops use: \"avx2\".");
   module.def("instruction_sets", &instruction_sets, "Those they are compiled for, slowest first.");
   module.def("limit_instruction_set", &limit_instruction_set, py::arg("name"),

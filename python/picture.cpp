@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/nearest.hpp"
+#include "overlay/vertex_coloring.hpp"
 #include "python/lock.hpp"
 #include "python/simulation.hpp"
 #include "render/renderer.hpp"
@@ -24,6 +29,24 @@ View view_of(Camera camera, const PictureWishes& wishes, const Frame& frame, dou
   return framing.view();
 }
 
+/// How the vertices are coloured; nothing where no colours are wished for.
+std::optional<VertexColoring> coloring_of(const PictureWishes& wishes, const Cloth& cloth) {
+  if (!wishes.color_by) {
+    if (wishes.color_limit) throw UsageError("color_limit: it has no effect without color_by");
+    return std::nullopt;
+  }
+  const std::vector<std::string> names{"stretch", "speed", "curvature"};  // in the order of ColorBy
+  const auto found = std::ranges::find(names, *wishes.color_by);
+  if (found == names.end()) {
+    throw UsageError("color_by: unknown '" + *wishes.color_by + "'" +
+                     did_you_mean(*wishes.color_by, names, "the choices are"));
+  }
+  if (wishes.color_limit && !(*wishes.color_limit > 0 && std::isfinite(*wishes.color_limit))) {
+    throw UsageError("color_limit: expected a number above 0");
+  }
+  return VertexColoring(static_cast<ColorBy>(found - names.begin()), wishes.color_limit, cloth);
+}
+
 Image draw(const Scene& scene, const PictureWishes& wishes, const Frame& frame) {
   Eigen::Vector2i size = scene.video.size;
   if (wishes.size) size = {(*wishes.size)[0], (*wishes.size)[1]};
@@ -31,8 +54,13 @@ Image draw(const Scene& scene, const PictureWishes& wishes, const Frame& frame) 
   if (size.minCoeff() < 1 || size.maxCoeff() > most) throw UsageError("size: expected from 1 to 16384 pixels");
   const View view = view_of(scene.camera, wishes, frame, static_cast<double>(size[0]) / size[1]);
   const Cloth& cloth = scene.simulation.cloth;
-  Renderer renderer(data_folder(), size, view, scene.look, cloth.vertex_count(), cloth.triangles, scene.uvs);
-  return renderer.draw(frame);
+  std::optional<VertexColoring> coloring = coloring_of(wishes, cloth);
+  Look look = scene.look;
+  if (coloring) look.texture.clear();
+  Renderer renderer(data_folder(), size, view, look, cloth.vertex_count(), cloth.triangles, scene.uvs);
+  if (!coloring) return renderer.draw(frame);
+  coloring->survey(frame);
+  return renderer.draw(frame, coloring->colors(frame));
 }
 
 }  // namespace
@@ -40,7 +68,8 @@ Image draw(const Scene& scene, const PictureWishes& wishes, const Frame& frame) 
 py::array render(SceneSimulation& simulation, const PictureWishes& wishes) {
   simulation.require_made();
   const Frame frame = simulation.with([](const Simulation& s) {
-    return Frame{.time = s.time(), .positions = s.state().x, .colliders = s.colliders(s.time())};
+    return Frame{
+        .time = s.time(), .positions = s.state().x, .colliders = s.colliders(s.time()), .velocities = s.state().v};
   });
   constexpr double furthest = 1e90;  // as of a scene's meshes [m]
   if (!frame.positions.allFinite() || frame.positions.cwiseAbs().maxCoeff() > furthest) {

@@ -103,6 +103,8 @@ struct PictureWishes {
   std::optional<std::array<int, 2>> size;                   ///< [pixels]
   std::optional<std::array<double, 3>> position, target;    ///< [m]
   std::optional<double> azimuth, elevation, field_of_view;  ///< [degrees]
+  std::optional<std::string> color_by;                      ///< stretch, speed or curvature
+  std::optional<double> color_limit;                        ///< of the last colour, in the unit of color_by
 };
 
 /// Draws the cloth as it is now: height×width×3 bytes.

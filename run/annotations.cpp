@@ -93,7 +93,7 @@ Look Annotations::look(const Scene& scene) {
 
 FrameContents Annotations::contents() const {
   if (scene_.overlay.energies || needs_motion_facts(scene_.caption.filled)) return FrameContents::motion;
-  return coloring_ ? coloring_->measure().contents() : FrameContents::places;
+  return coloring_ && coloring_->measure().needs_velocities() ? FrameContents::motion : FrameContents::places;
 }
 
 bool Annotations::needs_motion() const {

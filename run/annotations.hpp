@@ -6,7 +6,8 @@
 
 #include "overlay/curve_band.hpp"
 #include "overlay/pen.hpp"
-#include "run/vertex_coloring.hpp"
+#include "overlay/vertex_coloring.hpp"
+#include "run/frame_sampler.hpp"
 #include "scene/scene.hpp"
 
 namespace drape {

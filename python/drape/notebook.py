@@ -68,9 +68,11 @@ def film(simulation, seconds=None, *, fps=25.0, speed=1.0, **camera):
     """Steps the simulation on and films it: a Film, which a notebook plays.
 
     seconds are those of the scene, by default up to its end; speed is seconds of the scene per second of the film.
-    camera is what render() takes: size, position, target, azimuth, elevation, field_of_view. A frame shows the step
-    that is nearest to its time.
+    camera is what render() takes: size, position, target, azimuth, elevation, field_of_view, color_by, color_limit. With
+    color_by it needs color_limit, so that all frames have one scale. A frame shows the step that is nearest to its time.
     """
+    if camera.get("color_by") is not None and camera.get("color_limit") is None:
+        raise UsageError("film: color_by needs color_limit, so that all frames have one scale")
     if not (fps > 0 and speed > 0):
         raise UsageError("film: fps and speed must be above 0")
     if seconds is None:

@@ -55,6 +55,28 @@ def test_a_film_has_its_frames(small, tmp_path):
     assert [kind for kind, _ in chunks(rest)].count(b"fcTL") == 6
 
 
+def test_the_cloth_is_coloured_by_what_it_does(small):
+    simulation = drape.Simulation(small)
+    still = drape.render(simulation, color_by="speed", color_limit=2)
+    simulation.step(10)
+    moving = drape.render(simulation, color_by="speed", color_limit=2)
+    covered = (still != moving).any(axis=2)
+    red, green, blue = still[covered].astype(int).mean(axis=0)
+    assert blue > green and red > green  # violet, where the scale begins, however it is lit
+    film = drape.film(simulation, 0.1, color_by="stretch", color_limit=0.1)
+    assert film.startswith(b"\x89PNG")
+    for wrong, said in [
+        ({"color_by": "sped"}, "did you mean 'speed'"),
+        ({"color_by": "speed", "color_limit": 0}, "above 0"),
+        ({"color_by": "speed", "color_limit": float("nan")}, "above 0"),
+        ({"color_limit": 1}, "no effect without color_by"),
+    ]:
+        with pytest.raises(drape.UsageError, match=said):
+            drape.render(simulation, **wrong)
+    with pytest.raises(drape.UsageError, match="color_limit"):
+        drape.film(simulation, 0.1, color_by="speed")
+
+
 @pytest.mark.parametrize("wrong", [{"fps": 0}, {"speed": -1}, {"seconds": -1}, {"seconds": float("nan")}])
 def test_a_film_that_cannot_be_is_refused(small, wrong):
     with pytest.raises(drape.UsageError):

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "overlay/color_scale.hpp"
 #include "render/settings.hpp"
-#include "run/color_scale.hpp"
-#include "run/frame_sampler.hpp"
 #include "sim/cloth.hpp"
+#include "sim/frame.hpp"
 #include "sim/vertex_curvature.hpp"
 #include "sim/vertex_stretch.hpp"
 
@@ -19,8 +19,8 @@ class VertexMeasure {
  public:
   VertexMeasure(ColorBy what, const Cloth& cloth);
 
-  /// What the frames must hold.
-  [[nodiscard]] FrameContents contents() const;
+  /// Whether the frames must have velocities.
+  [[nodiscard]] bool needs_velocities() const { return what_ == ColorBy::speed; }
   /// Of each vertex: by how much it is stretched (0: not at all), its speed [m/s], its curvature [1/m].
   [[nodiscard]] Eigen::VectorXd operator()(const Frame& frame) const;
   /// With the unit: "speed [m/s]".

@@ -1,4 +1,4 @@
-#include "run/color_scale.hpp"
+#include "overlay/color_scale.hpp"
 
 #include <algorithm>
 

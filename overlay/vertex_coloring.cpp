@@ -1,13 +1,9 @@
-#include "run/vertex_coloring.hpp"
+#include "overlay/vertex_coloring.hpp"
 
 namespace drape {
 
 VertexMeasure::VertexMeasure(ColorBy what, const Cloth& cloth)
     : what_(what), stretch_(cloth.rest, cloth.triangles), curvature_(cloth.vertex_count(), cloth.triangles) {}
-
-FrameContents VertexMeasure::contents() const {
-  return what_ == ColorBy::speed ? FrameContents::motion : FrameContents::places;
-}
 
 Eigen::VectorXd VertexMeasure::operator()(const Frame& frame) const {
   if (what_ == ColorBy::stretch) return stretch_(frame.positions).array() - 1;
