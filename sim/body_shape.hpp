@@ -2,7 +2,7 @@
 
 // Example:
 //   drape::BodyShape pillar{.kind = drape::BodyShape::Kind::cylinder, .radius = 0.2, .height = 1.5};
-//   drape::Body body{.shape = pillar, .center = Eigen::Vector3d(0, 0, 0.75)};
+//   drape::Body body{.center = Eigen::Vector3d(0, 0, 0.75), .shape = pillar};
 
 #include <optional>
 #include <string>
