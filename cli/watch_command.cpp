@@ -46,7 +46,7 @@ ExitCode watch(const WatchArguments& arguments, const CommonOptions& common) {
     spdlog::info("shows {} in a browser, and draws it anew when it is saved; Ctrl-C ends this", shown(arguments.scene));
   if (!arguments.hidden) open_file(server.address());
   session.run(stop);
-  return ExitCode::ok;
+  return ExitCode::interrupted;
 }
 
 }  // namespace
