@@ -52,8 +52,7 @@ ExitCode accept(const AcceptArguments& arguments, const CommonOptions& common) {
 
 void add_accept_command(CLI::App& app, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<AcceptArguments>();
-  CLI::App* sub =
-      app.add_subcommand("accept", "Turn what a failed check found into the golden, without computing it again");
+  CLI::App* sub = app.add_subcommand("accept", "Make what a failed check found the golden, without a new run");
   sub->add_option("REPORT", arguments->report, "Report folder of the check")->required();
   sub->add_option("SCENE", arguments->scenes, "Only these scenes: names in the report, or scene files");
   sub->add_option("--frames", arguments->frames,

@@ -48,7 +48,7 @@ ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
 
 void add_bless_command(CLI::App& app, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<BlessArguments>();
-  CLI::App* sub = app.add_subcommand("bless", "Record the golden frames and motion that drape check compares against");
+  CLI::App* sub = app.add_subcommand("bless", "Record the golden frames and motion that drape check compares to");
   sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
   sub->add_option("--frames", arguments->frames, "Frames of the film to compare: A,B,C; see [check] in the scene");
   add_backend_option(*sub, arguments->backend);

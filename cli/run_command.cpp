@@ -215,8 +215,7 @@ ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
 void add_run_commands(CLI::App& app, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<RunArguments>();
 
-  CLI::App* render =
-      app.add_subcommand("render", "Simulate scenes and render them into films, or render recorded motions");
+  CLI::App* render = app.add_subcommand("render", "Simulate scenes and render films, or render recorded motions");
   add_outputs(*render, *arguments, "repeatable; default out/{scene}.gif", true);
   render->add_option("--sheet", arguments->sheet, sheet_help);
   add_backend_option(*render, arguments->backend);

@@ -65,8 +65,7 @@ ExitCode conclude_study(const StudyReport& report, const std::filesystem::path& 
 }
 
 void add_study_command(CLI::App& app, const CommonOptions& common, Command& command) {
-  CLI::App* study =
-      app.add_subcommand("study", "Measure accuracy, cost and stability; writes tables, diagrams and a page");
+  CLI::App* study = app.add_subcommand("study", "Measure accuracy, cost and stability, with diagrams and a page");
   study->require_subcommand(1);
   add_homework_study(*study, common, command);
   add_accuracy_study(*study, common, command);

@@ -79,7 +79,7 @@ TEST(Terminal, SaysWhatThereIsWhereNothingIsAskedFor) {
   const test::SceneFolder folder;
   const Finished finished = drape(folder, "", "COLUMNS=80");
   EXPECT_EQ(finished.code, 2);
-  EXPECT_NE(finished.text.find("\n\nUsage: drape COMMAND ...\n\n  render    Simulate "), std::string::npos)
+  EXPECT_NE(finished.text.find("\n\nUsage: drape COMMAND ...\n\n  new       Write "), std::string::npos)
       << finished.text;
   EXPECT_NE(finished.text.find("drape help COMMAND\n"), std::string::npos) << finished.text;
   EXPECT_LE(longest_line(finished.text), 80U) << finished.text;
