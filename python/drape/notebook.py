@@ -149,6 +149,8 @@ class Motion:
 
 def load(file):
     """Reads a motion that drape simulate has recorded, motion.drape: a Motion with every step."""
+    if Path(file).suffix != ".drape":
+        raise UsageError(f"{file}: expected a motion, such as motion.drape")
     with tempfile.TemporaryDirectory() as folder:
         arrays = Path(folder) / "motion.npz"
         _run(["render", file, "-o", arrays, "--every", 1])

@@ -101,6 +101,8 @@ def test_a_recorded_motion_is_that_of_a_simulation(tmp_path, monkeypatch, progra
     assert (motion.triangles == simulation.triangles).all()
     with pytest.raises(drape.UsageError, match="none.drape"):
         drape.load("none.drape")
+    with pytest.raises(drape.UsageError, match="expected a motion"):
+        drape.load("m.toml")
 
 
 def test_a_check_is_true_until_the_scene_changes(tmp_path, monkeypatch):
