@@ -16,9 +16,8 @@ namespace drape {
 /// (their energy is ½·2c·ε²), the rigidity the mean of the directions at the least curvature measured, D = (B₀ + 2·B₄₅
 /// + B₉₀)/4.
 ///
-/// The everyday ones are estimates, round figures of the right order: no sample was measured. Paper follows from its
-/// thickness t = 0.11 mm and Young's modulus E = 2.9 GPa (printing paper, Scientific Reports 4, 6275, 2014, table 2):
-/// E·t, and E·t³/12/(1 − 0.3²). The others are plain weaves that stretch by 1 to 4 % at 98 N/m.
+/// The everyday ones are estimates: no sample was measured. Canvas, cotton, silk and wool stretch by 1, 2, 3 and 4 % at
+/// 98 N/m. Paper follows from its thickness and Young's modulus. docs/scene-format.md has the sources of each.
 struct Fabric {
   std::string_view name;    ///< as scenes write it
   std::string_view sample;  ///< what the paper calls it
