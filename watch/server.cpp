@@ -16,6 +16,8 @@ namespace drape {
 namespace {
 
 constexpr const char* host = "127.0.0.1";
+constexpr int workers = 32;  // more than the connections that a few browsers open and leave silent
+constexpr int patience = 1;  // for a request that has begun or not [s]
 
 /// Lets a port be used again at once after its server has ended, but by one server at a time: the library's own options
 /// let several share it.
@@ -79,6 +81,9 @@ WatchServer::WatchServer(const WatchSession& session, int port) : parts_(std::ma
     response.set_content(session.film().film, "image/gif");
   });
   server.set_socket_options(take_port_alone);
+  server.new_task_queue = [] { return new httplib::ThreadPool(workers); };  // it deletes that
+  server.set_keep_alive_max_count(1);
+  server.set_read_timeout(patience);
   parts_->port = port != 0 && server.bind_to_port(host, port) ? port : port == 0 ? server.bind_to_any_port(host) : -1;
   if (parts_->port < 0) throw OutputError(fmt::format("cannot listen on port {} of {}: it is in use", port, host));
   parts_->thread = std::jthread([this] {

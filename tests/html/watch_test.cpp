@@ -1,4 +1,7 @@
+#include <arpa/inet.h>
 #include <httplib.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <stop_token>
@@ -110,6 +113,32 @@ TEST(WatchServer, AnswersNobodyWhoNamesAnotherPlace) {
   EXPECT_EQ(client.Get("/state", {{"Host", "example.org"}})->status, 403);
   const int port = std::stoi(address.substr(address.rfind(':') + 1));
   EXPECT_THROW(WatchServer(session, port), OutputError);
+}
+
+/// Opens a connection that says nothing.
+int connect_silently(int port) {
+  const int connection = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_port = htons(static_cast<std::uint16_t>(port));
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  EXPECT_EQ(connect(connection, reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
+  return connection;
+}
+
+// Browsers open connections ahead of time, and keep them.
+TEST(WatchServer, AnswersBesideConnectionsThatSayNothing) {
+  const WatchSession session("none.toml", {}, GlBackend::automatic, {});
+  const WatchServer server(session, 0);
+  const std::string address = server.address();
+  const int port = std::stoi(address.substr(address.rfind(':') + 1));
+  std::vector<int> silent;
+  for (int i = 0; i < 24; ++i) silent.push_back(connect_silently(port));
+  httplib::Client client(address.substr(0, address.size() - 1));
+  const httplib::Result state = client.Get("/state");
+  ASSERT_TRUE(state) << "no answer in the client's five seconds";
+  EXPECT_EQ(state->status, 200);
+  for (const int connection : silent) close(connection);
 }
 
 }  // namespace
