@@ -83,6 +83,7 @@ WatchServer::WatchServer(const WatchSession& session, int port) : parts_(std::ma
   server.set_socket_options(take_port_alone);
   server.new_task_queue = [] { return new httplib::ThreadPool(workers); };  // it deletes that
   server.set_keep_alive_max_count(1);
+  server.set_keep_alive_timeout(patience);
   server.set_read_timeout(patience);
   parts_->port = port != 0 && server.bind_to_port(host, port) ? port : port == 0 ? server.bind_to_any_port(host) : -1;
   if (parts_->port < 0) throw OutputError(fmt::format("cannot listen on port {} of {}: it is in use", port, host));
