@@ -183,7 +183,10 @@ Json mesh_schema() {
   const Json cells = tuple({{"type", "integer"}, {"minimum", 1}}, 2), text = of_type("string");
   const Json up{{"enum", {"y", "z"}}};
   std::vector<Json> forms{text, closed({{"file", text}, {"prim", text}, {"up", up}}, {"file"}),
-                          closed({{"grid", text_and("Columns and rows of cells.", cells)}}, {"grid"})};
+                          closed({{"grid", text_and("Columns and rows of cells.", cells)},
+                                  {"pattern", {{"enum", {"diagonal", "alternating", "x", "equilateral"}}}},
+                                  {"size", tuple({{"type", "number"}, {"exclusiveMinimum", 0}}, 2)}},
+                                 {"grid"})};
   for (std::size_t i = 0; i < mesh_shape_names().size(); ++i) {
     SheetShape shape{.kind = static_cast<SheetShape::Kind>(i)};
     forms.push_back(closed({{mesh_shape_names()[i], table_of(mesh_shape_keys(shape))}}, {mesh_shape_names()[i]}));

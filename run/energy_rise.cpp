@@ -22,16 +22,14 @@ void EnergyRise::replay(const StepRow& row, double, double) {
 }
 
 void EnergyRise::start(const Energies& now) {
-  initial_ = available_ = now.kinetic + now.elastic;
-  highest_ = now.gravity;
-  lowest_ = now.total();
+  first_ = now;
+  available_ = now.kinetic + now.elastic;
   rise_ = 0;
 }
 
 void EnergyRise::note(const Energies& now) {
-  available_ = std::max(available_, initial_ + highest_ - now.gravity);
-  rise_ = std::max(rise_, now.total() - lowest_);
-  lowest_ = std::min(lowest_, now.total());
+  available_ = std::max(available_, first_.kinetic + first_.elastic + first_.gravity - now.gravity);
+  rise_ = std::max(rise_, now.total() - first_.total());
 }
 
 std::optional<EnergyRise::Rise> EnergyRise::rise() const {

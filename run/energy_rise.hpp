@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "run/step_observer.hpp"
+#include "sim/energies.hpp"
 
 namespace drape {
 
@@ -15,8 +16,9 @@ class EnergyRise final : public StepObserver {
   /// A step that was done before, see StepObserver.
   void replay(const StepRow& row, double time, double seconds) override;
 
-  /// How far it rose at most above the lowest value before [J], and what part that is of all that the cloth ever had:
-  /// its kinetic and elastic energy at the start, and its weight times how far its centre of mass fell.
+  /// How far it rose at most above that of the start [J], and what part that is of all that the cloth ever had: its
+  /// kinetic and elastic energy at the start, and its weight times how far its centre of mass fell. What the push of an
+  /// obstacle stores is in neither, so that it is too little rather than too much.
   struct Rise {
     double energy, of_available;
     /// Whether it is more than the tolerance of a step explains.
@@ -30,8 +32,8 @@ class EnergyRise final : public StepObserver {
   void note(const Energies& now);
 
   bool watches_ = false;
-  double initial_ = 0, highest_ = 0;              // kinetic and elastic energy, and potential at its highest [J]
-  double available_ = 0, lowest_ = 0, rise_ = 0;  // [J]
+  Energies first_;
+  double available_ = 0, rise_ = 0;  // [J]
 };
 
 }  // namespace drape

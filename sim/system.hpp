@@ -23,6 +23,8 @@ struct Force {
   [[nodiscard]] virtual bool constant() const { return false; }
   /// Whether it depends on the velocities.
   [[nodiscard]] virtual bool of_velocity() const { return false; }
+  /// Whether it pushes what touches something away from it, see ColliderMotion.
+  [[nodiscard]] virtual bool of_contact() const { return false; }
   /// Adds the force on every vertex [N] at the given time [s].
   virtual void add(const State& state, double time, Vertices& force) const = 0;
   /// By how much the acceleration of a vertex changes at most with its place, as if it hung on a spring of this

@@ -52,6 +52,7 @@ struct PenaltyForce final : Force {
       : surface(std::move(s)), stiffness(k), masses(m), start(std::move(begin)), threads(by) {}
 
   [[nodiscard]] double stiffness_bound() const override { return stiffness; }
+  [[nodiscard]] bool of_contact() const override { return true; }
 
   void add(const State& state, double time, Vertices& force) const override {
     const auto now = surface.at(time);
