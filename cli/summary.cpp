@@ -104,8 +104,10 @@ std::vector<std::string> doubts(const RunResult& result) {
   }
   if (const auto rise = result.statistics.energy_rise(); rise && rise->notable()) {
     found.push_back(fmt::format(
-        "the cloth's energy rose by {:.2g} J with nothing that gives any, {:.2g} times all that it ever had: "
-        "solve contact with the cloth, response = \"solved\", or use method = \"verlet\" with [time] accuracy",
+        "the cloth's energy rose by {:.2g} J with nothing that gives any, {:.2g} times all that it ever had, because "
+        "contact and limits are laid over the steps: solve contact with the cloth, response = \"solved\", or use "
+        "method = "
+        "\"verlet\" with [time] accuracy",
         rise->energy, rise->of_available));
   }
   return found;

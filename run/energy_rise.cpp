@@ -6,7 +6,7 @@ namespace drape {
 
 void EnergyRise::begin(const Simulation& simulation) {
   watches_ = simulation.only_loses_energy();
-  if (watches_) start(simulation.energies());
+  if (watches_ && !first_) note(simulation.energies());
 }
 
 void EnergyRise::after_step(const Simulation& simulation, const StepReport&, double) {
@@ -14,22 +14,14 @@ void EnergyRise::after_step(const Simulation& simulation, const StepReport&, dou
 }
 
 void EnergyRise::replay(const StepRow& row, double, double) {
-  if (row.step == 0) {
-    start(row.energies);
-  } else {
-    note(row.energies);
-  }
-}
-
-void EnergyRise::start(const Energies& now) {
-  first_ = now;
-  available_ = now.kinetic + now.elastic;
-  rise_ = 0;
+  if (row.step == 0) first_ = row.energies;
+  note(row.energies);
 }
 
 void EnergyRise::note(const Energies& now) {
-  available_ = std::max(available_, first_.kinetic + first_.elastic + first_.gravity - now.gravity);
-  rise_ = std::max(rise_, now.total() - first_.total());
+  if (!first_) first_ = now;
+  available_ = std::max(available_, first_->total() - now.gravity);
+  rise_ = std::max(rise_, now.total() - first_->total());
 }
 
 std::optional<EnergyRise::Rise> EnergyRise::rise() const {

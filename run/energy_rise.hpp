@@ -28,11 +28,10 @@ class EnergyRise final : public StepObserver {
   [[nodiscard]] std::optional<Rise> rise() const;
 
  private:
-  void start(const Energies& now);
   void note(const Energies& now);
 
   bool watches_ = false;
-  Energies first_;
+  std::optional<Energies> first_;    // at the start
   double available_ = 0, rise_ = 0;  // [J]
 };
 

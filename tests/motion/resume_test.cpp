@@ -106,6 +106,9 @@ TEST_P(Resumed, RunsHaveRecordsOfTheWholeMotion) {
     EXPECT_EQ(errors->mean, expected->mean);
     EXPECT_EQ(errors->largest, expected->largest);
   }
+  const auto rise = parts.statistics.energy_rise(), whole_rise = whole.statistics.energy_rise();
+  ASSERT_EQ(rise.has_value(), whole_rise.has_value());
+  if (rise) EXPECT_EQ(rise->of_available, whole_rise->of_available);
 }
 
 /// What watches over the energy goes on with what it knew: it names the same step.

@@ -1,0 +1,95 @@
+// A run says how much energy its cloth got out of nothing: stiff cloth on a ground that is laid over the steps gets
+// some.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "run/run_steps.hpp"
+#include "run/statistics.hpp"
+#include "sim/effects/ground.hpp"
+#include "sim/effects/wind.hpp"
+#include "tests/support/setups.hpp"
+
+namespace drape::test {
+namespace {
+
+constexpr int steps = 100;
+
+/// A tilted sheet that falls on a ground.
+SimulationSettings falling_sheet(double stiffness, const Ground& ground) {
+  Mesh sheet = make_grid(12, 12);
+  sheet.positions *= 0.5;
+  const Cloth flat = cloth_of(sheet, 0.22, stiffness, {});
+  SimulationSettings settings;
+  settings.cloth = flat;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.0, Eigen::Vector3d(3, 1, 0).normalized()).toRotationMatrix();
+  settings.cloth.positions = (flat.positions * turn.transpose()).rowwise() + Eigen::RowVector3d(0, 0, 0.6);
+  settings.step = 0.01;
+  settings.integrator.method = Method::quasi_newton;
+  settings.effects = {Gravity{}, ground};
+  return settings;
+}
+
+struct Outcome {
+  Statistics statistics;
+  double highest = 0, first = 0;  // total energy [J]
+};
+
+Outcome run(const SimulationSettings& settings) {
+  Outcome outcome;
+  Simulation simulation(settings);
+  outcome.first = outcome.highest = simulation.energies().total();
+  const std::array<StepObserver*, 1> observers{&outcome.statistics};
+  for (int step = 1; step <= steps; ++step) {
+    run_steps(simulation, step, observers, {});
+    outcome.highest = std::max(outcome.highest, simulation.energies().total());
+  }
+  outcome.statistics.finish(simulation);
+  return outcome;
+}
+
+TEST(EnergyRise, IsWhatTheClothHasMoreThanAtTheStart) {
+  const Outcome outcome = run(falling_sheet(18000, {.height = 0}));
+  const auto rise = outcome.statistics.energy_rise();
+  ASSERT_TRUE(rise);
+  EXPECT_EQ(rise->energy, outcome.highest - outcome.first);
+  EXPECT_GT(rise->energy, 0.22 * 9.8 * 1);  // more than a fall of a metre can give
+  EXPECT_TRUE(rise->notable());
+  const auto json = nlohmann::json::parse(outcome.statistics.to_json("completed"));
+  EXPECT_EQ(json["energy_rise"]["energy"], rise->energy);
+  EXPECT_EQ(json["energy_rise"]["of_available"], rise->of_available);
+}
+
+TEST(EnergyRise, IsNoneWhereContactIsSolvedOrTheCloththSoft) {
+  for (const SimulationSettings& settings :
+       {falling_sheet(18000, {.height = 0, .response = Response::solved}), falling_sheet(18, {.height = 0})}) {
+    const auto rise = run(settings).statistics.energy_rise();
+    ASSERT_TRUE(rise);
+    EXPECT_FALSE(rise->notable()) << rise->energy << " J, " << rise->of_available;
+  }
+}
+
+TEST(EnergyRise, IsNotAskedForWhereSomethingGivesEnergyOrNothingTouches) {
+  const Ground ground{.height = 0};
+  SimulationSettings blown = falling_sheet(18, ground), pushed = blown, alone = blown, explicit_method = blown;
+  blown.effects.add(Wind{.acceleration = Eigen::Vector3d(1, 0, 0)});
+  Sphere thrown = homework_sphere();
+  thrown.velocity = Eigen::Vector3d(1, 0, 0);
+  pushed.effects.add(thrown);
+  alone.effects = {Gravity{}};
+  explicit_method.integrator.method = Method::verlet;
+  explicit_method.step = 1e-3;
+  for (const SimulationSettings* settings : {&blown, &pushed, &alone, &explicit_method}) {
+    Simulation simulation(*settings);
+    EXPECT_FALSE(simulation.only_loses_energy());
+    Statistics statistics;
+    run_steps(simulation, 2, std::array<StepObserver*, 1>{&statistics}, {});
+    EXPECT_FALSE(statistics.energy_rise());
+    EXPECT_TRUE(nlohmann::json::parse(statistics.to_json("completed"))["energy_rise"].is_null());
+  }
+}
+
+}  // namespace
+}  // namespace drape::test
