@@ -13,6 +13,7 @@
 #include "motion/scene_folder.hpp"
 #include "output/registry.hpp"
 #include "run/motion_frames.hpp"
+#include "scene/quality.hpp"
 
 namespace drape {
 namespace {
@@ -49,7 +50,7 @@ Scene scene_to_draw(const std::string& file, const MotionScene& folder, const st
                     const std::string& look) {
   Scene scene = folder.scene();
   if (!look.empty() || !overrides.empty()) {
-    Scene other = look.empty() ? folder.load(overrides) : load_scene(look, overrides);
+    Scene other = look.empty() ? folder.load(overrides) : load_scene(look, overrides, cells_of(scene));
     keep_solver(scene, other);
     require_same_physics(file, scene, other, look.empty() ? "--set" : look);
     scene = std::move(other);

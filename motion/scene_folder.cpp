@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "scene/physics.hpp"
+#include "scene/quality.hpp"
 
 namespace drape {
 namespace fs = std::filesystem;
@@ -57,7 +58,9 @@ MotionScene::MotionScene(const MotionReader& motion) : folder_("drape-scene") {
   }
 }
 
-Scene MotionScene::load(const std::vector<std::string>& overrides) const { return load_scene(file_, overrides); }
+Scene MotionScene::load(const std::vector<std::string>& overrides) const {
+  return load_scene(file_, overrides, cells_of(scene_));
+}
 
 void require_same_physics(const std::string& motion, const Scene& scene, const Scene& other, const std::string& name) {
   const std::string difference = physics_difference(physics_values(scene), physics_values(other), name);

@@ -174,16 +174,19 @@ class Checks {
 
 std::int64_t Scene::step_count() const { return static_cast<std::int64_t>(std::llround(duration / simulation.step)); }
 
-Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  Scene scene = make_scene(read_document(file), file, overrides);
+Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides, Cells cells) {
+  Scene scene = make_scene(read_document(file), file, overrides, cells);
   scene.inputs.push_back(file);
   return scene;
 }
 
-Scene make_scene(TomlValue document, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+Scene make_scene(TomlValue document, const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                 Cells cells) {
   std::erase_if(document.as<TomlTable>()->entries, [](const TomlEntry& entry) { return entry.name == "sweep"; });
   Problems problems(file, overrides);
   apply_overrides(document, overrides, problems);
+  const bool draft = cells == Cells::of_quality ? says_draft(document) : cells == Cells::of_draft;
+  if (draft) coarsen_grid(document);
 
   Scene scene;
   scene.file = file;

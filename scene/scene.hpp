@@ -62,18 +62,27 @@ struct Scene {
   [[nodiscard]] std::int64_t step_count() const;
 };
 
+/// How many cells a scene's grid has.
+enum class Cells {
+  of_quality,  ///< as written, or as a draft has them, see coarsen_grid()
+  as_written,
+  of_draft  ///< whatever the quality is
+};
+
 /// Reads a scene file.
 /// @param overrides "key.path=value", applied in order as if the file said so, and checked like it; the value is any
 ///                  TOML value, or a bare word, which is a string
 /// @throws UsageError whose message lists every problem of the file and the overrides, a line each:
 ///         "file:line:col: message", or "--set key.path=value: message"
-Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                 Cells cells = Cells::of_quality);
 
 /// Makes a scene of what a file would say.
 /// @param document a table, whose places messages name; of line 0: the scene was made by a program, and has none
 /// @param file     what messages call it; the files that it names are looked for in its folder
 /// @throws UsageError as load_scene()
-Scene make_scene(TomlValue document, const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+Scene make_scene(TomlValue document, const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                 Cells cells = Cells::of_quality);
 
 /// The data folder that holds textures/, shaders/ and scenes/: the one that use_data_folder() has named, else what was
 /// installed with the program or the library (share/drape), else the source tree it was built from.

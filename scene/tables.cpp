@@ -160,7 +160,8 @@ Keys look_keys(Look& look, std::optional<Quality>& quality) {
   keys.add("samples", &look.samples, "", "Antialiasing samples per pixel: 1 (off), 2 or 4.").at_least(1).at_most(4);
   keys.choice("quality", quality, {"draft", "film", "print"},
               "Everything that trades time for detail, relative to what the scene says: draft halves the film's size "
-              "and rate and solves coarsely, film changes nothing, print doubles the size and filters textures, see "
+              "and rate, and a grid's cells along both sides, and solves coarsely, film changes nothing, print doubles "
+              "the size and filters textures, see "
               "[usage.md](usage.md#quality).");
   return keys;
 }

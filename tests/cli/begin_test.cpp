@@ -143,6 +143,21 @@ TEST(Quality, DrawsARecordedMotionToo) {
   EXPECT_EQ(test::read_picture(folder.path("a.png")).size(), cv::Size(32, 24));
 }
 
+TEST(Quality, DrawsTheMotionOfADraftInAnyQualityAndThatOfAFilmInADraft) {
+  const SceneFolder folder;
+  std::string fine = film;
+  fine.replace(fine.find("grid = ["), fine.find(']') + 1 - fine.find("grid = ["), "grid = [30, 20]");
+  folder.write("a.toml", fine);
+  ASSERT_EQ(drape(folder, "simulate a.toml --set look.quality=draft -o draft.drape").code, 0);
+  ASSERT_EQ(drape(folder, "simulate a.toml -o film.drape").code, 0);
+  for (const std::string motion : {"draft", "film"}) {
+    for (const std::string quality : {"draft", "film", "print"}) {
+      const Finished finished = drape(folder, "render " + motion + ".drape --quality " + quality + " -o a.png");
+      EXPECT_EQ(finished.code, 0) << motion << ' ' << quality << ' ' << finished.text;
+    }
+  }
+}
+
 TEST(Open, ShowsTheFirstFilmInTheDesktopsProgram) {
   const SceneFolder folder;
   folder.write("a.toml", film);

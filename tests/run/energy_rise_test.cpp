@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -32,13 +33,13 @@ SimulationSettings falling_sheet(double stiffness, const Ground& ground) {
   return settings;
 }
 
-struct Outcome {
+struct WatchedRun {
   Statistics statistics;
   double highest = 0, first = 0;  // total energy [J]
 };
 
-Outcome run(const SimulationSettings& settings) {
-  Outcome outcome;
+WatchedRun watch(const SimulationSettings& settings) {
+  WatchedRun outcome;
   Simulation simulation(settings);
   outcome.first = outcome.highest = simulation.energies().total();
   const std::array<StepObserver*, 1> observers{&outcome.statistics};
@@ -51,7 +52,7 @@ Outcome run(const SimulationSettings& settings) {
 }
 
 TEST(EnergyRise, IsWhatTheClothHasMoreThanAtTheStart) {
-  const Outcome outcome = run(falling_sheet(18000, {.height = 0}));
+  const WatchedRun outcome = watch(falling_sheet(18000, {.height = 0}));
   const auto rise = outcome.statistics.energy_rise();
   ASSERT_TRUE(rise);
   EXPECT_EQ(rise->energy, outcome.highest - outcome.first);
@@ -65,7 +66,7 @@ TEST(EnergyRise, IsWhatTheClothHasMoreThanAtTheStart) {
 TEST(EnergyRise, IsNoneWhereContactIsSolvedOrTheCloththSoft) {
   for (const SimulationSettings& settings :
        {falling_sheet(18000, {.height = 0, .response = Response::solved}), falling_sheet(18, {.height = 0})}) {
-    const auto rise = run(settings).statistics.energy_rise();
+    const auto rise = watch(settings).statistics.energy_rise();
     ASSERT_TRUE(rise);
     EXPECT_FALSE(rise->notable()) << rise->energy << " J, " << rise->of_available;
   }
