@@ -146,7 +146,8 @@ TEST(Quality, DrawsARecordedMotionToo) {
 TEST(Quality, DrawsTheMotionOfADraftInAnyQualityAndThatOfAFilmInADraft) {
   const SceneFolder folder;
   std::string fine = film;
-  fine.replace(fine.find("grid = ["), fine.find(']') + 1 - fine.find("grid = ["), "grid = [30, 20]");
+  const std::string cells = "[6, 6]";
+  fine.replace(fine.find(cells), cells.size(), "[30, 20]");
   folder.write("a.toml", fine);
   ASSERT_EQ(drape(folder, "simulate a.toml --set look.quality=draft -o draft.drape").code, 0);
   ASSERT_EQ(drape(folder, "simulate a.toml -o film.drape").code, 0);

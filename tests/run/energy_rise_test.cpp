@@ -63,7 +63,7 @@ TEST(EnergyRise, IsWhatTheClothHasMoreThanAtTheStart) {
   EXPECT_EQ(json["energy_rise"]["of_available"], rise->of_available);
 }
 
-TEST(EnergyRise, IsNoneWhereContactIsSolvedOrTheCloththSoft) {
+TEST(EnergyRise, IsNoneWhereContactIsSolvedOrTheClothIsSoft) {
   for (const SimulationSettings& settings :
        {falling_sheet(18000, {.height = 0, .response = Response::solved}), falling_sheet(18, {.height = 0})}) {
     const auto rise = watch(settings).statistics.energy_rise();
