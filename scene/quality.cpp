@@ -60,7 +60,7 @@ bool says_draft(const TomlValue& document) {
 }
 
 void coarsen_grid(TomlValue& document) {
-  constexpr std::int64_t enough = 20 * 20;  // cells
+  constexpr std::int64_t enough = 400;  // cells
   if (!pins_by_name(document)) return;
   TomlValue* cloth = document.as<TomlTable>()->find("cloth");
   TomlTable* of_cloth = cloth == nullptr ? nullptr : cloth->as<TomlTable>();

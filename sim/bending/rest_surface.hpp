@@ -29,7 +29,9 @@ class RestSurface {
   [[nodiscard]] int triangle_count() const { return static_cast<int>(held_.size()); }
   [[nodiscard]] const Triangle& triangle(int t) const { return cloth_.triangles[static_cast<std::size_t>(t)]; }
   [[nodiscard]] Eigen::Vector3d place(int vertex) const { return cloth_.rest.row(vertex).transpose(); }
-  [[nodiscard]] const Beyond& beyond(int t, int side) const { return beyond_[static_cast<std::size_t>(3 * t + side)]; }
+  [[nodiscard]] const Beyond& beyond(int t, int side) const {
+    return beyond_[3 * static_cast<std::size_t>(t) + static_cast<std::size_t>(side)];
+  }
   /// Whether all its vertices are pinned.
   [[nodiscard]] bool held(int t) const { return held_[static_cast<std::size_t>(t)]; }
   /// Whether a triangle is free and something lies beyond one of its sides.

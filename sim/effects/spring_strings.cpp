@@ -9,7 +9,7 @@ namespace drape {
 namespace {
 
 using Index = std::size_t;
-constexpr Index none = std::numeric_limits<Index>::max();
+constexpr Index no_spring = std::numeric_limits<Index>::max();
 constexpr double straightest_corner = -0.8;  // cosine of the angle between two springs that go on from one another
 constexpr int most_rounds = 4;               // of finding which springs of a string are slack
 // By this part of its weight each spring holds on to what it pulls: a string between two pins that is too short for
@@ -20,7 +20,7 @@ constexpr double slackening = 1e-3;
 class Continuations {
  public:
   Continuations(const Cloth& cloth, const std::vector<Index>& springs)
-      : cloth_(cloth), next_(cloth.springs.size(), {none, none}) {
+      : cloth_(cloth), next_(cloth.springs.size(), {no_spring, no_spring}) {
     std::vector<std::vector<Index>> at(static_cast<Index>(cloth.vertex_count()));
     for (const Index k : springs) {
       for (const int end : {cloth.springs[k].i, cloth.springs[k].j}) at[static_cast<Index>(end)].push_back(k);
@@ -45,7 +45,7 @@ class Continuations {
     }
     std::sort(pairs.begin(), pairs.end());
     for (const auto& [cosine, a, b] : pairs) {
-      if (next(a, vertex) != none || next(b, vertex) != none) continue;
+      if (next(a, vertex) != no_spring || next(b, vertex) != no_spring) continue;
       next(a, vertex) = b;
       next(b, vertex) = a;
     }
@@ -101,13 +101,13 @@ std::vector<StringLink> lay_out_strings(const Cloth& cloth, const std::vector<st
     // Back to where the string begins, or once around where it is a ring.
     Index first = seed;
     int from = cloth.springs[seed].i;
-    for (Index before = continuations.next(first, from); before != none && before != seed;) {
+    for (Index before = continuations.next(first, from); before != no_spring && before != seed;) {
       first = before;
       from = continuations.other_end(first, from);
       before = continuations.next(first, from);
     }
     bool joined = false;
-    for (Index k = first; k != none && laid[k] == 0; joined = true) {
+    for (Index k = first; k != no_spring && laid[k] == 0; joined = true) {
       const int to = continuations.other_end(k, from);
       links.push_back({.spring = k, .from = from, .to = to, .joined = joined});
       laid[k] = 1;

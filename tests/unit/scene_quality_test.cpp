@@ -17,7 +17,7 @@ class DraftGrid : public testing::Test {
     return folder_.load(cloth + "[time]\nstep = 0.01\n", overrides).simulation.cloth.vertex_count();
   }
 
-  const SceneFolder folder_;
+  SceneFolder folder_;
 };
 
 TEST_F(DraftGrid, HasHalfTheColumnsAndRowsRoundedUp) {

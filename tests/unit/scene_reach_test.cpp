@@ -17,13 +17,14 @@ std::string problems(const std::string& tables) {
 }
 
 TEST(SceneReach, EndsBeforeProductsOverflow) {
+  const std::string keyframes =
+      "keyframes = [{ time = 0, center = [0, 0, 0] }, { time = 1, center = [1e154, 0, 0] }]\n";
   const std::vector<std::string> far{
       "[effects.sphere]\ncenter = [1e154, 0, 0]\nradius = 1\n",
       "[effects.sphere]\ncenter = [0, 0, 0]\nradius = 1e154\n",
       "[effects.sphere]\n" + sphere + "velocity = [0, -1e154, 0]\n",
       "[effects.sphere]\n" + sphere + "orbit_period = 1\norbit_center = [0, 0, 1e154]\n",
-      "[effects.sphere]\nradius = 1\nkeyframes = [{ time = 0, center = [0, 0, 0] }, { time = 1, center = [1e154, 0, 0] "
-      "}]\n",
+      "[effects.sphere]\nradius = 1\n" + keyframes,
       "[effects.body]\nbox = [1, 1, 1e154]\nthickness = 0.1\n",
       "[effects.body]\nbox = [1, 1, 1]\ncenter = [1e154, 0, 0]\nthickness = 0.1\n",
       "[effects.ground]\nheight = -1e154\n",
