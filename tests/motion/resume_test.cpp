@@ -108,7 +108,9 @@ TEST_P(Resumed, RunsHaveRecordsOfTheWholeMotion) {
   }
   const auto rise = parts.statistics.energy_rise(), whole_rise = whole.statistics.energy_rise();
   ASSERT_EQ(rise.has_value(), whole_rise.has_value());
-  if (rise) EXPECT_EQ(rise->of_available, whole_rise->of_available);
+  if (rise) {
+    EXPECT_EQ(rise->of_available, whole_rise->of_available);
+  }
 }
 
 /// What watches over the energy goes on with what it knew: it names the same step.
