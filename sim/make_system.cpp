@@ -1,8 +1,22 @@
 #include "sim/make_system.hpp"
 
+#include "sim/field_drag.hpp"
+#include "sim/schemes/sdirk2.hpp"
 #include "sim/timed_effects.hpp"
 
 namespace drape {
+namespace {
+
+/// Adds the energy that stands for velocity fields in the steps of an implicit method.
+void add_drag(const IntegratorSettings& integrator, System& system) {
+  if (system.fields.empty() || is_explicit(integrator.method)) return;
+  const double solved = integrator.scheme == TimeScheme::sdirk2 ? Sdirk2::gamma * system.step : system.step;
+  auto drag = std::make_unique<FieldDrag>(system, solved, integrator.method == Method::liu13);
+  system.drag = drag.get();
+  system.energies.push_back(std::move(drag));
+}
+
+}  // namespace
 
 System make_system(const SimulationSettings& settings, std::vector<double>* effect_seconds, const Stop& stop,
                    const Threads& threads) {
@@ -19,6 +33,7 @@ System make_system(const SimulationSettings& settings, double step, std::vector<
     for (std::size_t f = before.filters; f < system.filters.size(); ++f) system.filters[f]->heed(stop);
     if (effect_seconds != nullptr) time_additions(system, before, (*effect_seconds)[i]);
   }
+  add_drag(settings.integrator, system);
   return system;
 }
 

@@ -183,7 +183,8 @@ double safe_step(const System& system) {
       remembered_largest_eigenvalue(bound, free.cwiseProduct(system.cloth.masses.unaryExpr(scale)), system.stop);
   double frequency = std::ldexp(std::sqrt(largest), (unit_of_stiffness - unit_of_mass) / 2);
 
-  const double pushes = pushes_bound(system);
+  double pushes = pushes_bound(system);
+  for (const auto& field : system.fields) pushes += field->stiffness_bound();
   if (pushes > 0) frequency = std::hypot(frequency, std::sqrt(pushes));
   return frequency > 0 ? 2 / frequency : std::numeric_limits<double>::infinity();
 }

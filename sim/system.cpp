@@ -24,7 +24,7 @@ std::vector<Collider> System::colliders_at(double at) const {
 
 bool System::only_loses_energy() const {
   const bool rests = std::ranges::all_of(colliders, [](const auto& collider) { return collider->rests(); });
-  if (!rests || !pin_motions.empty()) return false;
+  if (!rests || !pin_motions.empty() || !fields.empty()) return false;
   const State at_rest{.x = cloth.positions, .v = Vertices::Zero(cloth.vertex_count(), 3), .step = 0};
   Vertices push = at_rest.v;
   for (const auto& force : forces) {

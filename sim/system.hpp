@@ -32,6 +32,8 @@ struct Force {
   [[nodiscard]] virtual double stiffness_bound() const { return 0; }
 };
 
+class FieldDrag;
+
 /// An upper bound of Hessians that holds in every shape and at every time,
 ///   B = Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ I₃ + diag(d) ⊗ I₃.
 struct StiffnessBound {
@@ -88,8 +90,9 @@ struct Energy {
   virtual void add_bound(StiffnessBound& bound) const = 0;
   /// Refers to this energy, which must outlive it.
   [[nodiscard]] virtual std::unique_ptr<EnergyHessian> make_hessian() const = 0;
-  /// Whether it is the cloth's own: the same at every time and wherever the cloth is as a whole. Any other is held by
-  /// something that pushes, and only methods that solve for the end of a step can have it.
+  /// Whether it is the cloth's own, the same at every time and wherever the cloth is as a whole, or takes energy from
+  /// the cloth. Any other is held by something that pushes, and only methods that solve for the end of a step can have
+  /// it.
   [[nodiscard]] virtual bool internal() const = 0;
   /// How far what pushes goes from one time to another [s], if it moves [m].
   [[nodiscard]] virtual Eigen::Vector3d displacement(double /*from*/, double /*to*/) const {
@@ -153,7 +156,12 @@ struct System {
 
   std::vector<Spring> springs;  ///< the cloth's and those that effects add
   std::vector<std::unique_ptr<Force>> forces;
+  /// Those of single vertices that depend on their velocities, and on nothing else that moves. Such a force has no
+  /// potential; taken at the start of a step it would give the cloth energy that it has not. Every scheme solves for the
+  /// velocity that it acts on, see FieldSolve and FieldKick.
+  std::vector<std::unique_ptr<Force>> fields;
   std::vector<std::unique_ptr<Energy>> energies;
+  FieldDrag* drag = nullptr;  ///< the one of the energies that stands for the fields in an implicit step, if there are any
   std::vector<std::unique_ptr<Correction>> corrections;
   std::vector<std::unique_ptr<MotionFilter>> filters;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;

@@ -119,6 +119,7 @@ void wrap(std::vector<std::unique_ptr<Base>>& list, std::size_t from, double& se
 
 void time_additions(System& system, const SystemSizes& before, double& seconds) {
   wrap<TimedForce>(system.forces, before.forces, seconds);
+  wrap<TimedForce>(system.fields, before.fields, seconds);
   wrap<TimedEnergy>(system.energies, before.energies, seconds);
   wrap<TimedCorrection>(system.corrections, before.corrections, seconds);
   wrap<TimedFilter>(system.filters, before.filters, seconds);

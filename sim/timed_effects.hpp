@@ -6,9 +6,10 @@ namespace drape {
 
 /// How much of each list of a system there is at one moment.
 struct SystemSizes {
-  std::size_t forces, energies, corrections, filters, contacts;
+  std::size_t forces, fields, energies, corrections, filters, contacts;
   explicit SystemSizes(const System& system)
       : forces(system.forces.size()),
+        fields(system.fields.size()),
         energies(system.energies.size()),
         corrections(system.corrections.size()),
         filters(system.filters.size()),

@@ -14,6 +14,7 @@ double first_gradient(const System& system, StepObjective& objective, const Stat
   const double time = static_cast<double>(state.step) * system.step;
   Vertices force = Vertices::Zero(state.x.rows(), 3), gradient = force;
   for (const auto& one : system.forces) one->add(state, time, force);
+  for (const auto& one : system.fields) one->add(state, time, force);
   objective.begin(state.x, state.v, force, system.time(state.step + 1));
   objective.evaluate(objective.y(), gradient);
   return gradient.norm();

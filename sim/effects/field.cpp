@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <utility>
 
 #include "core/keys.hpp"
 #include "sim/formula.hpp"
@@ -65,7 +66,9 @@ void Field::check(const SimulationSettings& settings, const ProblemSink& problem
 }
 
 void Field::install(System& system) const {
-  system.forces.push_back(std::make_unique<FieldForce>(*this, system.cloth.masses));
+  auto force = std::make_unique<FieldForce>(*this, system.cloth.masses);
+  auto& list = force->of_velocity() ? system.fields : system.forces;
+  list.push_back(std::move(force));
 }
 
 }  // namespace drape

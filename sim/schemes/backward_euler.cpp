@@ -21,9 +21,6 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   const Expected expected = take_expected();
   system_.begin(state);
   const Vertices& force = forces.all(state, system_.time(state.step));
-  objective_.begin(state.x, state.v, force, system_.time(state.step + 1));
-  books_.begin(state, point_.x);
-  begin_point(state, expected.late);
   const Vertices before = contact_ ? state.v : Vertices();
   Vertices steady;
   if (contact_) {
@@ -31,7 +28,10 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
     steady = state.x + system_.step * state.v;
     system_.place_pins(system_.time(state.step + 1), steady);
   }
-  StepReport report = solve_step(steady, [this] { return !books_.gains(point_, true); });
+  const auto begun = [&] { books_.begin(state, point_.x); };
+  const auto minimise = [&] { return solve_step(steady, [this] { return !books_.gains(point_, true); }); };
+  StepReport report = solve_with_fields(state, force, system_.time(state.step + 1), expected.late, begun, minimise);
+  if (fields_) forces.note(fields_->end());
   const bool touches = contact_ && !contact_->contacts().empty();
   const bool held = touches && contact_->touches_obstacles();
   if (free_ && !held) balance_momentum(system_.cloth, objective_, point_);

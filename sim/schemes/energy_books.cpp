@@ -44,7 +44,7 @@ Eigen::RowVector3d mean(const Cloth& cloth, const Vertices& v) {
   return (cloth.masses.transpose() * v) / cloth.masses.sum();
 }
 
-bool is_free(const System& system) { return system.cloth.pins.empty() && system.all_internal(); }
+bool is_free(const System& system) { return system.cloth.pins.empty() && system.all_internal() && system.drag == nullptr; }
 
 void balance_momentum(const Cloth& cloth, const StepObjective& objective, Iterate& point) {
   const Eigen::RowVector3d shift = mean(cloth, objective.y()) - mean(cloth, point.x);
@@ -58,7 +58,7 @@ EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, c
     : system_(system),
       objective_(objective),
       accuracy_(accuracy),
-      steady_(system.pin_motions.empty() && system.all_internal()),
+      steady_(system.pin_motions.empty() && system.all_internal() && system.drag == nullptr),
       springs_(system.energies.empty()) {}
 
 void EnergyBooks::begin(const State& state, const Vertices& last_end) {

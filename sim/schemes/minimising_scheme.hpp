@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -8,6 +9,7 @@
 #include "sim/contact/contact_solver.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/schemes/energy_books.hpp"
+#include "sim/schemes/field_solve.hpp"
 #include "sim/schemes/scheme.hpp"
 #include "sim/solvers/minimiser.hpp"
 
@@ -34,6 +36,40 @@ class MinimisingScheme : public Scheme {
         point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
         free_(is_free(system)) {
     if (!system.contacts.empty()) contact_.emplace(system);
+    if (system.drag != nullptr) fields_.emplace(system, objective_);
+  }
+
+  /// Begins the objective of a step from a state under these forces, n×3 [N], and sets the point to where it is
+  /// minimised, once and again until velocity fields do what they do there.
+  /// @param expected see begin_point()
+  /// @param begun    called whenever the objective has begun
+  /// @param minimise minimises it from the point
+  template <class Begun, class Minimise>
+  StepReport solve_with_fields(const State& from, const Vertices& force, double end, const Vertices* expected,
+                               const Begun& begun, const Minimise& minimise) {
+    const auto start = [&](const Vertices& all) {
+      objective_.begin(from.x, from.v, all, end);
+      begun();
+    };
+    if (!fields_) {
+      start(force);
+      begin_point(from, expected);
+      return minimise();
+    }
+    fields_->begin(from, end);
+    start(fields_->force_with(force));
+    begin_point(from, expected);
+    StepReport report = minimise();
+    while (fields_->improve(point_.x, solver_->accuracy())) {
+      start(fields_->force_with(force));
+      point_.value = objective_.evaluate(point_.x, point_.gradient);
+      const StepReport again = minimise();
+      report.iterations += again.iterations;
+      report.converged = again.converged;
+      report.rise = std::max(report.rise, again.rise);
+    }
+    report.converged = report.converged && fields_->converged();
+    return report;
   }
 
   /// Minimises the objective from the point, under the contacts of a step that began at contact_->begin().
@@ -82,6 +118,7 @@ class MinimisingScheme : public Scheme {
   std::unique_ptr<Minimiser> solver_;
   Iterate point_;
   bool free_;                               // see is_free()
+  std::optional<FieldSolve> fields_;        // where there are velocity fields
   std::optional<ContactSolver> contact_;    // where the cloth can touch something
   std::optional<ImplicitProblem> problem_;  // of contact, once there is any
 

@@ -28,11 +28,16 @@ StepReport Sdirk2::advance(State& state, StepForces& forces) {
   stage_ = state;
   pushes_.begin(state.x, start);
   solve(first, expected.early, report);
+  if (fields_) of_fields_ = (1 - tableau::gamma) * fields_->end();
   pushes_.add(stage_.x, first, 1 - tableau::gamma);
   if (forces.any_of_velocity()) find_second_forces(first, forces);
   stage_.x = state.x + tableau::rest * (stage_.x - state.x);
   stage_.v = state.v + tableau::rest * (stage_.v - state.v);
   solve(end, expected.late, report);
+  if (fields_) {
+    of_fields_ += tableau::gamma * fields_->end();
+    forces.note(of_fields_);
+  }
   pushes_.add(stage_.x, end, tableau::gamma);
   pushes_.limit(start, end, stage_.v);
   state.v = stage_.v;
@@ -64,9 +69,9 @@ void Sdirk2::find_second_forces(double time, StepForces& forces) {
 }
 
 void Sdirk2::solve(double end, const Vertices* expected, StepReport& report) {
-  objective_.begin(stage_.x, stage_.v, force_, end);
-  begin_point(stage_, expected);
-  const StepReport stage = solver_->minimise(point_, [] { return true; });
+  const auto minimise = [this] { return solver_->minimise(point_, [] { return true; }); };
+  const StepReport stage = solve_with_fields(
+      stage_, force_, end, expected, [] {}, minimise);
   if (free_) balance_momentum(system_.cloth, objective_, point_);
   divided_difference(system_.threads, point_.x, stage_.x, objective_.duration(), stage_.v);
   copy(system_.threads, point_.x, stage_.x);

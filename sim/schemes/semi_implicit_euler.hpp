@@ -1,11 +1,14 @@
 #pragma once
 
+#include <optional>
+
+#include "sim/schemes/field_kick.hpp"
 #include "sim/schemes/scheme.hpp"
 #include "sim/spring_network.hpp"
 
 namespace drape {
 
-/// Symplectic (semi-implicit) Euler: v += h·a(x), the corrections, x += h·v.
+/// Symplectic (semi-implicit) Euler: v += h·a(x), velocity fields by FieldKick, the corrections, x += h·v.
 class SemiImplicitEuler final : public Scheme {
  public:
   /// @throws UsageError if the system has energies that are solved for
@@ -17,6 +20,8 @@ class SemiImplicitEuler final : public Scheme {
   SpringNetwork springs_;
   Eigen::VectorXd pull_;  // −h/m of each vertex, 0 on pins [s/kg]
   Vertices force_;        // with that of energies; empty without [N]
+  Vertices before_;       // the velocities before the kick, where fields act [m/s]
+  std::optional<FieldKick> fields_;
 };
 
 }  // namespace drape

@@ -238,7 +238,8 @@ StepReport SubstepScheme::advance(State& state, StepForces& /*forces*/) {
       now->begin(state);
     }
     const auto holds = [&] { return now->estimate() <= accuracy_; };
-    while (!now->over() && (holds() || next == most_)) now->advance(report);
+    // What is not finite will not be, however short its substeps are.
+    while (!now->over() && (holds() || (next == most_ && std::isfinite(now->estimate())))) now->advance(report);
     report.converged = holds();
     if (report.converged || next == most_) break;
     next = std::max(next + 1, halvings_for(now->projected(), next));

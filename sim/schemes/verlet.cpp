@@ -8,13 +8,16 @@ namespace drape {
 Verlet::Verlet(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count(), system.threads),
-      pull_(explicit_pull(system, "velocity Verlet")) {}
+      pull_(explicit_pull(system, "velocity Verlet")) {
+  if (!system.fields.empty()) fields_.emplace(system);
+}
 
 StepReport Verlet::advance(State& state, StepForces& forces) {
   const double half = system_.step / 2;
   const double middle = system_.time(state.step) + half, end = system_.time(state.step + 1);
   const auto drift = [&] { add_multiple(system_.threads, half, state.v, state.x); };
-  const bool of_velocity = forces.any_of_velocity();
+  const bool of_velocity = fields_ || forces.any_of_velocity();
+  StepReport report;
   const bool at_once = !of_velocity && system_.filters.empty() && system_.pin_motions.empty();
   system_.begin(state);
   system_.correct_half(state);
@@ -26,7 +29,7 @@ StepReport Verlet::advance(State& state, StepForces& forces) {
   const Vertices& force = with_energies(system_, state.x, middle, push, force_);
   springs_.kick_and_drift(pull_, force, at_once ? half : 0, state.v, state.x);
   if (!at_once) {
-    if (of_velocity) add_of_velocity(state, middle, forces);
+    if (of_velocity) report.converged = kick_of_velocity(state, middle, forces);
     drift();
     system_.place_pins(end, state.x);
     if (!system_.filters.empty()) {
@@ -36,7 +39,26 @@ StepReport Verlet::advance(State& state, StepForces& forces) {
   }
   system_.correct_half(state);
   system_.drive_pins(end, state.v);
-  return {};
+  return report;
+}
+
+bool Verlet::kick_of_velocity(State& state, double time, StepForces& forces) {
+  const bool others = forces.any_of_velocity();
+  if (!fields_) {
+    add_of_velocity(state, time, forces);
+    return true;
+  }
+  before_ = start_v_;
+  bool found = fields_->kick(state.x, time, before_, state.v);
+  if (others) {
+    // What the others do depends on what fields have done, and the other way round: to second order each needs no more
+    // than an estimate of the other.
+    add_of_velocity(state, time, forces);
+    state.v += pull_.asDiagonal() * fields_->force();
+    found = fields_->kick(state.x, time, before_, state.v);
+  }
+  forces.note(fields_->force());
+  return found;
 }
 
 void Verlet::add_of_velocity(State& state, double time, StepForces& forces) {

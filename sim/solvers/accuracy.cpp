@@ -48,6 +48,7 @@ double way_in_a_step(const System& system, const Eigen::VectorXd& inertia) {
   for (const auto& each : system.forces) {
     if (!each->constant()) each->add(start, 0, force);
   }
+  for (const auto& field : system.fields) field->add(start, 0, force);
   return std::max(moved(force + spring_forces(system)), system.step * longest(start.v));
 }
 

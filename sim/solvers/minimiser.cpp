@@ -35,6 +35,10 @@ ConstantFactor& Minimiser::constant_factor() {
 StepReport Minimiser::minimise(Iterate& point, const std::function<bool()>& may_end) {
   start();
   StepReport report;
+  if (std::isnan(point.value)) {
+    report.converged = false;  // of forces that are none: no iteration would lead anywhere
+    return report;
+  }
   double change = std::numeric_limits<double>::infinity();
   least_error_ = newton_error_ = change;
   in_vain_ = 0;

@@ -10,6 +10,7 @@
 #include "sim/effects/air.hpp"
 #include "sim/effects/bending.hpp"
 #include "sim/effects/body.hpp"
+#include "sim/effects/field.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/effects/moving_pins.hpp"
 #include "sim/effects/self_collision.hpp"
@@ -100,6 +101,7 @@ SimulationSettings eventful(Solver solver) {
       Gravity{},
       Wind{.acceleration = {1, 0, 0}},
       Air{.velocity = {1, 2, 0}, .gusts = {.speed = 1}},
+      Field{.acceleration = {"8*vy", "-8*vx", "-0.1*vz*vz"}},
       Bending{.rigidity = 1e-4, .cross_stiffness = 1},
       MovingPins{.pins = {0, 10},
                  .keyframes = {{1, {0, 0, 0.2}}, {2, {0.1, 0, 0}}},

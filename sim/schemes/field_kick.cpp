@@ -1,0 +1,56 @@
+#include "sim/schemes/field_kick.hpp"
+
+#include <Eigen/LU>
+
+#include <limits>
+
+namespace drape {
+namespace {
+
+constexpr double exact = 1e-12;  // of the speeds
+constexpr double fast = 0.1;     // what an iteration leaves of the error at most, unless it takes the slopes
+constexpr int most_iterations = 40;
+
+double largest(const Vertices& v) { return v.rowwise().norm().maxCoeff(); }
+
+}  // namespace
+
+FieldKick::FieldKick(const System& system) : system_(system), fields_(system), slopes_(system) {}
+
+void FieldKick::find_acceleration(const Vertices& before, const Vertices& w, double time) {
+  state_.v = (before + w) / 2;
+  fields_.find(state_, time, acceleration_);
+}
+
+bool FieldKick::kick(const Vertices& x, double time, const Vertices& before, Vertices& v) {
+  const double h = system_.step;
+  state_.x = x;
+  w_ = v;
+  bool sloped = false, found = false;
+  double last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < most_iterations && !found; ++k) {
+    find_acceleration(before, w_, time);
+    missing_ = v + h * acceleration_ - w_;
+    if (sloped) {
+      for (Eigen::Index i = 0; i < missing_.rows(); ++i) {
+        const Eigen::Matrix3d& slope = slopes_.of_velocity()[static_cast<std::size_t>(i)];
+        const Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity() - h / 2 * slope;
+        missing_.row(i) = matrix.partialPivLu().solve(missing_.row(i).transpose().eval()).transpose();
+      }
+    }
+    w_ += missing_;
+    const double change = largest(missing_);
+    found = change <= exact * largest(w_);
+    if (!found && !(change < fast * last)) {
+      state_.v = (before + w_) / 2;
+      slopes_.find(state_, time);
+      sloped = true;
+    }
+    last = change;
+  }
+  v = w_;
+  force_ = system_.cloth.masses.asDiagonal() * acceleration_;
+  return found;
+}
+
+}  // namespace drape

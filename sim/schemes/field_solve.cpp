@@ -1,0 +1,115 @@
+#include "sim/schemes/field_solve.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace drape {
+namespace {
+
+constexpr int most_rounds = 60;
+// Of the tolerance of a solve: what c may still be wrong by. An error of a force adds up over the steps, where that of
+// a solve is made good in the next, and another round costs no more than one or two iterations.
+constexpr double share_of_tolerance = 0.01;
+constexpr int rounds_with_a_slope = 8;
+// After so many rounds the tolerance itself will do: what the solves leave may be more than that share of it.
+constexpr int thorough_rounds = 12;
+
+}  // namespace
+
+FieldSolve::FieldSolve(const System& system, const StepObjective& objective)
+    : system_(system),
+      objective_(objective),
+      fields_(system),
+      drag_(*system.drag),
+      history_(system.cloth.vertex_count()) {}
+
+void FieldSolve::begin(const State& from, double end) {
+  const double t = objective_.duration();
+  time_ = end;
+  start_ = from.x;
+  history_.clear();
+  rounds_ = 0;
+  over_ = converged_ = false;
+  // Where the cloth would be by its velocity.
+  state_.x = from.x + t * from.v;
+  system_.place_pins(end, state_.x);
+  state_.v = from.v;
+  drag_.begin(state_, end, start_);
+  fields_.find(state_, end, c_);
+  drag_.add_pull(state_.x, c_);
+}
+
+const Vertices& FieldSolve::force_with(const Vertices& others) {
+  force_ = others + system_.cloth.masses.asDiagonal() * c_;
+  return force_;
+}
+
+bool FieldSolve::improve(Vertices& x, const Accuracy& accuracy) {
+  state_.x = x;
+  state_.v = (x - start_) / objective_.duration();
+  fields_.find(state_, time_, acceleration_);
+  residual_ = acceleration_ - c_;
+  drag_.add_pull(x, residual_);
+  if (rounds_ == 0 && !residual_.allFinite()) {
+    x.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return false;
+  }
+  converged_ = negligible(x, accuracy);
+  if (converged_ || over_) return false;
+  if (rounds_ == 0 || error_ < least_error_) {
+    least_error_ = error_;
+    best_c_ = c_;
+    best_x_ = x;
+  }
+  if (++rounds_ < most_rounds) {
+    advance(x);
+    return true;
+  }
+  over_ = true;
+  if (error_ == least_error_) return false;
+  c_ = best_c_;
+  x = best_x_;
+  return true;
+}
+
+void FieldSolve::advance(Vertices& x) {
+  const bool nearest = error_ == least_error_;
+  if (nearest && rounds_ % rounds_with_a_slope == 1 && drag_.begin(state_, time_, start_)) {
+    history_.clear();
+    c_ = acceleration_;
+    drag_.add_pull(x, c_);
+    return;
+  }
+  before_ = c_;
+  if (!history_.advance(residual_, c_)) {
+    before_ = best_c_;
+    x = best_x_;
+  }
+  before_ = c_ - before_;
+  drag_.add_way(before_, x);  // a point that is within the tolerance of the next minimum would not be moved
+}
+
+bool FieldSolve::negligible(const Vertices& x, const Accuracy& accuracy) {
+  const double t = objective_.duration();
+  double rounding = 0;
+  if (accuracy.rule == StoppingRule::gradient) {
+    error_ = (system_.cloth.masses.asDiagonal() * residual_).norm();
+  } else {
+    before_.setZero(x.rows(), 3);
+    drag_.add_way(residual_, before_);
+    error_ = before_.rowwise().norm().maxCoeff();
+    constexpr double several = 64;
+    rounding = several * std::numeric_limits<double>::epsilon() *
+               (x.cwiseAbs().maxCoeff() + t * t * acceleration_.cwiseAbs().maxCoeff());
+  }
+  if (error_ <= std::max(share_of_tolerance * accuracy.tolerance, rounding)) return true;
+  return rounds_ >= thorough_rounds && error_ <= accuracy.tolerance;
+}
+
+const Vertices& FieldSolve::end() {
+  drag_.end();
+  force_ = system_.cloth.masses.asDiagonal() * acceleration_;
+  return force_;
+}
+
+}  // namespace drape
