@@ -33,7 +33,7 @@ class FieldSlopes {
 
  private:
   /// The derivatives by one of the two parts of a state.
-  void differentiate(Vertices State::* part, double time, std::vector<Eigen::Matrix3d>& slopes);
+  void differentiate(Vertices State::*part, double time, std::vector<Eigen::Matrix3d>& slopes);
 
   VelocityFields fields_;
   std::vector<Eigen::Matrix3d> of_place_, of_velocity_;
