@@ -157,11 +157,12 @@ struct System {
   std::vector<Spring> springs;  ///< the cloth's and those that effects add
   std::vector<std::unique_ptr<Force>> forces;
   /// Those of single vertices that depend on their velocities, and on nothing else that moves. Such a force has no
-  /// potential; taken at the start of a step it would give the cloth energy that it has not. Every scheme solves for the
-  /// velocity that it acts on, see FieldSolve and FieldKick.
+  /// potential; taken at the start of a step it would give the cloth energy that it has not. Every scheme solves for
+  /// the velocity that it acts on, see FieldSolve and FieldKick.
   std::vector<std::unique_ptr<Force>> fields;
   std::vector<std::unique_ptr<Energy>> energies;
-  FieldDrag* drag = nullptr;  ///< the one of the energies that stands for the fields in an implicit step, if there are any
+  FieldDrag* drag =
+      nullptr;  ///< the one of the energies that stands for the fields in an implicit step, if there are any
   std::vector<std::unique_ptr<Correction>> corrections;
   std::vector<std::unique_ptr<MotionFilter>> filters;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;

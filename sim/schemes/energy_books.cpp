@@ -44,7 +44,9 @@ Eigen::RowVector3d mean(const Cloth& cloth, const Vertices& v) {
   return (cloth.masses.transpose() * v) / cloth.masses.sum();
 }
 
-bool is_free(const System& system) { return system.cloth.pins.empty() && system.all_internal() && system.drag == nullptr; }
+bool is_free(const System& system) {
+  return system.cloth.pins.empty() && system.all_internal() && system.drag == nullptr;
+}
 
 void balance_momentum(const Cloth& cloth, const StepObjective& objective, Iterate& point) {
   const Eigen::RowVector3d shift = mean(cloth, objective.y()) - mean(cloth, point.x);

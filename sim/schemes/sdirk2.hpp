@@ -18,10 +18,10 @@ namespace drape {
 /// Explicit forces: those that depend on the place are evaluated once, where the cloth would be in the middle of the
 /// step by its velocity, x + h/2·v, so that for a vertex without springs the step is velocity Verlet's, with its
 /// largest stable step. Those that depend on velocities (air) are evaluated at the start of the step and in stage 1,
-/// with the weights δ = 1 − 1/(2γ) and 1 − δ (Ascher, Ruuth and Spiteri 1997, section 2.6). Velocity fields are in a(x),
-/// with the velocity V of each stage, see FieldSolve. What corrections do is
-/// halved. All of that is of second order, and leaves a cloth in equilibrium where it is. Filters change the way from x
-/// to X₂, and v' by as much. What pushes and is solved for has a PushLimit.
+/// with the weights δ = 1 − 1/(2γ) and 1 − δ (Ascher, Ruuth and Spiteri 1997, section 2.6). Velocity fields are in
+/// a(x), with the velocity V of each stage, see FieldSolve. What corrections do is halved. All of that is of second
+/// order, and leaves a cloth in equilibrium where it is. Filters change the way from x to X₂, and v' by as much. What
+/// pushes and is solved for has a PushLimit.
 ///
 /// Of a linear cloth no step gains energy. Of others it may: the method is not algebraically stable, since (1 − γ)(3γ −
 /// 1) < 0, so Sdirk2Guard keeps an eye on it.

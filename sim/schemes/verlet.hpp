@@ -18,8 +18,8 @@ namespace drape {
 /// evaluated there too, with the velocities of the start and with those that follow from them at the end, and their
 /// mean is taken. With the kick that is the two-stage Runge-Kutta method which is a mean of steps of Euler's (Shu and
 /// Osher 1988): where none of these gives energy, it gives none. Velocity
-/// fields are solved for by the implicit midpoint rule, see FieldKick. What corrections do is halved. All of that keeps the
-/// second order. Filters do not: their change of the way is an impulse at an unknown time within the step.
+/// fields are solved for by the implicit midpoint rule, see FieldKick. What corrections do is halved. All of that keeps
+/// the second order. Filters do not: their change of the way is an impulse at an unknown time within the step.
 class Verlet final : public Scheme {
  public:
   /// @throws UsageError if the system has energies that are solved for
@@ -27,8 +27,8 @@ class Verlet final : public Scheme {
   StepReport advance(State& state, StepForces& forces) override;
 
  private:
-  /// Adds to the velocities what forces do that depend on them; they were start_v_ before the kick. Returns whether what
-  /// the fields do was found.
+  /// Adds to the velocities what forces do that depend on them; they were start_v_ before the kick. Returns whether
+  /// what the fields do was found.
   bool kick_of_velocity(State& state, double time, StepForces& forces);
   /// The part of those that are evaluated for it.
   void add_of_velocity(State& state, double time, StepForces& forces);
