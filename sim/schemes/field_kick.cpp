@@ -7,11 +7,11 @@
 namespace drape {
 namespace {
 
-constexpr double exact = 1e-12;  // of the speeds
-constexpr double fast = 0.1;     // what an iteration leaves of the error at most, unless it takes the slopes
-constexpr int most_iterations = 40;
+constexpr double relative_error = 1e-12;  // of the speeds
+constexpr double contraction = 0.1;       // what an iteration leaves of the error at most, unless it takes the slopes
+constexpr int most_kick_iterations = 40;
 
-double largest(const Vertices& v) { return v.rowwise().norm().maxCoeff(); }
+double largest_speed(const Vertices& v) { return v.rowwise().norm().maxCoeff(); }
 
 }  // namespace
 
@@ -28,7 +28,7 @@ bool FieldKick::kick(const Vertices& x, double time, const Vertices& before, Ver
   w_ = v;
   bool sloped = false, found = false;
   double last = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < most_iterations && !found; ++k) {
+  for (int k = 0; k < most_kick_iterations && !found; ++k) {
     find_acceleration(before, w_, time);
     missing_ = v + h * acceleration_ - w_;
     if (sloped) {
@@ -39,9 +39,9 @@ bool FieldKick::kick(const Vertices& x, double time, const Vertices& before, Ver
       }
     }
     w_ += missing_;
-    const double change = largest(missing_);
-    found = change <= exact * largest(w_);
-    if (!found && !(change < fast * last)) {
+    const double change = largest_speed(missing_);
+    found = change <= relative_error * largest_speed(w_);
+    if (!found && !(change < contraction * last)) {
       state_.v = (before + w_) / 2;
       slopes_.find(state_, time);
       sloped = true;

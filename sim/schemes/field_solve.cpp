@@ -6,7 +6,7 @@
 namespace drape {
 namespace {
 
-constexpr int most_rounds = 60;
+constexpr int most_field_rounds = 60;
 // Of the tolerance of a solve: what c may still be wrong by. An error of a force adds up over the steps, where that of
 // a solve is made good in the next, and another round costs no more than one or two iterations.
 constexpr double share_of_tolerance = 0.01;
@@ -61,7 +61,7 @@ bool FieldSolve::improve(Vertices& x, const Accuracy& accuracy) {
     best_c_ = c_;
     best_x_ = x;
   }
-  if (++rounds_ < most_rounds) {
+  if (++rounds_ < most_field_rounds) {
     advance(x);
     return true;
   }
