@@ -4,8 +4,9 @@
 
 namespace drape {
 
-/// What velocity fields do in an explicit step of h seconds. They are forces of single vertices, so to solve for the
-/// velocities w that they leave takes no more than a system of three equations at each,
+/// Solves for the velocities that velocity fields leave in an explicit step of h seconds. The fields are forces of
+/// single vertices, so to solve for the velocities w that they leave takes no more than a system of three equations at
+/// each,
 ///   w = v + h a(x, (v₀ + w)/2),
 /// with v what all else makes of the velocities v₀ before: the implicit midpoint rule, of second order, by which a
 /// force across the velocity keeps the speed and no drag gives any. Beside springs it is stable up to the step that is

@@ -7,7 +7,7 @@ namespace drape {
 namespace {
 
 constexpr int most_field_rounds = 60;
-// Of the tolerance of a solve: what c may still be wrong by. An error of a force adds up over the steps, where that of
+// Share of a solve's tolerance that c may still be wrong by. An error of a force adds up over the steps, where that of
 // a solve is made good in the next, and another round costs no more than one or two iterations.
 constexpr double share_of_tolerance = 0.01;
 constexpr int rounds_with_a_slope = 8;
@@ -30,7 +30,7 @@ void FieldSolve::begin(const State& from, double end) {
   history_.clear();
   rounds_ = 0;
   over_ = converged_ = false;
-  // Where the cloth would be by its velocity.
+  // The slopes and the first c are those of where the cloth would be by its velocity.
   state_.x = from.x + t * from.v;
   system_.place_pins(end, state_.x);
   state_.v = from.v;

@@ -27,7 +27,7 @@ class FieldSolve {
   /// that would be without springs, or to where nothing is a number if the fields are none there. Where c is not found,
   /// the last minimum is the one of the c that was nearest.
   bool improve(Vertices& x, const Accuracy& accuracy);
-  /// Whether c is right to the tolerance.
+  /// Returns whether c is right to the tolerance.
   [[nodiscard]] bool converged() const { return converged_; }
   /// Ends the step. Returns what the fields gave at its end, n×3 [N].
   const Vertices& end();

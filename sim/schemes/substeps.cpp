@@ -238,7 +238,7 @@ StepReport SubstepScheme::advance(State& state, StepForces& /*forces*/) {
       now->begin(state);
     }
     const auto holds = [&] { return now->estimate() <= accuracy_; };
-    // What is not finite will not be, however short its substeps are.
+    // No number of shorter substeps makes finite what is not.
     while (!now->over() && (holds() || (next == most_ && std::isfinite(now->estimate())))) now->advance(report);
     report.converged = holds();
     if (report.converged || next == most_) break;

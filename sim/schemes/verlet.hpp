@@ -17,9 +17,9 @@ namespace drape {
 /// Forces that depend on the place are those of the middle of the step. Those that depend on the velocities (air) are
 /// evaluated there too, with the velocities of the start and with those that follow from them at the end, and their
 /// mean is taken. With the kick that is the two-stage Runge-Kutta method which is a mean of steps of Euler's (Shu and
-/// Osher 1988): where none of these gives energy, it gives none. Velocity
-/// fields are solved for by the implicit midpoint rule, see FieldKick. What corrections do is halved. All of that keeps
-/// the second order. Filters do not: their change of the way is an impulse at an unknown time within the step.
+/// Osher 1988): where none of these gives energy, it gives none. Velocity fields are solved for by
+/// the implicit midpoint rule, see FieldKick. What corrections do is halved. All of that keeps the second order.
+/// Filters do not: their change of the way is an impulse at an unknown time within the step.
 class Verlet final : public Scheme {
  public:
   /// @throws UsageError if the system has energies that are solved for

@@ -32,10 +32,10 @@ class AndersonHistory {
 
   std::array<Pair, most_pairs> pairs_;
   std::size_t count_ = 0, oldest_ = 0;
-  Vertices last_residual_, last_c_;  // where count_ or length_ say that there is one
-  Vertices best_residual_, best_c_;
-  double best_ = 0;    // the norm of its residual
-  double length_ = 1;  // of a step from there, once it has been gone back to
+  Vertices last_residual_, last_c_;  // of the last point, and of the one with the least residual…
+  Vertices best_residual_, best_c_;  // …once begun_
+  double best_ = 0;                  // the norm of its residual
+  double length_ = 1;                // of a step from there, once it has been gone back to
   bool begun_ = false;
 };
 
