@@ -129,7 +129,9 @@ TEST_P(VelocityField, WhatCannotGiveEnergyGivesNone) {
         const double most = kept * (start.kinetic + start.elastic);
         ASSERT_LE(now.kinetic + now.elastic, most) << field[0] << ", k = " << stiffness << ", step " << i;
       }
-      EXPECT_LE(left, GetParam().method == Method::liu13 ? 50 : 5) << field[0] << ", k = " << stiffness;
+      // liu13's 100 iterations are too few for springs so stiff, with a field or without.
+      const bool too_stiff = GetParam().method == Method::liu13 && stiffness > 5;
+      EXPECT_LE(left, too_stiff ? 40 : 5) << field[0] << ", k = " << stiffness;
     }
   }
 }
