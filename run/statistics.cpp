@@ -98,7 +98,8 @@ nlohmann::ordered_json accuracy_json(const Statistics& statistics) {
             {"substeps", {{"mean", statistics.mean_substeps()}, {"max", statistics.max_substeps()}}},
             {"steps_not_accurate", statistics.not_converged()}};
   } else if (const auto& accuracy = exactness.accuracy()) {
-    json = {{"stop", stopping_rule_name(accuracy->rule)}, {"tolerance", accuracy->tolerance}};
+    json = {{"stop", stopping_rule_name(accuracy->rule)}, {"tolerance", nullptr}};
+    if (!accuracy->usual) json["tolerance"] = accuracy->tolerance;
   } else {
     return nullptr;
   }

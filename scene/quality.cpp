@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "scene/table_reader.hpp"
-#include "sim/cloth.hpp"
 
 namespace drape {
 namespace {
@@ -14,21 +13,12 @@ void make_draft(Scene& scene, const Given& given) {
   constexpr int smallest = 16;    // as [video] size
   constexpr double rate = 12.5;   // [1/s]
   constexpr double coarser = 10;  // of a tolerance
-  constexpr double coarse = 1e-4, fall = 0.03, gravity = 9.8;
   if (!given("video.size")) scene.video.size = (scene.video.size / 2).cwiseMax(smallest);
   if (!given("video.fps")) scene.video.fps = std::min(scene.video.fps, rate);
   if (!given("look.samples")) scene.look.samples = 1;
   if (!given("look.ambient_occlusion")) scene.look.ambient_occlusion = false;
   IntegratorSettings& integrator = scene.simulation.integrator;
-  const bool solves = !is_explicit(integrator.method) && !scene.simulation.accuracy;
-  if (!solves || given("integrator.tolerance")) return;
-  if (integrator.tolerance) {
-    *integrator.tolerance *= coarser;
-  } else if (!integrator.stop && scene.simulation.cloth.vertex_count() > 0) {
-    integrator.stop = StoppingRule::error;
-    const double h = scene.simulation.step;
-    integrator.tolerance = std::min(coarse * size_of(scene.simulation.cloth), fall * h * h * gravity);
-  }
+  if (integrator.tolerance && !given("integrator.tolerance")) *integrator.tolerance *= coarser;
 }
 
 void make_print(Scene& scene, const Given& given) {

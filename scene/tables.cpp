@@ -83,8 +83,8 @@ Keys integrator_keys(IntegratorSettings& integrator) {
               "solution (m, see [accuracy.md](accuracy.md#stopping-at-an-error)). Default: change if a `tolerance` is "
               "given, otherwise error. Implicit methods only, like the next two keys.");
   keys.add("tolerance", &integrator.tolerance, "m or N",
-           "See `stop`. Default: 1e-3 for change and gradient; for error 1e-4 of the cloth's size, or 0.003 of the "
-           "displacement due to external forces in a step if that is less.")
+           "See `stop`. Default: 1e-3 for change and gradient; for error a tenth of the error that the time step itself "
+           "makes, estimated in every step, see [accuracy.md](accuracy.md#the-default-tolerance).")
       .above(0);
   keys.add("max_iterations", &integrator.max_iterations, "",
            "Limit on the iterations of a step. Default: 20 for implicit, 100 for liu13, 500 for quasi-newton; 2000 for "

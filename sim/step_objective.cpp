@@ -21,8 +21,9 @@ StepObjective::StepObjective(const System& system, double duration)
       inertia_(system.inertia(duration)),
       free_inertia_(inertia_),
       push_(inertia_.cwiseInverse()),
+      free_(Eigen::ArrayXd::Ones(system.cloth.vertex_count())),
       y_(system.cloth.vertex_count(), 3) {
-  for (const int pin : system.cloth.pins) free_inertia_[pin] = push_[pin] = 0;
+  for (const int pin : system.cloth.pins) free_inertia_[pin] = push_[pin] = free_[pin] = 0;
   for (const Spring& s : system.springs) {
     stiffness_ += s.stiffness;
     elastic_scale_ += s.stiffness * s.rest_length * s.rest_length;
@@ -41,6 +42,8 @@ StepObjective::StepObjective(const System& system, double duration)
 void StepObjective::begin(const Vertices& x, const Vertices& v, const Vertices& force, double end) {
   const Kernels& k = kernels();
   time_ = end;
+  start_x_ = &x;
+  start_v_ = &v;
   sum(threads(), x, duration_, v, y_);
   for_ranges(threads(), x.rows(), [&](Eigen::Index first, Eigen::Index count) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -52,6 +55,35 @@ void StepObjective::begin(const Vertices& x, const Vertices& v, const Vertices& 
   scale_ = elastic_scale_ + sum_of(threads(), y_.rows(), [&](Eigen::Index first, Eigen::Index count) {
              return inertia_.segment(first, count).dot(y_.middleRows(first, count).rowwise().squaredNorm());
            });
+}
+
+StepObjective::Way StepObjective::longest_way(const Vertices& x) const {
+  const Way squares = reduce(
+      threads(), x.rows(),
+      [&](Eigen::Index first, Eigen::Index count) {
+        const auto whole = [&](int axis) {
+          return x.col(axis).segment(first, count).array() - start_x_->col(axis).segment(first, count).array();
+        };
+        const auto forced = [&](int axis) {
+          return whole(axis) - duration_ * start_v_->col(axis).segment(first, count).array();
+        };
+        const auto longest = [&](const auto& way) {
+          return (free_.segment(first, count) * (way(0).square() + way(1).square() + way(2).square())).maxCoeff();
+        };
+        return Way{.whole = longest(whole), .by_forces = longest(forced)};
+      },
+      [](const Way& most, const Way& next) {
+        return Way{.whole = std::max(most.whole, next.whole), .by_forces = std::max(most.by_forces, next.by_forces)};
+      });
+  return {.whole = std::sqrt(squares.whole), .by_forces = std::sqrt(squares.by_forces)};
+}
+
+void StepObjective::place_of_start_forces(Vertices& x, Vertices& gradient) const {
+  copy(threads(), *start_x_, x);
+  for (const int pin : system_.cloth.pins) x.row(pin) = y_.row(pin);
+  evaluate(x, gradient);
+  // ∇g(x₀) = M/τ² (x₀ − y) + ∇E(x₀), so what is asked for is x₀ − τ² M⁻¹ ∇g(x₀).
+  for (int axis = 0; axis < 3; ++axis) x.col(axis).array() -= push_.array() * gradient.col(axis).array();
 }
 
 double StepObjective::evaluate(const Vertices& x, Vertices& gradient) const {

@@ -18,13 +18,24 @@ class StepObjective {
   StepObjective(const System& system, double duration);
 
   /// Begins another step: computes y.
-  /// @param x, v  where it starts, n×3 [m], [m/s]
+  /// @param x, v  where it starts, n×3 [m], [m/s]; longest_way() and place_of_start_forces() read them again
   /// @param force f, n×3 [N]
   /// @param end   the time when it ends [s]
   void begin(const Vertices& x, const Vertices& v, const Vertices& force, double end);
 
   /// Where the cloth would go without its energies, and where the pins are when the step ends, n×3 [m].
   [[nodiscard]] const Vertices& y() const { return y_; }
+
+  /// How far a step that ends at x moves a free vertex at most [m].
+  struct Way {
+    double whole = 0;      ///< ‖x − x₀‖
+    double by_forces = 0;  ///< ‖x − x₀ − τ v₀‖, which is τ²a with the acceleration a of the step
+  };
+  [[nodiscard]] Way longest_way(const Vertices& x) const;
+
+  /// Sets x to where the cloth would go if all forces, those of its energies too, stayed what they are at the start,
+  /// n×3 [m]: y − τ² M⁻¹ ∇E(x₀). Computes ∇g(x₀) on the way.
+  void place_of_start_forces(Vertices& x, Vertices& gradient) const;
 
   /// Computes gradient = ∇g(x), n×3 and zero on pins [N], and returns g(x) [J], in one pass.
   double evaluate(const Vertices& x, Vertices& gradient) const;
@@ -70,6 +81,8 @@ class StepObjective {
   SpringNetwork springs_;
   Eigen::VectorXd inertia_, free_inertia_;
   Eigen::VectorXd push_;  // τ²/m, 0 on pins [m/N]
+  Eigen::ArrayXd free_;   // 1, and 0 on pins
+  const Vertices *start_x_ = nullptr, *start_v_ = nullptr;
   Vertices y_;
   double time_ = 0;
   double stiffness_ = 0;                  // Σ k [N/m]

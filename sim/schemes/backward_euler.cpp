@@ -5,7 +5,7 @@
 namespace drape {
 
 BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver)
-    : MinimisingScheme(system, system.step, make_solver), books_(system, objective_, solver_->accuracy()) {}
+    : MinimisingScheme(system, system.step, make_solver), books_(system, objective_, *solver_) {}
 
 double BackwardEuler::shed(bool held) {
   if (!contact_ || held) return books_.shed(point_, held);

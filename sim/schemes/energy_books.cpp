@@ -56,10 +56,10 @@ void balance_momentum(const Cloth& cloth, const StepObjective& objective, Iterat
   point.gradient.noalias() += objective.inertia() * shift;
 }
 
-EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, const Accuracy& accuracy)
+EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, const Minimiser& minimiser)
     : system_(system),
       objective_(objective),
-      accuracy_(accuracy),
+      minimiser_(minimiser),
       steady_(system.pin_motions.empty() && system.all_internal() && system.drag == nullptr),
       springs_(system.energies.empty()) {}
 
@@ -138,8 +138,9 @@ double EnergyBooks::tolerated(const Iterate& point) const {
   const double h = system_.step;
   const Eigen::VectorXd& inertia = objective_.free_inertia();
   const auto way = point.x - state_->x;
-  if (accuracy_.rule == StoppingRule::gradient) return accuracy_.tolerance * way.norm();
-  if (accuracy_.rule == StoppingRule::error) return accuracy_.tolerance * inertia.dot(way.rowwise().norm());
+  const StoppingRule rule = minimiser_.accuracy().rule;
+  if (rule == StoppingRule::gradient) return minimiser_.tolerance() * way.norm();
+  if (rule == StoppingRule::error) return minimiser_.tolerance() * inertia.dot(way.rowwise().norm());
   const auto push = objective_.y() - state_->x - h * state_->v;  // h² M⁻¹f
   const double work = inner(system_.threads, inertia, push, way);
   const double most =

@@ -21,7 +21,7 @@ namespace drape {
 /// Σ m/h² δ ‖Δxᵢ‖. Where something solved for pushes the cloth, B is not looked at.
 class EnergyBooks {
  public:
-  EnergyBooks(const System& system, const StepObjective& objective, const Accuracy& accuracy);
+  EnergyBooks(const System& system, const StepObjective& objective, const Minimiser& minimiser);
 
   /// Notes what the cloth has at the start of a step, whose y the objective has.
   /// @param state must stay as it is until the step ends
@@ -55,7 +55,7 @@ class EnergyBooks {
 
   const System& system_;
   const StepObjective& objective_;
-  Accuracy accuracy_;
+  const Minimiser& minimiser_;
   const State* state_ = nullptr;  // at the start of the step
   Iterate start_;                 // its x with its pins where they are when the step ends, and g there…
   bool start_exact_ = false;      // …or, where it has not been needed, a lower bound of g and nothing else

@@ -44,7 +44,7 @@ const Vertices& FieldSolve::force_with(const Vertices& others) {
   return force_;
 }
 
-bool FieldSolve::improve(Vertices& x, const Accuracy& accuracy) {
+bool FieldSolve::improve(Vertices& x, const Minimiser& minimiser) {
   state_.x = x;
   state_.v = (x - start_) / objective_.duration();
   fields_.find(state_, time_, acceleration_);
@@ -54,7 +54,7 @@ bool FieldSolve::improve(Vertices& x, const Accuracy& accuracy) {
     x.setConstant(std::numeric_limits<double>::quiet_NaN());
     return false;
   }
-  converged_ = negligible(x, accuracy);
+  converged_ = negligible(x, minimiser);
   if (converged_ || over_) return false;
   if (rounds_ == 0 || error_ < least_error_) {
     least_error_ = error_;
@@ -89,10 +89,10 @@ void FieldSolve::advance(Vertices& x) {
   drag_.add_way(before_, x);  // a point that is within the tolerance of the next minimum would not be moved
 }
 
-bool FieldSolve::negligible(const Vertices& x, const Accuracy& accuracy) {
+bool FieldSolve::negligible(const Vertices& x, const Minimiser& minimiser) {
   const double t = objective_.duration();
   double rounding = 0;
-  if (accuracy.rule == StoppingRule::gradient) {
+  if (minimiser.accuracy().rule == StoppingRule::gradient) {
     error_ = (system_.cloth.masses.asDiagonal() * residual_).norm();
   } else {
     before_.setZero(x.rows(), 3);
@@ -102,8 +102,8 @@ bool FieldSolve::negligible(const Vertices& x, const Accuracy& accuracy) {
     rounding = several * std::numeric_limits<double>::epsilon() *
                (x.cwiseAbs().maxCoeff() + t * t * acceleration_.cwiseAbs().maxCoeff());
   }
-  if (error_ <= std::max(share_of_tolerance * accuracy.tolerance, rounding)) return true;
-  return rounds_ >= thorough_rounds && error_ <= accuracy.tolerance;
+  if (error_ <= std::max(share_of_tolerance * minimiser.tolerance(), rounding)) return true;
+  return rounds_ >= thorough_rounds && error_ <= minimiser.tolerance();
 }
 
 const Vertices& FieldSolve::end() {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "sim/field_drag.hpp"
-#include "sim/solvers/accuracy.hpp"
 #include "sim/solvers/anderson.hpp"
+#include "sim/solvers/minimiser.hpp"
 #include "sim/step_objective.hpp"
 
 namespace drape {
@@ -26,7 +26,7 @@ class FieldSolve {
   /// Takes note of the minimum that followed, and returns whether another is needed, with another c. Moves it to where
   /// that would be without springs, or to where nothing is a number if the fields are none there. Where c is not found,
   /// the last minimum is the one of the c that was nearest.
-  bool improve(Vertices& x, const Accuracy& accuracy);
+  bool improve(Vertices& x, const Minimiser& minimiser);
   /// Returns whether c is right to the tolerance.
   [[nodiscard]] bool converged() const { return converged_; }
   /// Ends the step. Returns what the fields gave at its end, n×3 [N].
@@ -34,7 +34,7 @@ class FieldSolve {
 
  private:
   /// Makes error_ how far a change of c by the residual would move a free vertex; returns whether that is negligible.
-  [[nodiscard]] bool negligible(const Vertices& x, const Accuracy& accuracy);
+  [[nodiscard]] bool negligible(const Vertices& x, const Minimiser& minimiser);
   /// Replaces c by what is nearer, and moves x with it.
   void advance(Vertices& x);
 

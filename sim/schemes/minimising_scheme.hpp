@@ -34,14 +34,15 @@ class MinimisingScheme : public Scheme {
         objective_(system, duration),
         solver_(make_solver(objective_)),
         point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
-        free_(is_free(system)) {
+        free_(is_free(system)),
+        other_(point_) {
     if (!system.contacts.empty()) contact_.emplace(system);
     if (system.drag != nullptr) fields_.emplace(system, objective_);
   }
 
   /// Begins the objective of a step from a state under these forces, n×3 [N], and sets the point to where it is
   /// minimised, once and again until velocity fields do what they do there.
-  /// @param expected see begin_point()
+  /// @param expected see choose_point()
   /// @param begun    called whenever the objective has begun
   /// @param minimise minimises it from the point
   template <class Begun, class Minimise>
@@ -60,7 +61,7 @@ class MinimisingScheme : public Scheme {
     start(fields_->force_with(force));
     begin_point(from, expected);
     StepReport report = minimise();
-    while (fields_->improve(point_.x, solver_->accuracy())) {
+    while (fields_->improve(point_.x, *solver_)) {
       start(fields_->force_with(force));
       point_.value = objective_.evaluate(point_.x, point_.gradient);
       const StepReport again = minimise();
@@ -93,9 +94,26 @@ class MinimisingScheme : public Scheme {
   /// What the step that begins expects, and no other will, even if this one does not come to its end.
   Expected take_expected() { return std::exchange(expected_, {}); }
 
-  /// Sets the point to where a minimisation begins from a state: where an acceleration leads, or if null to the
-  /// objective's y, and from there to where the vertices go that nothing holds back.
+  /// Begins a step's minimisations at choose_point().
   void begin_point(const State& from, const Vertices* expected) {
+    choose_point(from, expected);
+    solver_->begin_step(point_);
+  }
+
+  const System& system_;
+  StepObjective objective_;
+  std::unique_ptr<Minimiser> solver_;
+  Iterate point_;
+  bool free_;                               // see is_free()
+  std::optional<FieldSolve> fields_;        // where there are velocity fields
+  std::optional<ContactSolver> contact_;    // where the cloth can touch something
+  std::optional<ImplicitProblem> problem_;  // of contact, once there is any
+
+ private:
+  /// Sets the point to where a minimisation begins from a state: where an acceleration leads, or if null to the
+  /// objective's y, and from there to where the vertices go that nothing holds back. One that stops at an error begins
+  /// where the forces of the start lead, if g is lower there: at rest that is the end.
+  void choose_point(const State& from, const Vertices* expected) {
     const double t = objective_.duration();
     const Vertices& held_back = from.restraint.acceleration;
     const bool held = expected == nullptr && held_back.rows() == from.x.rows();
@@ -111,19 +129,14 @@ class MinimisingScheme : public Scheme {
     }
     copy(system_.threads, objective_.y(), point_.x);
     point_.value = objective_.evaluate(point_.x, point_.gradient);
+    if (solver_->accuracy().rule != StoppingRule::error) return;
+    objective_.place_of_start_forces(other_.x, other_.gradient);
+    other_.value = objective_.evaluate(other_.x, other_.gradient);
+    if (other_.value < point_.value) std::swap(point_, other_);
   }
 
-  const System& system_;
-  StepObjective objective_;
-  std::unique_ptr<Minimiser> solver_;
-  Iterate point_;
-  bool free_;                               // see is_free()
-  std::optional<FieldSolve> fields_;        // where there are velocity fields
-  std::optional<ContactSolver> contact_;    // where the cloth can touch something
-  std::optional<ImplicitProblem> problem_;  // of contact, once there is any
-
- private:
   Expected expected_;
+  Iterate other_;  // than y, where a minimisation may begin
 };
 
 }  // namespace drape

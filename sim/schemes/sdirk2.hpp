@@ -39,7 +39,7 @@ class Sdirk2 final : public MinimisingScheme {
   void find_forces(const State& state, StepForces& forces);
   /// Of the second: as force_ they give the step what the weights δ and 1 − δ do.
   void find_second_forces(double time, StepForces& forces);
-  /// A step of backward Euler of γh seconds from stage_, which becomes its end; see begin_point().
+  /// A step of backward Euler of γh seconds from stage_, which becomes its end; see choose_point().
   void solve(double end, const Vertices* expected, StepReport& report);
 
   State stage_;

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double visible = 1e-4;     // of the cloth's size
 constexpr double tolerated = 0.003;  // of the way that forces move a vertex in a step
-constexpr double customary = 1e-3;   // for a rule that is given without a tolerance [m] or [N]: the homework's
+constexpr double share_of_forces = 0.05, share_of_way = 0.01;
+constexpr double customary = 1e-3;  // for a rule that is given without a tolerance [m] or [N]: the homework's
 
 double longest(const Vertices& v) { return v.rowwise().stableNorm().maxCoeff(); }
 
@@ -67,8 +68,17 @@ int default_iterations(const IntegratorSettings& settings, int otherwise) {
 Accuracy::Accuracy(const IntegratorSettings& settings, const System& system, const Eigen::VectorXd& inertia)
     : rule(rule_of(settings)),
       tolerance(settings.tolerance.value_or(customary)),
-      usual(!settings.tolerance && !settings.stop) {
+      usual(!settings.tolerance && rule == StoppingRule::error),
+      order(order_of({settings.method, settings.scheme})) {
   if (!settings.tolerance && rule == StoppingRule::error) tolerance = default_error(system, inertia);
+}
+
+double Accuracy::tolerance_at(const StepObjective& objective, const Vertices& x, double start_error) const {
+  if (!usual) return tolerance;
+  const auto [whole, by_forces] = objective.longest_way(x);
+  const double changed = start_error < by_forces ? std::pow(start_error / by_forces, order) : 1;
+  const double of_scheme = share_of_forces * changed * by_forces;
+  return std::max(std::min(of_scheme, share_of_way * whole), objective.error_rounding());
 }
 
 }  // namespace drape

@@ -23,6 +23,7 @@ Minimiser::Minimiser(const System& system, const StepObjective& objective, const
       objective_(objective),
       stop_(system.stop),
       accuracy_(settings, system, objective.inertia()),
+      tolerance_(accuracy_.tolerance),
       max_iterations_(settings.max_iterations.value_or(default_max_iterations)) {
   trial_.gradient = trial_.x = Vertices::Zero(objective.y().rows(), 3);
 }
@@ -73,16 +74,17 @@ bool Minimiser::balanced(const Iterate& point, double change) {
       break;
   }
   const double error = objective_.error_bound(point.gradient);
-  if (std::min(error, newton_error_) <= accuracy_.tolerance) return true;
+  tolerance_ = accuracy_.tolerance_at(objective_, point.x, start_error_);
+  if (std::min(error, newton_error_) <= tolerance_) return true;
   // Where rounding hides the error, small iterations, or no progress, are all that can be had.
   in_vain_ = error < least_error_ ? 0 : in_vain_ + 1;
   least_error_ = std::min(least_error_, error);
-  return (change <= accuracy_.tolerance || in_vain_ >= patience) && error <= objective_.error_rounding();
+  return (change <= tolerance_ || in_vain_ >= patience) && error <= objective_.error_rounding();
 }
 
 double Minimiser::error(const Iterate& point) {
   const double bound = objective_.error_bound(point.gradient), known = std::min(bound, newton_error_);
-  if (accuracy_.rule == StoppingRule::error && known <= accuracy_.tolerance) return known;
+  if (accuracy_.rule == StoppingRule::error && known <= tolerance_) return known;
   find_newton_step(point, trial_.x);
   return std::min(bound, trial_.x.rowwise().norm().maxCoeff());
 }

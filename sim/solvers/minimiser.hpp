@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 
 #include "sim/linear/constant_factor.hpp"
@@ -21,8 +22,8 @@ struct Iterate {
 enum class ImplicitHessian { newton, constant };
 
 /// Minimises the g of a step, StepObjective, over the free vertices. Solvers differ in the direction of an iteration;
-/// they share the stopping rule and the line search. Nothing is carried from one minimisation to the next, so that its
-/// result depends on g and on where it begins alone.
+/// they share the stopping rule and the line search. Nothing is carried from one step to the next, so that its result
+/// depends on g and on where it begins alone.
 class Minimiser {
  public:
   /// @param objective of every step, which must outlive this
@@ -32,6 +33,9 @@ class Minimiser {
   Minimiser(const Minimiser&) = delete;
   Minimiser& operator=(const Minimiser&) = delete;
 
+  /// Takes note of where a step begins, see Accuracy: its minimisations will depend on that, too.
+  void begin_step(const Iterate& point) { start_error_ = objective_.error_bound(point.gradient); }
+
   /// Moves the point, which has g's value and gradient already, until the stopping rule is met. No iteration raises g
   /// beyond rounding.
   /// @param may_end asked where an iteration changes little, whether the point will do
@@ -39,6 +43,8 @@ class Minimiser {
   StepReport minimise(Iterate& point, const std::function<bool()>& may_end);
 
   [[nodiscard]] const Accuracy& accuracy() const { return accuracy_; }
+  /// What the last minimisation might leave where it ended [m], or [N], see Accuracy::tolerance_at().
+  [[nodiscard]] double tolerance() const { return tolerance_; }
 
   /// How far the worst vertex is from the minimum, estimated where a minimisation has ended [m]: the error that it
   /// stopped at, or else Newton's step from there, which costs some iterations. Nothing of what comes after depends on
@@ -83,6 +89,8 @@ class Minimiser {
   std::unique_ptr<ConstantFactor> factor_;  // once it is asked for
   Stop stop_;
   Accuracy accuracy_;
+  double start_error_ = std::numeric_limits<double>::infinity();  // where the step began [m]
+  double tolerance_;                                              // of the point that was last looked at
   int max_iterations_;
   Iterate trial_;
   double least_error_ = 0;   // that a point of this minimisation had, where it stops at an error…

@@ -42,10 +42,9 @@ Vertices rows_of(const Vertices& all, const std::vector<int>& vertices) {
 
 }  // namespace
 
-PatchNewton::PatchNewton(const System& system, const StepObjective& objective, double tolerance)
+PatchNewton::PatchNewton(const System& system, const StepObjective& objective)
     : system_(system),
       objective_(objective),
-      tolerance_(tolerance),
       springs_at_(springs_at(system)),
       places_(at(system.cloth.vertex_count())),
       numbers_(places_.size()) {
@@ -68,12 +67,12 @@ void PatchNewton::surround(std::size_t first, Place place) {
   }
 }
 
-void PatchNewton::find_patches(const Vertices& gradient) {
+void PatchNewton::find_patches(const Vertices& gradient, double tolerance) {
   const Eigen::VectorXd& inertia = objective_.inertia();
   std::fill(places_.begin(), places_.end(), Place::outside);
   vertices_.clear();
   for (int i = 0; i < static_cast<int>(gradient.rows()); ++i) {
-    if (!(gradient.row(i).norm() > tolerance_ * inertia[i])) continue;
+    if (!(gradient.row(i).norm() > tolerance * inertia[i])) continue;
     places_[at(i)] = Place::inside;
     vertices_.push_back(i);
   }
@@ -115,8 +114,8 @@ Cloth PatchNewton::cut_out(const Vertices& x) {
   return cloth;
 }
 
-double PatchNewton::settle(Iterate& point, double share) {
-  find_patches(point.gradient);
+double PatchNewton::settle(Iterate& point, double share, double tolerance) {
+  find_patches(point.gradient, tolerance);
   const double most = std::min(most_vertices, share * static_cast<double>(places_.size()));
   if (inside_ == 0 || static_cast<double>(inside_) > most) return 0;
   const Cloth cloth = cut_out(point.x);
@@ -131,7 +130,7 @@ double PatchNewton::settle(Iterate& point, double share) {
   patch.value = objective.evaluate(patch.x, patch.gradient);
   IntegratorSettings settings;
   settings.stop = StoppingRule::error;
-  settings.tolerance = margin * tolerance_;
+  settings.tolerance = margin * tolerance;
   settings.max_iterations = patch_iterations;
   settings.linear_solver = LinearSolver::cholesky;
   try {

@@ -21,23 +21,23 @@ class PatchNewton {
   static constexpr double usual_share = 0.25;
 
   /// @param objective of every step, which must outlive this
-  /// @param tolerance of the error of a vertex [m]
   /// @throws UsageError if the usual share would not fit into memory
-  PatchNewton(const System& system, const StepObjective& objective, double tolerance);
+  PatchNewton(const System& system, const StepObjective& objective);
 
   /// Lowers g by moving the vertices of the patches, which have vertices above the tolerance and those around them. A
   /// function of the point and the objective alone.
   /// @param share of all vertices that may be in patches, and never more than 200 000 of them; where there are more
   ///              nothing is done
+  /// @param tolerance of the error of a vertex [m]
   /// @return how far they were moved [m], the 2-norm over all unknowns
-  double settle(Iterate& point, double share);
+  double settle(Iterate& point, double share, double tolerance);
 
  private:
   /// Of a vertex: outside of all patches, next to one, or in one.
   enum class Place : char { outside, rim, inside };
 
   /// Finds the patches, and their vertices with those of their rims.
-  void find_patches(const Vertices& gradient);
+  void find_patches(const Vertices& gradient, double tolerance);
   /// Appends all neighbours outside of the vertices from `first` on, which are then in that place.
   void surround(std::size_t first, Place place);
   /// The patches as a cloth whose pins are their rims, at rest at x.
@@ -45,7 +45,6 @@ class PatchNewton {
 
   const System& system_;
   const StepObjective& objective_;
-  double tolerance_;
   Incidence springs_at_;       // of each vertex, its springs
   std::vector<Place> places_;  // of all vertices
   std::vector<int> vertices_;  // inside and on rims, ascending

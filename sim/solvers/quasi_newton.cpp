@@ -27,7 +27,7 @@ QuasiNewton::QuasiNewton(const System& system, const StepObjective& objective, c
       direction_(preconditioned_) {
   looks_ = FreeVertices(system.cloth).count() >= large_cloth && accuracy().rule == StoppingRule::error;
   if (looks_ && system.energies.empty()) {
-    patches_.emplace(system, objective, accuracy().tolerance);
+    patches_.emplace(system, objective);
   }
 }
 
@@ -41,7 +41,7 @@ void QuasiNewton::start() {
 
 double QuasiNewton::settle_patches(Iterate& point) {
   if (!patches_ || wait_-- > 0) return 0;
-  const double change = patches_->settle(point, round_ == 0 ? PatchNewton::usual_share : next_share);
+  const double change = patches_->settle(point, round_ == 0 ? PatchNewton::usual_share : next_share, tolerance());
   if (change > 0) history_.clear();
   const bool again = change > 0 && ++round_ < most_rounds;
   wait_ = again ? 0 : between_patches;

@@ -117,23 +117,95 @@ TEST(RightByDefault, SoDoesOneOfAnIrregularMesh) {
   EXPECT_NEAR(-x.col(2).minCoeff(), catenary_sag(), 0.003 * catenary_sag());
 }
 
+TEST(RightByDefault, AtRestNothingIsOutOfBalance) {
+  const SimulationSettings settings = settling(strip_between_its_ends(strip_grid(40, 1)), 1e-3);
+  Simulation simulation(settings);
+  for (int step = 0; step < 500; ++step) simulation.step();
+  EXPECT_LT(simulation.unbalanced(), 0.01 * simulation.weight());
+  EXPECT_LT(simulation.state().v.cwiseAbs().maxCoeff(), 1e-3);
+}
+
 // --- A chain of springs.
 
-TEST(RightByDefault, EverySpringOfAChainIsLongerByTheWeightBelowItOverItsStiffness) {
-  constexpr int springs = 10;
-  constexpr double mass = 0.02, stiffness = 40;
+constexpr int links = 10;
+constexpr double link_mass = 0.02, link_stiffness = 40;
+
+/// How much longer a link of a hanging chain is by the weight below it.
+double longer(int link) { return (links - link) * link_mass * 9.8 / link_stiffness; }
+
+/// It hangs straight down, with its links stretched by this part of the weight below them.
+Cloth hanging_chain(double part) {
   Cloth chain;
-  chain.positions = chain.velocities = Vertices::Zero(springs + 1, 3);
-  for (int i = 0; i <= springs; ++i) chain.positions(i, 2) = -0.1 * i;
-  chain.masses.setConstant(springs + 1, mass);
-  for (int i = 0; i < springs; ++i) {
-    chain.springs.push_back({.i = i, .j = i + 1, .rest_length = 0.1, .stiffness = stiffness});
+  chain.positions = chain.velocities = Vertices::Zero(links + 1, 3);
+  chain.masses.setConstant(links + 1, link_mass);
+  for (int i = 0; i < links; ++i) {
+    chain.positions(i + 1, 2) = chain.positions(i, 2) - 0.1 - part * longer(i);
+    chain.springs.push_back({.i = i, .j = i + 1, .rest_length = 0.1, .stiffness = link_stiffness});
   }
   chain.pins = {0};
-  const Vertices x = end_of(settling(chain, 1e-3), 5);
-  for (int i = 0; i < springs; ++i) {
-    const double longer = (springs - i) * mass * 9.8 / stiffness;
-    EXPECT_NEAR(x(i, 2) - x(i + 1, 2) - 0.1, longer, 0.003 * longer) << "spring " << i;
+  return chain;
+}
+
+TEST(RightByDefault, EverySpringOfAChainIsLongerByTheWeightBelowItOverItsStiffness) {
+  const Vertices x = end_of(settling(hanging_chain(0), 1e-3), 5);
+  for (int i = 0; i < links; ++i) {
+    EXPECT_NEAR(x(i, 2) - x(i + 1, 2) - 0.1, longer(i), 0.003 * longer(i)) << "spring " << i;
+  }
+}
+
+// A tenth of a millimetre is no less of a motion than a metre: it swings as it would with a tight tolerance.
+TEST(RightByDefault, ASmallSwingIsAsRightAsALargeOne) {
+  for (const TimeScheme scheme : {TimeScheme::backward_euler, TimeScheme::sdirk2}) {
+    for (const double step : {0.01, 0.005}) {
+      SimulationSettings settings = settling(hanging_chain(1), 1);
+      settings.effects = {Gravity{}};
+      settings.integrator.scheme = scheme;
+      settings.step = step;
+      // About the second mode: it crosses the vertical at seven tenths.
+      constexpr double amplitude = 1e-4;
+      for (int i = 1; i <= links; ++i) {
+        settings.cloth.positions(i, 0) = amplitude * std::sin(1.4 * std::numbers::pi * i / links);
+      }
+      SimulationSettings exact = tightly(settings);
+      exact.integrator.scheme = scheme;
+      exact.integrator.tolerance = 1e-12;
+      constexpr double seconds = 1;
+      const double apart = (end_of(settings, seconds) - end_of(exact, seconds)).rowwise().norm().maxCoeff();
+      EXPECT_LT(apart, 0.02 * amplitude) << "in steps of " << step;
+      EXPECT_GT(end_of(exact, seconds).col(0).cwiseAbs().maxCoeff(), 0.1 * amplitude);
+    }
+  }
+}
+
+// --- A cloth that falls while two corners hold it.
+
+// The solve takes a tenth of the scheme's own error, and falls with it: no shorter step makes anything worse.
+TEST(RightByDefault, AShorterStepIsMoreAccurate) {
+  SimulationSettings settings = settling(cloth_of(make_grid(10, 10), 1, 180, {0, 10}), 1);
+  settings.effects = {Gravity{}};
+  constexpr double seconds = 0.4;
+  SimulationSettings exact = settings;
+  exact.integrator.method = Method::verlet;
+  exact.step = 0.02 / 512;
+  const Vertices reference = end_of(exact, seconds);
+  for (const Method method : {Method::quasi_newton, Method::implicit}) {
+    for (const TimeScheme scheme : {TimeScheme::backward_euler, TimeScheme::sdirk2}) {
+      const double ratio = scheme == TimeScheme::sdirk2 ? 2.8 : 1.4;  // 2 and 4 in the limit; measured 1.5 and 3.2
+      double longer_error = 0;
+      for (const double step : {0.02, 0.01, 0.005, 0.0025}) {
+        settings.integrator = {.method = method, .scheme = scheme};
+        settings.step = step;
+        const Vertices end = end_of(settings, seconds);
+        const double error = (end - reference).rowwise().norm().maxCoeff();
+        if (longer_error > 0) {
+          EXPECT_LT(ratio * error, longer_error) << "in steps of " << step;
+        }
+        longer_error = error;
+        exact = tightly(settings);
+        exact.integrator.scheme = scheme;
+        EXPECT_LT((end - end_of(exact, seconds)).rowwise().norm().maxCoeff(), 0.15 * error) << "in steps of " << step;
+      }
+    }
   }
 }
 
@@ -149,7 +221,7 @@ TEST(RightByDefault, AClampedStripBendsAsFarAsWithATightTolerance) {
   settings.effects.add(Bending{.rigidity = 1e-6});
   const double tip = end_of(settings, 2)(62, 2), expected = end_of(tightly(settings), 2)(62, 2);
   EXPECT_LT(expected, -0.05);
-  EXPECT_NEAR(tip, expected, 0.02 * std::abs(expected));
+  EXPECT_NEAR(tip, expected, 0.003 * std::abs(expected));
 }
 
 // --- A disc on a smaller one, as in Cusick's test of how a fabric drapes.
@@ -207,7 +279,7 @@ TEST(RightByDefault, ADiscDrapesAsFarAsWithATightTolerance) {
   const double expected = drape_coefficient(end_of(tightly(settings), 2), rings);
   EXPECT_GT(expected, 0.1);
   EXPECT_LT(expected, 0.9);
-  EXPECT_NEAR(drapes, expected, 0.02);
+  EXPECT_NEAR(drapes, expected, 0.003);
 }
 
 }  // namespace

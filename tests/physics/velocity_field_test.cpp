@@ -115,6 +115,8 @@ TEST_P(VelocityField, WhatCannotGiveEnergyGivesNone) {
           setup(cloth_of(make_grid(6, 6), 0.3, stiffness, {0}), GetParam(), GetParam().is_explicit() ? 0.001 : 0.02);
       settings.integrator.stop.reset();
       settings.integrator.tolerance.reset();
+      // By default liu13 takes 100, which are too few for springs so stiff, with a field or without.
+      if (GetParam().method == Method::liu13) settings.integrator.max_iterations = 2000;
       settings.cloth.velocities = random_vertices(settings.cloth.vertex_count(), 5);
       settings.effects = {Field{.acceleration = field, .stiffness_bound = 1}};
       const double explicit_limit = BlowUpWatch::limit(settings.step / safe_step(make_system(settings)));
@@ -129,9 +131,7 @@ TEST_P(VelocityField, WhatCannotGiveEnergyGivesNone) {
         const double most = kept * (start.kinetic + start.elastic);
         ASSERT_LE(now.kinetic + now.elastic, most) << field[0] << ", k = " << stiffness << ", step " << i;
       }
-      // liu13's 100 iterations are too few for springs so stiff, with a field or without.
-      const bool too_stiff = GetParam().method == Method::liu13 && stiffness > 5;
-      EXPECT_LE(left, too_stiff ? 40 : 5) << field[0] << ", k = " << stiffness;
+      EXPECT_LE(left, 5) << field[0] << ", k = " << stiffness;
     }
   }
 }

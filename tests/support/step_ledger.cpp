@@ -5,6 +5,7 @@
 
 #include "sim/make_system.hpp"
 #include "sim/solvers/accuracy.hpp"
+#include "sim/stability.hpp"
 
 namespace drape::test {
 namespace {
@@ -119,12 +120,27 @@ StepBalance StepLedger::balance(const State& before, const State& after) const {
       8 * unit * std::sqrt(squared(reach, masses_) * squared(after.x.cast<Real>() - y, masses_)) / (h * h);
   // The momentum of a cloth that nothing holds is kept by sums over all vertices, which round more.
   b.kinetic_rounding = 128 * unit * std::sqrt(squared(reach, masses_) * squared(change, masses_)) / (h * h);
-  b.tolerated = tolerated(b, f, change);
+  b.tolerated = tolerated(b, f, change, tolerance(before, after));
   if (!system_.all_internal()) b.pushed = std::max(Real(0), -b.convexity_loss);
   return b;
 }
 
-Real StepLedger::tolerated(const StepBalance& b, const RealVertices& force, const RealVertices& change) const {
+Real StepLedger::tolerance(const State& before, const State& after) const {
+  const Accuracy accuracy(settings_.integrator, system_, system_.inertia(settings_.step));
+  if (!accuracy.usual) return accuracy.tolerance;
+  Real whole = 0, by_forces = 0;
+  for (Eigen::Index i = 0; i < before.x.rows(); ++i) {
+    const Eigen::Matrix<Real, 1, 3> way = after.x.row(i).cast<Real>() - before.x.row(i).cast<Real>();
+    if (masses_[i] == 0) continue;
+    whole = std::max(whole, way.norm());
+    by_forces = std::max(by_forces, (way - settings_.step * before.v.row(i).cast<Real>()).norm());
+  }
+  const Real rounding = 64 * unit * condition_bound(system_) * aim(before).cwiseAbs().maxCoeff();
+  return std::max(std::min(by_forces / 20, whole / 100), rounding);
+}
+
+Real StepLedger::tolerated(const StepBalance& b, const RealVertices& force, const RealVertices& change,
+                           Real tolerance) const {
   Real way = 0, push = 0;
   for (Eigen::Index i = 0; i < change.rows(); ++i) {
     if (masses_[i] == 0) continue;
@@ -132,10 +148,10 @@ Real StepLedger::tolerated(const StepBalance& b, const RealVertices& force, cons
     push += force.row(i).squaredNorm() / masses_[i];
   }
   const Accuracy accuracy(settings_.integrator, system_, system_.inertia(settings_.step));
-  if (accuracy.rule == StoppingRule::gradient) return accuracy.tolerance * std::sqrt(way);
+  if (accuracy.rule == StoppingRule::gradient) return tolerance * std::sqrt(way);
   if (accuracy.rule == StoppingRule::error) {
-    const Real error = accuracy.tolerance, h = settings_.step;
-    return error * masses_.dot(change.rowwise().norm()) / (h * h);
+    const Real h = settings_.step;
+    return tolerance * masses_.dot(change.rowwise().norm()) / (h * h);
   }
   const Real most = settings_.step * std::sqrt(push) * std::sqrt(2 * b.kinetic_after);
   return std::min(most / 10, std::max(b.inertial_loss, -b.work));

@@ -57,6 +57,9 @@ class StepLedger {
   /// |f·Δx|, what the forces did in a step of an explicit method, which evaluates them where the cloth is after this
   /// part of the step by its first velocity [J].
   [[nodiscard]] Real work_at(double part, const State& before, const State& after) const;
+  /// What the solve of a step might leave, an error [m] or a force [N], by the rule that [integrator] has: computed
+  /// here from where the step began and ended.
+  [[nodiscard]] Real tolerance(const State& before, const State& after) const;
   /// What rounding leaves of the energy of a cloth at rest, ε Σ k L² [J].
   [[nodiscard]] Real resting_energy() const;
 
@@ -68,7 +71,8 @@ class StepLedger {
   [[nodiscard]] Value value_of(const Vertices& x, double time) const;
   [[nodiscard]] RealVertices force(const State& state, double part = 0) const;
   [[nodiscard]] RealVertices aim(const State& before) const;
-  [[nodiscard]] Real tolerated(const StepBalance& b, const RealVertices& force, const RealVertices& change) const;
+  [[nodiscard]] Real tolerated(const StepBalance& b, const RealVertices& force, const RealVertices& change,
+                               Real tolerance) const;
 
   const SimulationSettings& settings_;
   System system_;

@@ -84,9 +84,9 @@ TEST(PatchNewton, BringsAStrayVertexBackAndLeavesTheRestAlone) {
   point = step.at(point.x);
   const Vertices before = point.x;
   const double height = point.value;
-  PatchNewton patches(step.system, step.objective, tolerance);
-  double moved = patches.settle(point, 1);
-  for (int round = 1; round < 4; ++round) moved += patches.settle(point, 1);
+  PatchNewton patches(step.system, step.objective);
+  double moved = patches.settle(point, 1, tolerance);
+  for (int round = 1; round < 4; ++round) moved += patches.settle(point, 1, tolerance);
   EXPECT_GT(moved, 0.02);
   EXPECT_LT(point.value, height);
   EXPECT_EQ(point.value, step.at(point.x).value);
@@ -103,14 +103,14 @@ TEST(PatchNewton, BringsAStrayVertexBackAndLeavesTheRestAlone) {
 
 TEST(PatchNewton, MovesNothingWhereTooMuchOrNothingIsAboveTheTolerance) {
   const FirstStep step(20);
-  PatchNewton patches(step.system, step.objective, tolerance);
+  PatchNewton patches(step.system, step.objective);
   Iterate far = step.at(step.cloth.positions + 0.1 * random_vertices(step.cloth.vertex_count(), 1));
   const Vertices before = far.x;
-  EXPECT_EQ(patches.settle(far, 0.5), 0);
+  EXPECT_EQ(patches.settle(far, 0.5, tolerance), 0);
   EXPECT_TRUE(same_bits(far.x, before));
   Iterate there = step.solved<Newton>(1e-7);
   const Vertices minimum = there.x;
-  EXPECT_EQ(patches.settle(there, 1), 0);
+  EXPECT_EQ(patches.settle(there, 1, tolerance), 0);
   EXPECT_TRUE(same_bits(there.x, minimum));
 }
 
