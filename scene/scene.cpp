@@ -65,6 +65,11 @@ class Checks {
                       "the two",
                       key));
     }
+    const bool given = find_path(document_, "integrator.scheme") != nullptr;
+    if (given && scene_.simulation.integrator.scheme == TimeScheme::backward_euler) {
+      add("integrator", "scheme",
+          "scheme: an accuracy in [time] is reached with \"sdirk2\": omit \"backward-euler\", or the accuracy");
+    }
   }
 
   /// Of the whole simulation, once nothing else is wrong with it.
@@ -244,6 +249,9 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
     checks.scheme();
     checks.stopping_rule();
     if (reader.good("time")) checks.accuracy();
+    // An accuracy is reached by schemes of second order, see SubstepScheme.
+    IntegratorSettings& integrator = scene.simulation.integrator;
+    if (scene.simulation.accuracy && !is_explicit(integrator.method)) integrator.scheme = TimeScheme::sdirk2;
   }
   if (reader.good("camera")) checks.camera();
   if (reader.good("look")) checks.samples();

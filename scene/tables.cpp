@@ -62,7 +62,8 @@ Keys time_keys(Scene& scene) {
   keys.add("step", &scene.simulation.step, "s", "Length of a time step.").above(0);
   keys.add("accuracy", &scene.simulation.accuracy, "m",
            "Limit on the error that a step may add to any vertex. Each step is cut into as many equal substeps as "
-           "needed, and `tolerance` and `stop` follow from it, see [accuracy.md](accuracy.md#asking-for-an-accuracy).")
+           "needed, of velocity Verlet or SDIRK2; `scheme`, `tolerance` and `stop` follow from it, see "
+           "[accuracy.md](accuracy.md#asking-for-an-accuracy).")
       .above(0);
   keys.add("duration", &scene.duration, "s", "Length of the scene, rounded to whole steps.").at_least(0);
   return keys;
@@ -82,9 +83,10 @@ Keys integrator_keys(IntegratorSettings& integrator) {
               "(m), the norm of the unbalanced force (N), or the estimated distance of the worst vertex from the exact "
               "solution (m, see [accuracy.md](accuracy.md#stopping-at-an-error)). Default: change if a `tolerance` is "
               "given, otherwise error. Implicit methods only, like the next two keys.");
-  keys.add("tolerance", &integrator.tolerance, "m or N",
-           "See `stop`. Default: 1e-3 for change and gradient; for error a tenth of the error that the time step itself "
-           "makes, estimated in every step, see [accuracy.md](accuracy.md#the-default-tolerance).")
+  keys.add(
+          "tolerance", &integrator.tolerance, "m or N",
+          "See `stop`. Default: 1e-3 for change and gradient; for error a tenth of the error that the time step itself "
+          "makes, estimated in every step, see [accuracy.md](accuracy.md#the-default-tolerance).")
       .above(0);
   keys.add("max_iterations", &integrator.max_iterations, "",
            "Limit on the iterations of a step. Default: 20 for implicit, 100 for liu13, 500 for quasi-newton; 2000 for "

@@ -100,7 +100,7 @@ struct SimulationSettings {
   Cloth cloth = {};
   double step = 0.01;  ///< h [s]
   std::optional<double> accuracy =
-      {};  ///< the most that a step may add to the error of a vertex [m], see SubstepScheme
+      {};  ///< the most that a step may add to the error of a vertex [m], see SubstepScheme: it chooses the time scheme
   IntegratorSettings integrator = {};
   Effects effects = {};
   int threads = 1;  ///< that share a step where the cloth is large; the motion has the same bits with any number

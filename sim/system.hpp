@@ -150,6 +150,8 @@ struct ColliderMotion {
 struct System {
   const Cloth& cloth;
   double step;                                        ///< h [s]
+  double whole_step;                                  ///< that h is a part of [s]…
+  std::int64_t substeps = 1;                          ///< …which has so many of them
   Stop stop = {};                                     ///< of everything that computes with it
   const Threads& threads;                             ///< that share what is worth dividing
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²], for the log's gravity column only
@@ -171,7 +173,7 @@ struct System {
   std::vector<PinRelease> pin_releases;  ///< a simulation makes its system anew, without these pins, when it gets there
 
   System(const Cloth& c, double h, const Threads& by = one_thread())
-      : cloth(c), step(h), threads(by), springs(c.springs) {}
+      : cloth(c), step(h), whole_step(h), threads(by), springs(c.springs) {}
 
   /// What no Hessian of the springs and the energies exceeds: the springs, then the energies one after another.
   [[nodiscard]] StiffnessBound stiffness_bound() const;
@@ -187,7 +189,10 @@ struct System {
   [[nodiscard]] bool only_loses_energy() const;
 
   /// When a step begins, and so the one before it ends [s]: never a running sum.
-  [[nodiscard]] double time(std::int64_t number) const { return static_cast<double>(number) * step; }
+  [[nodiscard]] double time(std::int64_t number) const {
+    const std::int64_t whole = number / substeps, part = number % substeps;
+    return static_cast<double>(whole) * whole_step + static_cast<double>(part) * step;
+  }
 
   /// m/τ² of every vertex [N/m], the inertia that holds it in an implicit step of τ seconds.
   [[nodiscard]] Eigen::VectorXd inertia(double duration) const { return cloth.masses / (duration * duration); }

@@ -65,7 +65,7 @@ std::unique_ptr<Scheme> make_scheme(const SimulationSettings& settings, const Sy
                                     const StabilityGuard& guard,
                                     const std::function<System(double step)>& make_system) {
   if (!settings.accuracy) return method_type(settings.integrator.method).make(settings.integrator, system);
-  const int fewest = SubstepGuard::fewest_halvings(settings.step, guard.longest_step());
+  const std::int64_t fewest = SubstepGuard::fewest_substeps(settings.step, guard.longest_step());
   return std::make_unique<SubstepScheme>(settings, fewest, make_system);
 }
 

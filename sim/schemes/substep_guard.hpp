@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "sim/schemes/stability_guard.hpp"
@@ -11,13 +12,13 @@ namespace drape {
 class SubstepGuard final : public StabilityGuard {
  public:
   /// More than 2^20 substeps are not begun with.
-  static constexpr int most_halvings = 20;
+  static constexpr double most_substeps = 1 << 20;
 
   /// @param guard of the scheme @param step that is cut [s]
   SubstepGuard(std::unique_ptr<StabilityGuard> guard, double step);
 
-  /// How often a step has to be cut in two until it is no longer than another [s]; no more often than is allowed.
-  static int fewest_halvings(double step, double longest);
+  /// Into how many substeps a step has to be cut until they are no longer than another [s]; no more than are allowed.
+  static std::int64_t fewest_substeps(double step, double longest);
 
   [[nodiscard]] std::optional<std::string> problem() const override;
   [[nodiscard]] double longest_step() const override { return guard_->longest_step(); }

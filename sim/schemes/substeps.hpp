@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -10,56 +11,43 @@
 
 namespace drape {
 
-/// Cuts each step into 2^k equal substeps of another scheme, with the smallest k that it finds for which no vertex ends
-/// further than an accuracy from where it would without error of time stepping and solve.
+/// Cuts each step into equal substeps of a scheme of second order, with the smallest number that it finds for which no
+/// vertex ends further than an accuracy from where it would without error of time stepping and solve. The scheme is
+/// velocity Verlet's for explicit methods, and SDIRK2 for implicit ones.
 ///
-/// **The error** is estimated by a second motion beside it, of second order and in substeps four times as long
-/// (Verlet's where the scheme is explicit, SDIRK2's solved by quasi-Newton where it is implicit, which is the fastest
-/// with long steps). Beside a scheme of first order that is a pair of two orders: the longer substeps do far less wrong
-/// than the shorter ones, and the two part by what these do. A scheme of second order is its own pair: the two part by
-/// 4^p − 1 times what the shorter ones do wrong, where p is between 1 (very stiff springs) and 2; 9 is taken for that.
-/// Both motions advance together, so one that parts too soon is given up where it does.
+/// **The error** is estimated by a second motion beside it, of the same scheme in half as many substeps (solved by
+/// quasi-Newton where it is implicit, which is the fastest with long steps). With order p the two part by 2^p − 1 times
+/// what the shorter substeps do wrong: three times by Verlet's; SDIRK2 has an order between 2 and 1 where springs are
+/// stiff, and 1/0.7 is taken. Accepted is what is four fifths of the accuracy. Both motions advance together, so one
+/// that parts too soon is given up where it does.
 ///
-/// **Where the step ends**: half way between the two, where the scheme is backward Euler and nothing filters the
-/// motion. That takes half of the error away, and half of the distance is what is left. Both motions damp what swings
-/// (of a linear cloth neither gains energy), and so does their mean. Elsewhere a step ends where the shorter substeps
-/// do, and the whole distance is the error: a mean of two explicit motions, which damp nothing, may grow where springs
-/// swing in time with the substeps, and what filters have kept apart may be too near half way between.
-///
-/// **Semi-implicit Euler** loses half of its error in another way, and without an evaluation of forces. Kicks and
-/// drifts of h each are velocity Verlet's position form, but for half a substep of drifting that is missing before the
-/// first kick and too much after the last. So a step drifts a quarter of a substep before its substeps, and as much
-/// back after them (where nothing filters the motion). A drift is symplectic, and so is the step; on each frequency it
-/// is stable where semi-implicit Euler is, since it is the same but for where on the drift it begins and ends.
-///
-/// **k** follows from the state alone. What the first of the longer substeps of some k does, in proportion to the step,
-/// says with which k to begin; where that is not accurate enough, what has parted by then says with which to go on. The
-/// cap is 2^12 substeps; a step that needs more ends with these and has not converged. liu13 begins with more than it
-/// needs where shorter substeps are the cheaper ones. Semi-implicit Euler with twice the fewest substeps or more has
-/// eight of them beside a longer one.
+/// **The number** is even, and follows from the state alone. What the first two of the shorter substeps of some number
+/// do, in proportion to the step, says with which number to begin; where that is not accurate enough, what has parted
+/// by then says with which to go on. An implicit scheme takes 4, 6, 8, 12, 16 …, so that factors can be kept, since
+/// fewer do not show what stiff springs do. The cap is 4096 substeps; a step that needs more ends with these and has
+/// not converged. liu13 begins with more than it needs where shorter substeps are the cheaper ones.
 ///
 /// **The solve**: a residual force r on a vertex that is the same in every substep moves it by r/m·h²/2 in the step,
-/// whatever k. The tolerance of each solve allows a tenth of the accuracy for that (a fifth, where half of it is taken
-/// away), less than what an estimate has to show; but no more than ten times the error that is its default, 3 % of the
-/// weight: where steps are short, hardly anything would be solved otherwise.
+/// whatever the number. The tolerance of each solve allows a twentieth of the accuracy for that; but no more than ten
+/// times 0.3 % of the weight: where steps are short, hardly anything would be solved otherwise.
 ///
 /// A solve begins where the acceleration of the substep before leads, and one of the longer ones where those beside it
 /// do: that takes half of the iterations.
 ///
-/// A substep is a step of a system of its own, whose time is the same number (number·2^k)·(h·2^−k). So pins, colliders,
-/// corrections and filters act in every substep as they do in a step; which vertices are pinned is the step's affair.
+/// A substep is a step of a system of its own, in which pins, colliders, corrections and filters act as they do in a
+/// step; which vertices are pinned is the step's affair.
 class SubstepScheme final : public Scheme {
  public:
   /// What acts on the cloth, with steps of another length [s].
   using MakeSystem = std::function<System(double step)>;
 
-  /// How often a step is cut in two at most, unless stability asks for more.
-  static constexpr int most_halvings = 12;
+  /// Into how many substeps a step is cut at most, unless stability asks for more.
+  static constexpr std::int64_t most_substeps = 4096;
 
   /// @param settings whose accuracy is given
-  /// @param fewest_halvings with which the inner scheme is stable, see SubstepGuard
+  /// @param fewest_stable substeps with which the inner scheme is stable, see SubstepGuard
   /// @throws UsageError as MethodType::make does
-  SubstepScheme(const SimulationSettings& settings, int fewest_halvings, MakeSystem make_system);
+  SubstepScheme(const SimulationSettings& settings, std::int64_t fewest_stable, MakeSystem make_system);
   ~SubstepScheme() override;
 
   /// Of the report's iterations, those of all attempts are counted.
@@ -75,19 +63,18 @@ class SubstepScheme final : public Scheme {
   struct Motion;
   class Attempt;
 
-  /// The attempt with 2^k substeps. Some are kept, because each has its factors.
-  Attempt& attempt(int halvings, const State& start);
-  /// How many halvings the longer substeps have less.
-  [[nodiscard]] int gap_for(int halvings) const;
-  /// With how many halvings to go on when the estimate with so many is this.
-  [[nodiscard]] int halvings_for(double estimate, int halvings) const;
+  /// The attempt with so many substeps. Some are kept, because each has its factors.
+  Attempt& attempt(std::int64_t substeps, const State& start);
+  /// The least number from there on that is tried.
+  [[nodiscard]] std::int64_t worthwhile(std::int64_t substeps) const;
+  /// With how many to go on when the estimate with so many is this.
+  [[nodiscard]] std::int64_t substeps_for(double estimate, std::int64_t substeps) const;
 
   double step_, accuracy_;  // [s], [m]
   IntegratorSettings integrator_;
   MakeSystem make_system_;
-  int order_;
-  double acceleration_;        // that the solves may leave out [m/s²]
-  int fewest_, most_, first_;  // halvings of the shorter substeps: of the attempts, and to look with
+  double acceleration_;                            // that the solves may leave out [m/s²]
+  std::int64_t fewest_, most_ = 0, first_ = 0;     // substeps of the shorter motion: of attempts, and to look with
   std::deque<std::unique_ptr<Attempt>> attempts_;  // the last used first
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/step_objective.hpp"
 #include "sim/system.hpp"
 
 namespace drape {

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "sim/settings.hpp"
-#include "sim/step_objective.hpp"
 
 namespace drape {
 
+class StepObjective;
 struct System;
 
 /// When a step is accurate enough: what [integrator] says, and what holds where it does not.

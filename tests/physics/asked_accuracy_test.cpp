@@ -64,7 +64,7 @@ TEST_P(AskedAccuracy, TheErrorFallsWithIt) {
     errors.push_back(error);
   }
   // The steps that are safe, or cheapest, may be more accurate than is asked.
-  EXPECT_LE(errors[1], errors[0]);
+  EXPECT_LE(errors[1], 1.1 * errors[0]);
   EXPECT_LE(errors[2], std::max(0.2 * errors[0], steps * 1e-4));
 }
 
@@ -124,31 +124,27 @@ TEST_P(AskedAccuracy, PinsMoveThroughTheSubstepsAndAreReleasedInTheirStep) {
   EXPECT_EQ(simulation.cloth().pins, std::vector{0});
 }
 
-// In free fall, where Euler's steps of h are g·h/2 too fast (backward, and at first semi-implicit), schemes of second
-// order do nothing wrong.
-TEST_P(AskedAccuracy, AFallingClothKnowsItsErrorExactly) {
+// Schemes of second order do nothing wrong in free fall, where Euler's are g·h/2 too fast.
+TEST_P(AskedAccuracy, AClothFallsWithoutError) {
   SimulationSettings settings = swinging(GetParam(), 0.02);
   settings.cloth.pins.clear();
   Simulation simulation(settings);
   const double start = settings.cloth.positions(0, 2);
   const StepReport report = simulation.step();
   const double fallen = start - simulation.state().x(0, 2), error = fallen - 0.5 * 9.8 * h * h;
-  const double of_euler = 0.5 * 9.8 * h * h / static_cast<double>(report.substeps);
-  // Half of it is taken away.
-  const double expected = GetParam().second_order() ? 0 : of_euler / 2;
-  EXPECT_NEAR(error, expected, 1e-6 * h * h);
-  EXPECT_NEAR(*report.estimate, expected, 1e-6 * h * h);
+  EXPECT_NEAR(error, 0, 1e-6 * h * h);
+  EXPECT_NEAR(*report.estimate, 0, 1e-6 * h * h);
 }
 
 // A residual force on a vertex that is the same in every substep of h/n moves it by its tolerance·n²/2 in the step.
-TEST_P(AskedAccuracy, TheSolvesLeaveOutAFifthOfItAtMost) {
+TEST_P(AskedAccuracy, TheSolvesLeaveOutATwentiethOfItAtMost) {
   if (GetParam().is_explicit()) GTEST_SKIP() << "nothing is solved";
   for (const double accuracy : {1e-3, 1e-5, 1e-7}) {
     Simulation simulation(swinging(GetParam(), accuracy));
     const StepReport report = simulation.step();
     const double tolerance = simulation.accuracy().value().tolerance, n = static_cast<double>(report.substeps);
-    const double solved = GetParam().second_order() ? 1 - std::sqrt(0.5) : 1;  // of a substep at once: SDIRK2's stages
-    EXPECT_LE(tolerance * n * n / (2 * solved * solved), 0.2 * accuracy * (1 + 1e-9)) << accuracy;
+    const double solved = 1 - std::sqrt(0.5);  // of a substep at once: SDIRK2's stages
+    EXPECT_LE(tolerance * n * n / (2 * solved * solved), 0.05 * accuracy * (1 + 1e-9)) << accuracy;
   }
 }
 
@@ -226,7 +222,7 @@ TEST_P(AskedExplicitly, AStepBeyondTheSafeOneRuns) {
   Simulation simulation(settings);
   for (int i = 0; i < 10; ++i) {
     const StepReport report = simulation.step();
-    EXPECT_LE(4 * h / static_cast<double>(report.substeps), safe);  // those beside it are four times as long
+    EXPECT_LE(2 * h / static_cast<double>(report.substeps), safe);  // those beside it are twice as long
     EXPECT_TRUE(report.converged);
   }
   settings.accuracy.reset();
