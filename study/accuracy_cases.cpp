@@ -55,6 +55,12 @@ StudyCase by_default(const std::string& file, const AccuracyOptions& options, St
   return what;
 }
 
+/// Asks for an accuracy, which is reached by schemes of second order, whatever the scheme of the fixed steps beside it.
+void ask(StudyCase& what, StepMethod method, double accuracy) {
+  if (!is_explicit(method.method)) what.overrides.push_back("integrator.scheme=" + scheme_name(TimeScheme::sdirk2));
+  what.overrides.push_back("time.accuracy=" + plain_number(accuracy));
+}
+
 void add_tolerance_cases(AccuracyCases& cases, const Scene& scene, const std::string& file,
                          const AccuracyOptions& options, StepMethod method) {
   for (const double tolerance : options.tolerances) {
@@ -91,7 +97,7 @@ void add_asked_case(AccuracyCases& cases, const Scene& scene, const std::string&
                     StepMethod method, double accuracy) {
   StudyCase what =
       by_default(file, options, method, fmt::format("{}, accuracy = {:g} m", step_method_name(method), accuracy));
-  what.overrides.push_back("time.accuracy=" + plain_number(accuracy));
+  ask(what, method, accuracy);
   what.steps = steps_until(options.times.front(), scene.simulation.step);
   what.watched_steps = steps_until(options.times.back(), scene.simulation.step);
   cases.asked.push_back({method, accuracy, std::move(what)});
@@ -104,7 +110,7 @@ void leave_out_methods(const Scene& scene, const std::string& file, AccuracyOpti
   const std::vector<StepMethod> given = options.methods;
   std::erase_if(options.methods, [&](StepMethod method) {
     StudyCase what = by_default(file, options, method, "");
-    what.overrides.emplace_back("time.accuracy=1");  // so no step is refused for its length
+    ask(what, method, 1);  // so no step is refused for its length
     try {
       static_cast<void>(what.load());
       return false;
