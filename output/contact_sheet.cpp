@@ -46,9 +46,11 @@ Image ContactSheet::labelled(Image picture, double time) {
   return picture;
 }
 
+bool ContactSheet::needs(int index) const { return is_spread(index, expected_frames_, grid_.columns * grid_.rows); }
+
 void ContactSheet::add(const Image& image) {
   const int index = added_++;
-  if (!is_spread(index, expected_frames_, grid_.columns * grid_.rows)) return;
+  if (!needs(index)) return;
   if (!pictures_.empty() && pictures_.front().width != image.width) {
     throw std::invalid_argument("the frames of a film must have one size");
   }

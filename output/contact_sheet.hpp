@@ -19,6 +19,8 @@ class ContactSheet final : public Encoder {
   ContactSheet(std::filesystem::path file, const FilmInfo& film);
 
   void add(const Image& image) override;
+  [[nodiscard]] bool needs(int index) const override;
+  void skip() override { ++added_; }
   std::vector<OutputFile> finish(Ending ending) override;
 
  private:

@@ -40,12 +40,14 @@ class FrameFiles final : public Sink<Item> {
 template <class Item>
 class LastFrameFile final : public Sink<Item> {
  public:
-  LastFrameFile(std::filesystem::path file, std::function<std::string(const Item&)> bytes)
-      : file_(std::move(file)), bytes_(std::move(bytes)) {
+  /// @param last number of the last frame, from 0
+  LastFrameFile(std::filesystem::path file, int last, std::function<std::string(const Item&)> bytes)
+      : file_(std::move(file)), last_index_(last), bytes_(std::move(bytes)) {
     const PartialFile writable(file_);  // or it throws
   }
 
   void add(const Item& item) override { last_ = item; }
+  [[nodiscard]] bool needs(int index) const override { return index >= last_index_; }
 
   std::vector<OutputFile> finish(Ending ending) override {
     if (!last_) return {};
@@ -57,6 +59,7 @@ class LastFrameFile final : public Sink<Item> {
 
  private:
   std::filesystem::path file_;
+  int last_index_;
   std::function<std::string(const Item&)> bytes_;
   std::optional<Item> last_;
 };

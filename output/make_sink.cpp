@@ -31,7 +31,7 @@ struct AtFile {
   }
   template <class Item>
   AnySink operator()(const FrameMaker<Item>& make) const {
-    return std::make_unique<LastFrameFile<Item>>(file, make(film));
+    return std::make_unique<LastFrameFile<Item>>(file, film.expected_frames - 1, make(film));
   }
   AnySink operator()(const OfSteps&) const { throw std::logic_error("a run writes its steps itself"); }
 };

@@ -32,6 +32,12 @@ class Sink {
   /// @throws std::invalid_argument if it is an image of another size than the first one
   virtual void add(const Item& item) = 0;
 
+  /// Whether it needs the film's frame with this number, where the first that is added has 0. One that it does not need
+  /// may be skipped, unless it becomes the last because the film ends early.
+  [[nodiscard]] virtual bool needs(int /*index*/) const { return true; }
+  /// The next frame, which it does not need.
+  virtual void skip() {}
+
   /// Completes the files with the frames added up to now. Call it once, as the last thing.
   /// @param ending  early: frames are missing, so that the film goes to its partial_name(); the files of a sequence
   /// keep

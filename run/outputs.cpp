@@ -14,9 +14,7 @@ namespace drape {
 namespace {
 
 /// Hands over what a sink takes.
-void add_to(Encoder& encoder, const FilmFrame& frame) {
-  if (frame.image) encoder.add(*frame.image);
-}
+void add_to(Encoder& encoder, const FilmFrame& frame) { frame.image ? encoder.add(*frame.image) : encoder.skip(); }
 void add_to(MotionWriter& writer, const FilmFrame& frame) { writer.add(frame.frame); }
 
 }  // namespace
@@ -80,6 +78,13 @@ void require_texture(const Scene& scene, int largest) {
 
 Outputs::Outputs(const std::vector<std::string>& paths, const FilmInfo& film, bool poster) {
   for (const std::string& path : paths) outputs_.push_back({path, make_sink(path, film)});
+  pictures_.assign(static_cast<std::size_t>(std::max(0, film.expected_frames)), false);
+  for (std::size_t i = 0; i < pictures_.size(); ++i) {
+    pictures_[i] = std::any_of(outputs_.begin(), outputs_.end(), [&](const Output& output) {
+      const auto* encoder = std::get_if<std::unique_ptr<Encoder>>(&*output.sink);
+      return encoder != nullptr && (*encoder)->needs(static_cast<int>(i));
+    });
+  }
   if (!poster) return;
   poster_.emplace(film);
   poster_files_ = poster_files(paths, film);
@@ -95,6 +100,10 @@ bool Outputs::any_is() const {
   return std::any_of(outputs_.begin(), outputs_.end(), [](const Output& output) {
     return output.sink && std::holds_alternative<std::unique_ptr<AnyOf>>(*output.sink);
   });
+}
+
+bool Outputs::needs_picture(int index) const {
+  return index < 0 || index >= static_cast<int>(pictures_.size()) || pictures_[static_cast<std::size_t>(index)];
 }
 
 bool Outputs::drawn() const { return any_is<Encoder>(); }

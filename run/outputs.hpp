@@ -39,7 +39,7 @@ void require_texture(const Scene& scene, int largest = largest_texture);
 /// A frame on its way to the outputs.
 struct FilmFrame {
   Frame frame;
-  std::optional<Image> image;  ///< absent: it was not drawn
+  std::optional<Image> image;  ///< absent: it was not drawn, since nobody needs it
 };
 
 /// The outputs of a run. One that cannot be written is given up, and does not keep the others from being completed.
@@ -54,6 +54,10 @@ class Outputs {
 
   /// Whether any (still) takes images.
   [[nodiscard]] bool drawn() const;
+
+  /// Whether any needs the picture of the film's frame with this number, from 0. Asked from any thread, as it is known
+  /// from the beginning.
+  [[nodiscard]] bool needs_picture(int index) const;
 
   /// What the frames must hold for them.
   [[nodiscard]] FrameContents contents() const;
@@ -82,6 +86,7 @@ class Outputs {
   std::vector<OutputFile> write_poster(const std::string& file, Ending ending);
 
   std::vector<Output> outputs_;
+  std::vector<bool> pictures_;  // of the film's frames, whether any output needs it
   std::optional<Poster> poster_;
   std::vector<std::string> poster_files_;
   std::vector<std::string> problems_;

@@ -230,13 +230,25 @@ class Pipeline {
   void paint(const CameraPath& path) {
     FilmPainter painter(scene_, path, annotations_, options_.backend);
     result_.renderer = painter.description();
+    // A frame that no output needs is held back until it is known not to be the last of a film that ends early.
+    std::optional<Frame> held;
     while (std::optional<Frame> frame = frames_.pop()) {
-      const auto begin = Clock::now();
-      std::optional<Image> image;
-      if (!undrawn_.stop_requested()) image.emplace(painter.paint(*frame));
-      result_.draw_seconds += seconds_since(begin);
-      film_.push({std::move(*frame), std::move(image)});
+      if (held) film_.push({std::move(*std::exchange(held, {})), std::nullopt});
+      if (outputs_.needs_picture(frame->index - extent_.frames.first)) {
+        paint(painter, std::move(*frame));
+      } else {
+        held = std::move(frame);
+      }
     }
+    if (held) paint(painter, std::move(*held));
+  }
+
+  void paint(FilmPainter& painter, Frame frame) {
+    const auto begin = Clock::now();
+    std::optional<Image> image;
+    if (!undrawn_.stop_requested()) image.emplace(painter.paint(frame));
+    result_.draw_seconds += seconds_since(begin);
+    film_.push({std::move(frame), std::move(image)});
   }
 
   void write() {

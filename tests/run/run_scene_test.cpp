@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "run/outputs.hpp"
 #include "run/run_scene.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/plain_springs.hpp"
@@ -234,6 +235,53 @@ TEST(RunScene, TellsOnceThatAllIsDrawnAndOnlyFilmsAreToBeCompleted) {
   EXPECT_EQ(told, 1);
   EXPECT_EQ(result.frames, result.frames_wanted);
   EXPECT_TRUE(fs::exists(film));
+}
+
+// Pictures of some frames are those that a run makes which draws them all.
+TEST(RunScene, WhatIsNotShownNeedNotBeDrawn) {
+  const test::SceneFolder folder;
+  const Scene scene = folder.load(std::string(swinging) +
+                                  "[video]\nsize = [48, 32]\n[camera]\nposition = [0, -4, 1]\ntarget = [0, 0, 0]\n");
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  RunOptions all, some;
+  all.sheet = some.sheet = SheetGrid{.columns = 2, .rows = 2};
+  all.outputs = {path("every{frame}.png"), path("sheet.png")};
+  some.outputs = {path("some.png")};
+  run(scene, all);
+  run(scene, some);
+  EXPECT_EQ(test::content(path("some.png")), test::content(path("sheet.png")));
+  some.sheet.reset();
+  run(scene, some);
+  EXPECT_EQ(test::content(path("some.png")), test::content(path("every10.png")));
+
+  // Of a film that ends early, the last picture is of where it has come to.
+  std::stop_source stop;
+  StopAfterAStep observer(stop);
+  some.observer = &observer;
+  Progress progress;
+  EXPECT_EQ(run_scene(scene, some, stop.get_token(), progress).outcome, Outcome::interrupted);
+  const std::string early = test::content(path("some.partial.png"));
+  EXPECT_TRUE(early == test::content(path("every00.png")) || early == test::content(path("every01.png")));
+}
+
+TEST(Outputs, KnowWhichPicturesTheyNeed) {
+  const test::SceneFolder folder;
+  const auto needed = [&](const std::vector<std::string>& names, std::optional<SheetGrid> sheet) {
+    FilmInfo film;
+    film.expected_frames = 7;
+    film.sheet = sheet;
+    std::vector<std::string> paths;
+    for (const std::string& name : names) paths.push_back((folder.path() / name).string());
+    const Outputs outputs(paths, film);
+    std::string text;
+    for (int i = 0; i < 7; ++i) text += outputs.needs_picture(i) ? 'x' : '.';
+    return text;
+  };
+  EXPECT_EQ(needed({"last.png"}, {}), "......x");
+  EXPECT_EQ(needed({"sheet.png"}, SheetGrid{.columns = 3, .rows = 1}), "x..x..x");
+  EXPECT_EQ(needed({"last.png", "film.gif"}, {}), "xxxxxxx");
+  EXPECT_EQ(needed({"each{frame}.png"}, {}), "xxxxxxx");
+  EXPECT_EQ(needed({"last.obj"}, {}), ".......");
 }
 
 TEST(RunScene, AnUnwritableRecordIsKnownBeforeAnythingIsSimulated) {
