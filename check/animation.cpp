@@ -36,7 +36,7 @@ struct Pair {
 };
 
 Image decode(const Png& png) {
-  const cv::Mat bgr = codecs().decode(png, cv::IMREAD_COLOR);
+  const cv::Mat bgr = decode_picture(png, cv::IMREAD_COLOR);
   Image image(bgr.cols, bgr.rows);
   if (!bgr.empty()) cv::cvtColor(bgr, cv::Mat(bgr.rows, bgr.cols, CV_8UC3, image.pixels.data()), cv::COLOR_BGR2RGB);
   return image;

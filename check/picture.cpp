@@ -104,7 +104,7 @@ Image decode_png(std::string_view bytes, const Eigen::Vector2i& size) {
   }
   cv::Mat bgr;
   try {
-    bgr = codecs().decode(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    bgr = decode_picture(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
     // said below
   }

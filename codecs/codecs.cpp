@@ -4,6 +4,7 @@
 
 #include <mutex>
 
+#include "codecs/png.hpp"
 #include "core/console.hpp"
 #include "core/error.hpp"
 #include "core/installation.hpp"
@@ -31,6 +32,10 @@ const Codecs& codecs() {
     return get(console_mutex());
   }();
   return *loaded;
+}
+
+cv::Mat decode_picture(std::string_view bytes, int flags) {
+  return is_png(bytes) ? bgr_from_png(bytes) : codecs().decode(bytes, flags);
 }
 
 }  // namespace drape

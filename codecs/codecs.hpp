@@ -17,14 +17,11 @@ using VideoPen = std::function<void(const cv::Mat& bgr)>;
 /// @throws std::runtime_error why it cannot be written
 using AnimationPen = std::function<void(const cv::Mat* rgb)>;
 
-/// What encodes and decodes pictures and videos: OpenCV and FFmpeg, in a module of ours beside the program
-/// (codecs/opencv_codecs.cpp), because starting with the two hundred libraries that it needs takes ten times as long as
-/// starting without. Functions, not a class: what the two would know of its type are two things to the sanitizers.
+/// What encodes and decodes videos, and decodes pictures that are no PNG: OpenCV and FFmpeg, in a module of ours beside
+/// the program (codecs/opencv_codecs.cpp), because starting with the two hundred libraries that it needs takes ten
+/// times as long as starting without. Functions, not a class: what the two would know of its type are two things to the
+/// sanitizers.
 struct Codecs {
-  /// The bytes of a PNG file.
-  /// @throws cv::Exception
-  std::vector<std::uint8_t> (*encode_png)(const cv::Mat& bgr);
-
   /// The picture in the bytes of a file, as cv::imdecode(); says nothing on the terminal.
   /// @param flags cv::ImreadModes
   /// @returns a picture without pixels if they are damaged
@@ -54,5 +51,11 @@ std::filesystem::path codecs_module();
 /// The codecs. The first call loads them, which takes a tenth of a second; from any thread.
 /// @throws OutputError if they cannot be loaded
 const Codecs& codecs();
+
+/// The picture in the bytes of a file: blue, green, red. A PNG needs no codecs() for it.
+/// @param flags cv::ImreadModes, which a PNG does without
+/// @returns a picture without pixels if they are damaged
+/// @throws OutputError as codecs(), cv::Exception
+cv::Mat decode_picture(std::string_view bytes, int flags);
 
 }  // namespace drape

@@ -15,12 +15,6 @@ namespace {
 
 std::mutex* console = nullptr;  // the program's, see QuietStderr
 
-std::vector<std::uint8_t> encode_png(const cv::Mat& bgr) {
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", bgr, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6})) bytes.clear();
-  return bytes;
-}
-
 cv::Mat decode(std::string_view bytes, int flags) {
   const cv::Mat all(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
   const QuietStderr quiet(*console);  // libpng says on its own what it does not like, without the file's name
@@ -60,7 +54,7 @@ int readable_frames(const std::string& file) {
 
 extern "C" const drape::Codecs* drape_codecs(std::mutex& console) {
   drape::console = &console;
-  static constexpr drape::Codecs codecs{drape::encode_png, drape::decode, drape::begin_video, drape::begin_animation,
+  static constexpr drape::Codecs codecs{drape::decode, drape::begin_video, drape::begin_animation,
                                         drape::readable_frames};
   return &codecs;
 }

@@ -5,7 +5,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "codecs/codecs.hpp"
+#include "codecs/png.hpp"
 #include "core/error.hpp"
 
 namespace drape {
@@ -16,8 +16,8 @@ std::string encode_png(const Image& image) {
   std::vector<std::uint8_t> bytes;
   try {
     cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-    bytes = codecs().encode_png(bgr);
-  } catch (const cv::Exception& error) {
+    bytes = png_from_bgr(bgr);
+  } catch (const std::exception& error) {
     throw OutputError(fmt::format("cannot encode a PNG: {}", error.what()));
   }
   return {bytes.begin(), bytes.end()};
@@ -26,12 +26,9 @@ std::string encode_png(const Image& image) {
 OutputFormat png_format() {
   return {.extension = ".png",
           .help = "picture",
-          .made_by = "OpenCV " + cv::getVersionString(),
-          .packages = "libopencv-dev",
-          .make = FrameMaker<Image>([](const FilmInfo&) {
-            codecs();  // what cannot be loaded is missed before the first frame
-            return encode_png;
-          })};
+          .made_by = png_library(),
+          .packages = "libpng-dev",
+          .make = FrameMaker<Image>([](const FilmInfo&) { return encode_png; })};
 }
 
 }  // namespace drape

@@ -67,7 +67,7 @@ cv::Mat read_image(const std::filesystem::path& file, int largest) {
   cv::Mat image;
   if (!bytes.empty() && !is_cut(bytes)) {
     try {
-      image = codecs().decode(content, cv::IMREAD_COLOR);
+      image = decode_picture(content, cv::IMREAD_COLOR);
     } catch (const cv::Exception& error) {
       if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
       image.release();

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "codecs/codecs.hpp"
+#include "codecs/png.hpp"
 #include "core/read_file.hpp"
 #include "html/explore.hpp"
 #include "html/page.hpp"
@@ -37,7 +38,7 @@ std::optional<html::Strip> strip_of(const SweepResults& results, const SweepRow&
   const std::string bytes = read_file(run_place(folder, key) / *file, most_sheet_bytes);
   const auto size = size_in_header({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
   if (!size || static_cast<double>(size->width) * size->height > most_sheet_pixels) return std::nullopt;
-  const cv::Mat sheet = codecs().decode(bytes, cv::IMREAD_COLOR);
+  const cv::Mat sheet = decode_picture(bytes, cv::IMREAD_COLOR);
   const int columns = std::min(count, sweep_sheet.columns), rows = (count + columns - 1) / columns;
   const int width = (sheet.cols - (columns - 1) * gap) / columns, height = (sheet.rows - (rows - 1) * gap) / rows;
   if (width < 1 || height < 1) return std::nullopt;
@@ -50,7 +51,7 @@ std::optional<html::Strip> strip_of(const SweepResults& results, const SweepRow&
     cv::Mat to = strip(cv::Rect(column * small.width, line * small.height, small.width, small.height));
     cv::resize(from, to, small, 0, 0, cv::INTER_AREA);
   }
-  const std::vector<std::uint8_t> png = codecs().encode_png(strip);
+  const std::vector<std::uint8_t> png = png_from_bgr(strip);
   return html::Strip{.bytes = {png.begin(), png.end()},
                      .columns = columns,
                      .count = count,

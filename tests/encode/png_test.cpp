@@ -1,109 +1,129 @@
-#include <gtest/gtest.h>
+// PNG files that libpng makes and reads for us, beside OpenCV, which reads them as well.
 
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "core/error.hpp"
-#include "tests/support/encoder.hpp"
-#include "tests/support/file_size_limit.hpp"
-#include "tests/support/files.hpp"
-#include "tests/support/scratch_folder.hpp"
-#include "tests/support/synthetic_film.hpp"
+#include "codecs/codecs.hpp"
+#include "codecs/png.hpp"
+#include "tests/support/random.hpp"
 
-using namespace drape;
-using namespace drape::test;
-
+namespace drape {
 namespace {
 
-class Png : public InScratchFolder {
- protected:
-  [[nodiscard]] static Image read(const std::string& file) {
-    const cv::Mat bgr = cv::imread(file);
-    Image image(bgr.cols, bgr.rows);
-    cv::Mat rgb(bgr.size(), CV_8UC3, image.pixels.data());
-    if (!bgr.empty()) cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
-    return image;
-  }
-};
+using test::Random;
 
-TEST_F(Png, HoldsTheLastFrameExactly) {
-  const auto png = make_encoder(path("{scene}.png"), {.scene = "flag"});
-  png->add(synthetic_frame(0, 33, 21));
-  png->add(synthetic_frame(1, 33, 21));
-  EXPECT_EQ(file_count(), 0u);
-  const auto files = png->finish();
-  ASSERT_EQ(files.size(), 1u);
-  EXPECT_EQ(files[0].path, path("flag.png"));
-  EXPECT_EQ(files[0].size, std::filesystem::file_size(path("flag.png")));
-  EXPECT_EQ(read(path("flag.png")), synthetic_frame(1, 33, 21));
+bool equal(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && std::equal(a.datastart, a.dataend, b.datastart);
 }
 
-TEST_F(Png, SequenceHoldsEveryFrameExactlyUnderItsNumber) {
-  const auto png =
-      make_encoder(path("f/{scene}-{frame:04}.png"), {.scene = "flag", .first_frame = 9, .expected_frames = 3});
-  for (int k = 9; k < 12; ++k) png->add(synthetic_frame(k, 33, 21));
-  const auto files = png->finish();
-  ASSERT_EQ(files.size(), 3u);
-  EXPECT_EQ(file_count(), 3u);
-  for (int k = 9; k < 12; ++k) {
-    const std::string name = path("f/flag-00" + std::string(k < 10 ? "0" : "") + std::to_string(k) + ".png");
-    EXPECT_EQ(files[k - 9].path, name);
-    EXPECT_EQ(files[k - 9].size, std::filesystem::file_size(name));
-    EXPECT_EQ(read(name), synthetic_frame(k, 33, 21));
+cv::Mat noise(int width, int height, Random& random) {
+  cv::Mat picture(height, width, CV_8UC3);
+  for (std::size_t i = 0; i < 3 * picture.total(); ++i) picture.data[i] = static_cast<std::uint8_t>(random.below(256));
+  return picture;
+}
+
+std::string_view view(const std::vector<std::uint8_t>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST(Png, GivesBackWhatItWasMadeOf) {
+  Random random(3);
+  for (const auto& [width, height] : {std::pair{1, 1}, {7, 3}, {64, 48}, {1, 300}}) {
+    const cv::Mat picture = noise(width, height, random);
+    const std::vector<std::uint8_t> png = png_from_bgr(picture);
+    EXPECT_TRUE(is_png(view(png)));
+    EXPECT_TRUE(equal(bgr_from_png(view(png)), picture));
+    EXPECT_TRUE(equal(codecs().decode(view(png), cv::IMREAD_COLOR), picture));
+    EXPECT_EQ(png_from_bgr(picture), png);
   }
 }
 
-TEST_F(Png, SequenceSortsByNameWithoutAWidth) {
-  const auto png = make_encoder(path("{frame}.png"), {.scene = "flag", .first_frame = 95, .expected_frames = 10});
-  png->add(Image(4, 4));
-  EXPECT_EQ(png->finish().at(0).path, path("095.png"));
+std::string number(std::uint32_t value) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255U);
+  return bytes;
 }
 
-TEST_F(Png, SequenceMayHaveAFolderPerFrame) {
-  const auto png = make_encoder(path("{frame:2}/x.png"), {.scene = "flag"});
-  png->add(Image(4, 4));
-  png->add(Image(4, 4));
-  EXPECT_EQ(png->finish().at(1).path, path("01/x.png"));
+std::string chunk(const std::string& kind, const std::string& data) {
+  const std::string body = kind + data;
+  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
+  return number(static_cast<std::uint32_t>(data.size())) + body + number(static_cast<std::uint32_t>(sum));
 }
 
-TEST_F(Png, SequenceLeavesAloneWhatItDoesNotReplace) {
-  put(path("0.png"), "old");
-  put(path("1.png"), "old");
-  const auto png = make_encoder(path("{frame}.png"), {.scene = "flag"});
-  png->add(Image(4, 4));
-  png->finish();
-  EXPECT_NE(test::content(path("0.png")), "old");
-  EXPECT_EQ(test::content(path("1.png")), "old");
-}
-
-TEST_F(Png, HasTheSameBytesEveryTime) {
-  const auto bytes = [this] {
-    const auto png = make_encoder(path("x.png"), {.scene = "flag"});
-    png->add(synthetic_frame(0, 120, 100));
-    png->finish();
-    return test::content(path("x.png"));
-  };
-  const std::string first = bytes();
-  EXPECT_EQ(bytes(), first);
-}
-
-TEST_F(Png, LeavesTheOldFileOnAFullDisk) {
-  put(path("x.png"), "old");
-  put(path("0.png"), "old");
-  for (const std::string name : {"x.png", "{frame}.png"}) {
-    const FileSizeLimit limit(500);
-    const auto png = make_encoder(path(name), {.scene = "flag"});
-    EXPECT_THROW(
-        {
-          png->add(synthetic_frame(0, 120, 100));
-          png->finish();
-        },
-        OutputError);
+/// A PNG of noise, of one of the kinds that the format has.
+std::string png_of_kind(int color, int bits, Random& random) {
+  constexpr int width = 13, height = 5;
+  const int channels = std::array{1, 0, 3, 1, 2, 0, 4}[static_cast<std::size_t>(color)];
+  std::string rows;
+  for (int row = 0; row < height; ++row) {
+    rows += '\0';  // no filter
+    for (int i = 0; i < (width * channels * bits + 7) / 8; ++i) rows += static_cast<char>(random.below(256));
   }
-  EXPECT_EQ(test::content(path("x.png")), "old");
-  EXPECT_EQ(test::content(path("0.png")), "old");
-  EXPECT_EQ(file_count(), 2u);
+  uLongf size = compressBound(static_cast<uLong>(rows.size()));
+  std::string packed(size, '\0');
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(rows.data()),
+           static_cast<uLong>(rows.size()));
+  packed.resize(size);
+  std::string png("\x89PNG\r\n\x1a\n", 8);
+  png += chunk("IHDR", number(width) + number(height) + static_cast<char>(bits) + static_cast<char>(color) +
+                           std::string(3, '\0'));
+  if (color == 3) {
+    std::string palette;
+    for (int i = 0; i < 3 << bits; ++i) palette += static_cast<char>(random.below(256));
+    png += chunk("PLTE", palette) + chunk("tRNS", std::string(1, '\x40'));
+  }
+  return png + chunk("IDAT", packed) + chunk("IEND", "");
+}
+
+TEST(Png, ReadsEveryKindAsOpenCVDoes) {
+  Random random(5);
+  for (const auto& [color, bits] : {std::pair{0, 1},
+                                    {0, 2},
+                                    {0, 4},
+                                    {0, 8},
+                                    {0, 16},
+                                    {2, 8},
+                                    {2, 16},
+                                    {3, 1},
+                                    {3, 4},
+                                    {3, 8},
+                                    {4, 8},
+                                    {4, 16},
+                                    {6, 8},
+                                    {6, 16}}) {
+    const std::string png = png_of_kind(color, bits, random);
+    const cv::Mat picture = bgr_from_png(png);
+    ASSERT_FALSE(picture.empty()) << color << ", " << bits;
+    EXPECT_TRUE(equal(picture, codecs().decode(png, cv::IMREAD_COLOR))) << color << ", " << bits;
+  }
+}
+
+// None is half a picture, and nothing is printed.
+TEST(Png, OfWhatIsDamagedThereIsNoPicture) {
+  Random random(7);
+  const std::vector<std::uint8_t> bytes = png_from_bgr(noise(20, 20, random));
+  ::testing::internal::CaptureStderr();
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_TRUE(bgr_from_png(view(bytes).substr(0, size)).empty()) << size;
+  }
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<std::uint8_t> damaged = bytes;
+    for (int k = random.below(4); k >= 0; --k) {
+      damaged[static_cast<std::size_t>(random.below(static_cast<int>(damaged.size())))] =
+          static_cast<std::uint8_t>(random.below(256));
+    }
+    const cv::Mat picture = bgr_from_png(view(damaged));  // of another size, or whole where it is the same byte
+    if (damaged == bytes) {
+      EXPECT_FALSE(picture.empty());
+    }
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace
+}  // namespace drape

@@ -13,7 +13,7 @@ namespace drape::test {
 /// first asks: whoever links its decoders takes ten times as long to start, and every test is a process.
 inline cv::Mat decoded_picture(std::string_view bytes) {
   constexpr int colours = 1;  // cv::IMREAD_COLOR
-  return codecs().decode(bytes, colours);
+  return decode_picture(bytes, colours);
 }
 
 /// The colours of a picture's file, blue, green, red; none if it cannot be read.
