@@ -32,13 +32,14 @@ bool loads_codecs(const std::string& text) {
   return text.find("libopencv_imgcodecs") != std::string::npos || text.find("libavcodec") != std::string::npos;
 }
 
-TEST(Codecs, AreLoadedOnlyByWhatEncodes) {
+TEST(Codecs, AreLoadedOnlyByWhatEncodesFilms) {
   const SceneFolder folder;
   folder.write("scene.toml", scene);
   EXPECT_FALSE(loads_codecs(loaded_by(folder, "--version")));
   EXPECT_FALSE(loads_codecs(loaded_by(folder, "render --help")));
   EXPECT_FALSE(loads_codecs(loaded_by(folder, "simulate scene.toml --energies energies.csv -o last.obj")));
-  EXPECT_TRUE(loads_codecs(loaded_by(folder, "render scene.toml -o last.png")));
+  EXPECT_FALSE(loads_codecs(loaded_by(folder, "render scene.toml -o last.png")));
+  EXPECT_TRUE(loads_codecs(loaded_by(folder, "render scene.toml -o film.gif")));
 }
 
 /// drape as cmake --install leaves it, moved to another place.
@@ -73,7 +74,8 @@ TEST(Codecs, ThatAreMissingAreMissedOnlyWhereTheyAreNeededAndAtOnce) {
   fs::remove(tree.module);
   EXPECT_EQ(tree.drape("--version").code, 0);
   EXPECT_EQ(tree.drape("simulate scene.toml -o last.obj").code, 0);
-  for (const std::string file : {"film.gif", "film.avi", "last.png"}) {
+  EXPECT_EQ(tree.drape("render scene.toml -o last.png").code, 0);
+  for (const std::string file : {"film.gif", "film.avi", "film.webp"}) {
     const Finished finished = tree.drape("render scene.toml -o " + file);
     EXPECT_EQ(finished.code, 4) << finished.text;
     EXPECT_NE(finished.text.find("cannot encode or decode: a part of drape is missing"), std::string::npos)
