@@ -42,7 +42,7 @@ ConjugateGradients::ConjugateGradients(const System& system, const StepObjective
       product_(residual_) {
   pair_count_ = system.stiffness_bound().pair_count();
   for (const auto& energy : system.energies) hessians_.push_back(energy->make_hessian());
-  if (FreeVertices(system.cloth).count() < large_cloth) return;
+  if (FreeVertices(system.cloth).count() < fine_cloth) return;
   diagonal_.emplace(system, objective);
   estimates_ = preconditioner != nullptr;
   if (estimates_) tolerance_ = tolerance_of_estimates;

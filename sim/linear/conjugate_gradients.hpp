@@ -15,7 +15,7 @@ namespace drape {
 /// falls below it by at most 1 + h²λ_max(M⁻¹L), so the iterations are few where Newton's method is stiff but not
 /// extremely so. H is never assembled: its springs' blocks are kept as vectors, and a product is one pass over them.
 ///
-/// Of a large cloth the preconditioner is A⁻¹ + D⁻¹, D the HessianDiagonal. What falls far below A are motions out of
+/// Of a fine cloth the preconditioner is A⁻¹ + D⁻¹, D the HessianDiagonal. What falls far below A are motions out of
 /// the cloth's plane, which nothing but inertia holds where it is not stretched; those that neighbours do not share
 /// fall less below D. As no Hessian exceeds A or D, the sum never exceeds 2 H⁻¹.
 class ConjugateGradients final : public NewtonSolver {
@@ -24,7 +24,7 @@ class ConjugateGradients final : public NewtonSolver {
   static constexpr int most_iterations = 1000;
 
   /// @param preconditioner A of the same system, which must outlive this. Without it one is made, and the equations are
-  ///                       solved for Newton's method; with it for estimates, of a large cloth to about a tenth
+  ///                       solved for Newton's method; with it for estimates, of a fine cloth to about a tenth
   ConjugateGradients(const System& system, const StepObjective& objective, ConstantFactor* preconditioner = nullptr);
   void solve(const Vertices& x, const Vertices& gradient, double concavity, Vertices& direction) override {
     static_cast<void>(solve_within(most_iterations, x, gradient, concavity, direction));

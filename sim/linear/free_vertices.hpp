@@ -8,10 +8,12 @@
 
 namespace drape {
 
-/// From so many free vertices on a cloth is solved as pays for large ones: with a constant factor of our own
-/// (ConstantFactor), and conjugate gradients that know more of the Hessian (HessianDiagonal). Smaller cloth keeps the
-/// bits that it has always had.
+/// From so many free vertices on a cloth's constant matrix has a factor of our own (ConstantFactor).
 inline constexpr int large_cloth = 20'000;
+/// From so many on it pays to know more of the Hessian than that matrix does: conjugate gradients know its diagonal
+/// (HessianDiagonal), and quasi-Newton takes some of Newton's steps. Smaller cloth keeps the bits that it has always
+/// had.
+inline constexpr int fine_cloth = 1'000;
 
 /// The unknowns of an implicit step: the vertices that are not pinned, numbered from 0 in the order of the cloth. This
 /// is the reduced system's selection matrix.

@@ -14,9 +14,9 @@ constexpr int quasi_newton_iterations = 500;
 constexpr int between_patches = 5;
 constexpr int most_rounds = 4;
 constexpr double next_share = 0.03;
-// One of Newton's on the whole cloth costs as much as some thirty others: the first where the minimum may be near, and
-// then ever fewer, as those say that it is still far.
-constexpr int before_look = 12, between_looks = 6, most_between_looks = 96;
+// One of Newton's on the whole cloth costs as much as some thirty others, and fewer of small cloth: the first where the
+// minimum may be near, and then ever fewer, as those say that it is still far.
+constexpr int before_look = 6, before_look_at_large = 12, between_looks = 6, most_between_looks = 96;
 
 }  // namespace
 
@@ -25,7 +25,9 @@ QuasiNewton::QuasiNewton(const System& system, const StepObjective& objective, c
       history_(system.cloth.vertex_count(), system.threads),
       preconditioned_(Vertices::Zero(system.cloth.vertex_count(), 3)),
       direction_(preconditioned_) {
-  looks_ = FreeVertices(system.cloth).count() >= large_cloth && accuracy().rule == StoppingRule::error;
+  const int count = FreeVertices(system.cloth).count();
+  looks_ = count >= fine_cloth && accuracy().rule == StoppingRule::error;
+  before_look_ = count < large_cloth ? before_look : before_look_at_large;
   if (looks_ && system.energies.empty()) {
     patches_.emplace(system, objective);
   }
@@ -35,7 +37,7 @@ void QuasiNewton::start() {
   history_.clear();
   wait_ = between_patches;
   round_ = 0;
-  until_look_ = before_look;
+  until_look_ = before_look_;
   gap_ = between_looks;
 }
 

@@ -13,7 +13,7 @@ namespace drape {
 /// curvature last seen (Nocedal and Wright 2006, eq. 7.20), which saves a third of the iterations. A line search keeps
 /// g from rising.
 ///
-/// Two things are different for a large cloth, where a step stops at an error. Some iterations are Newton's on patches
+/// Two things are different for a fine cloth, where a step stops at an error. Some iterations are Newton's on patches
 /// alone (PatchNewton), if nothing but springs holds the cloth together: after a few iterations the error is above the
 /// tolerance in few places. And some are Newton's on all of the cloth, by a few conjugate gradients: they say how far
 /// the minimum is where the gradient does not, see docs/accuracy.md.
@@ -31,9 +31,10 @@ class QuasiNewton final : public FactoredMinimiser {
   LbfgsHistory history_;
   Vertices preconditioned_;  // A⁻¹∇g at the point
   Vertices direction_;
-  bool looks_ = false;  // whether some iterations are Newton's…
-  int until_look_ = 0;  // …how many others there are until the next…
-  int gap_ = 0;         // …and from there to the one after it
+  bool looks_ = false;   // whether some iterations are Newton's…
+  int before_look_ = 0;  // …how many others there are before the first…
+  int until_look_ = 0;   // …and until the next…
+  int gap_ = 0;          // …and from there to the one after it
   std::optional<PatchNewton> patches_;
   int wait_ = 0;   // iterations until patches are looked at…
   int round_ = 0;  // …and how many there were on them just now
