@@ -197,3 +197,17 @@ def test_versions_are_those_of_the_project():
     assert action["inputs"]["version"]["default"] == version
     assert template[".drape-check"]["variables"]["DRAPE_VERSION"] == version
     assert plugin == version
+    assert str(yaml.safe_load((SOURCE / "CITATION.cff").read_text())["version"]) == version
+
+
+def test_forms_of_issues_are_complete():
+    """GitHub ignores a form that lacks one of these."""
+    forms = [file for file in (SOURCE / ".github/ISSUE_TEMPLATE").glob("*.yml") if file.name != "config.yml"]
+    assert len(forms) == 2
+    for file in forms:
+        form = yaml.safe_load(file.read_text())
+        assert form["name"] and form["description"] and form["body"]
+        ids = [field["id"] for field in form["body"]]
+        assert len(set(ids)) == len(ids)
+        for field in form["body"]:
+            assert field["type"] in ("textarea", "input") and field["attributes"]["label"]
