@@ -1,6 +1,7 @@
 #include "check/check_scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -109,6 +110,8 @@ class SceneCheck {
         fail_pictures(other_pictures);
       }
     }
+    result_.film = fmt::format("{}", fmt::join(film_mismatch(scene_, settings_, golden_), "; "));
+    if (!result_.film.empty()) result_.findings.push_back(result_.film);
     if (options_.end_to_end && another_motion.empty() && other_pictures.empty() && !stop_.stop_requested()) {
       compare_end_to_end();
     }
@@ -236,11 +239,15 @@ class SceneCheck {
     const auto bad = [](const Comparison& c) {
       return c.motion == MotionVerdict::changed || c.picture == PictureVerdict::changed;
     };
-    const bool changed = bad(result_.windows) || (result_.end_to_end && bad(*result_.end_to_end));
+    const bool changed =
+        bad(result_.windows) || (result_.end_to_end && bad(*result_.end_to_end)) || !result_.film.empty();
     result_.verdict = changed ? SceneVerdict::changed : SceneVerdict::passed;
-    if (changed && result_.windows.motion != MotionVerdict::changed &&
-        result_.windows.picture == PictureVerdict::changed) {
-      result_.findings.push_back("the motion did not change");
+    if (changed && result_.windows.motion != MotionVerdict::changed) {
+      if (result_.windows.picture == PictureVerdict::changed) {
+        result_.findings.emplace_back("the motion did not change");
+      } else if (!result_.end_to_end || !bad(*result_.end_to_end)) {
+        result_.findings.emplace_back("the motion and the compared pictures did not change");
+      }
     }
     result_.elsewhere = name_other_machine(golden_.machine, this_machine(result_.renderer));
     if (changed && !result_.elsewhere.empty()) {

@@ -113,6 +113,7 @@ struct SceneResult {
   std::optional<Comparison> end_to_end;  ///< the whole motion run again and drawn, if that was asked for
 
   CheckSettings settings;      ///< with what the command line says
+  std::string film;            ///< settings of the film that have changed, as sentences; empty: none
   double ignored = 0;          ///< the part of every picture that is not judged, 0 to 1
   std::string elsewhere;       ///< what was another where the golden was recorded, see name_other_machine()
   bool scene_changed = false;  ///< the scene file has changed since it was recorded

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "check/manifest.hpp"
 #include "check/record_motion.hpp"
 #include "output/png_encoder.hpp"
 #include "tests/check/checked_scene.hpp"
@@ -37,6 +40,51 @@ TEST_F(CheckScene, PassesWhatWasJustRecorded) {
   ASSERT_EQ(result.windows.frames.size(), 3u);
   EXPECT_FALSE(result.windows.frames[1].expected.empty());
   EXPECT_TRUE(result.windows.frames[1].actual.empty());
+}
+
+TEST_F(CheckScene, SaysThatTheFilmPlaysAtAnotherSpeed) {
+  bless();
+  const SceneResult half = check({"video.speed=0.5", "video.fps=15"});
+  EXPECT_EQ(half.verdict, SceneVerdict::changed);
+  EXPECT_EQ(half.windows.motion, MotionVerdict::same_bits);
+  EXPECT_EQ(half.windows.picture, PictureVerdict::exact);
+  EXPECT_EQ(half.film,
+            "the film plays at half the speed (video.speed is 0.5, in the golden 1); the film has 15 frames a second, "
+            "the golden one 30");
+  ASSERT_GE(half.findings.size(), 2u);
+  EXPECT_EQ(half.findings[0], half.film);
+  EXPECT_EQ(half.findings[1], "the motion and the compared pictures did not change");
+  EXPECT_EQ(check({"video.speed=2", "video.fps=60"}).film.find("the film plays at twice the speed"), 0u);
+  EXPECT_EQ(check({"video.speed=0.8", "video.fps=24"}).film.find("the film plays at 0.8 of the speed"), 0u);
+  EXPECT_EQ(check({"video.speed=3", "video.fps=90"}).film.find("the film plays at 3 times the speed"), 0u);
+}
+
+TEST_F(CheckScene, SaysThatTheFilmHasAnotherSizeThanItsPictures) {
+  put(folder_ / "swing.toml", std::string(test::small_swing) + "size = [32, 24]\n");
+  bless();
+  EXPECT_EQ(check().verdict, SceneVerdict::passed);
+  const SceneResult larger = check({"video.size=[128, 96]"});
+  EXPECT_EQ(larger.verdict, SceneVerdict::changed);
+  EXPECT_EQ(larger.film, "the film has 128x96 pixels, the golden one 64x48");
+  EXPECT_EQ(larger.windows.picture, PictureVerdict::exact);
+}
+
+TEST_F(CheckScene, SaysThatTheFilmHasOtherSamples) {
+  bless();
+  const SceneResult coarse = check({"look.samples=1"});
+  EXPECT_EQ(coarse.verdict, SceneVerdict::changed);
+  EXPECT_EQ(coarse.film, "the film has 1 sample per pixel, the golden one 4");
+}
+
+TEST_F(CheckScene, SaysNothingOfTheFilmToAGoldenThatHasNoneOfItsSettings) {
+  bless();
+  std::string text = test::content(golden() / "manifest.json");
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(text);
+  ASSERT_EQ(json.erase("film"), 1u);
+  put(golden() / "manifest.json", sealed_manifest(json.dump()));
+  const SceneResult half = check({"video.speed=0.5", "video.fps=15"});
+  EXPECT_EQ(half.verdict, SceneVerdict::passed);
+  EXPECT_EQ(half.film, "");
 }
 
 TEST_F(CheckScene, DrawsFromWhereAMovingCameraIsInEachFrame) {
