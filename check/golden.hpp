@@ -51,6 +51,12 @@ struct GoldenFilm {
   int samples = 4;             ///< per pixel
 };
 
+/// Time of the first steps.
+struct GoldenTime {
+  std::int64_t steps = 0;
+  double ratio = 0;  ///< to the calibration loop, see measure_step_time()
+};
+
 /// Everything that a scene is compared with.
 struct Golden {
   std::string scene_digest;  ///< Scene::digest
@@ -65,6 +71,7 @@ struct Golden {
   int body_count = 0;  ///< of GoldenStep::bodies, at most
   double seconds_per_frame = 0;    ///< of the scene's time
   std::optional<GoldenFilm> film;  ///< absent where an older drape has recorded it
+  std::optional<GoldenTime> time;  ///< absent unless the scene's [check] had a `time`
   Quanta quanta;
   Camera camera;                      ///< what the scene said
   std::vector<View> frames_views;     ///< where it would stand if the compared frames were the whole motion

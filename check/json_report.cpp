@@ -73,6 +73,7 @@ Json to_json(const SceneResult& scene) {
               {"flip", scene.settings.limits.flip}}},
             {"size", scene.size},
             {"film", scene.film},
+            {"time", scene.time},
             {"ignored", scene.ignored},
             {"recorded_elsewhere", scene.elsewhere},
             {"scene_changed", scene.scene_changed},

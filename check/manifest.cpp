@@ -103,6 +103,12 @@ GoldenFilm film_from(const Fields& fields) {
           .samples = fields.whole<int>("samples", 1, most_samples)};
 }
 
+Json to_json(const GoldenTime& time) { return {{"steps", time.steps}, {"ratio", time.ratio}}; }
+
+GoldenTime time_from(const Fields& fields, std::int64_t most_steps) {
+  return {.steps = fields.whole<std::int64_t>("steps", 1, most_steps), .ratio = fields.positive("ratio")};
+}
+
 std::vector<GoldenFrame> frames_from(const std::vector<Fields>& list) {
   std::vector<GoldenFrame> frames;
   for (const Fields& fields : list) {
@@ -142,6 +148,7 @@ Manifest manifest_from(const Fields& fields) {
   golden.body_count = fields.whole<int>("bodies", 0, most_bodies);
   golden.seconds_per_frame = fields.positive("seconds_per_frame");
   if (fields.has("film")) golden.film = film_from(fields.object("film"));
+  if (fields.has("time")) golden.time = time_from(fields.object("time"), golden.step_count);
   const Fields quanta = fields.object("quanta");
   golden.quanta.position = quantum_from(quanta, "position");
   golden.quanta.velocity = quantum_from(quanta, "velocity");
@@ -195,6 +202,7 @@ std::string manifest_text(const Golden& golden, const std::string& motion_hash) 
             {"frames", std::move(frames)},
             {"motion", motion_hash}};
   if (golden.film) json["film"] = to_json(*golden.film);
+  if (golden.time) json["time"] = to_json(*golden.time);
   return sealed_json(std::move(json), indent);
 }
 

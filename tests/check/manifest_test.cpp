@@ -111,6 +111,16 @@ TEST(Manifest, KeepsTheFilmsSettings) {
   EXPECT_EQ(film->samples, 2);
 }
 
+TEST(Manifest, KeepsTheTime) {
+  const std::optional<GoldenTime> time = read_manifest(manifest()).golden.time;
+  ASSERT_TRUE(time);
+  EXPECT_EQ(time->steps, 20);
+  EXPECT_EQ(time->ratio, 123.5);
+  EXPECT_NE(manifest_with("/time/steps", 0), "");
+  EXPECT_NE(manifest_with("/time/steps", 101), "");  // more than the motion has
+  EXPECT_NE(manifest_with("/time/ratio", 0), "");
+}
+
 TEST(Manifest, MayBeWithoutTheFilmsSettings) {
   Golden golden = recorded();
   golden.film.reset();
