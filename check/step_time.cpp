@@ -81,14 +81,13 @@ std::int64_t run(const Scene& scene, std::int64_t steps, const std::stop_token& 
 /// Time of a run, of which short ones are repeated [s].
 double run_seconds(const Scene& scene, std::int64_t steps, const std::stop_token& stop) {
   const double begin = thread_seconds();
-  double now = begin;
+  double taken = 0;
   int runs = 0;
-  do {
+  for (; taken < shortest_run && !stop.stop_requested(); ++runs) {
     run(scene, steps, stop);
-    ++runs;
-    now = thread_seconds();
-  } while (now - begin < shortest_run && !stop.stop_requested());
-  return (now - begin) / runs;
+    taken = thread_seconds() - begin;
+  }
+  return taken / std::max(1, runs);
 }
 
 double median(std::vector<double> values) {

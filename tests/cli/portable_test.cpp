@@ -20,6 +20,7 @@ using test::SceneFolder;
 /// The loader of this process.
 fs::path loader() {
   Dl_info info{};
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): the kernel tells addresses as numbers
   dladdr(reinterpret_cast<void*>(getauxval(AT_BASE)), &info);
   return fs::canonical(info.dli_fname);
 }
