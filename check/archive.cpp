@@ -46,7 +46,7 @@ namespace drape {
 
 // Every member, in both directions: one that is left out here is lost when shards are merged.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PictureLimits, channel, pixels, flip)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckSettings, frames, size, window_time, motion_tolerance, limits, ignore,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckSettings, frames, size, window_time, motion_tolerance, limits, time, ignore,
                                    ignore_frames)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PictureDifference, verdict, pixels, fraction, largest_channel, mean_flip, max_flip,
                                    worst_pixel)
@@ -58,8 +58,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WindowResult, first_step, last_step, verdict,
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Comparison, motion, picture, windows, frames, first_bad_frame)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Machine, drape, compiler, system, processor, cpu_flags, kernels, renderer)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SceneResult, name, file, golden, verdict, error, findings, windows, end_to_end,
-                                   settings, ignored, elsewhere, scene_changed, recorded_at, recorded_on, renderer,
-                                   size, animation, stills, candidate, rerun_command, accept_command, seconds)
+                                   settings, film, time, ignored, elsewhere, scene_changed, recorded_at, recorded_on,
+                                   renderer, size, animation, stills, candidate, rerun_command, accept_command, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckReport, command, run_options, accept_command, date, machine, scenes, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckShard, report, places, scenes, whole)
 

@@ -3,6 +3,7 @@
 #include "check/golden_folder.hpp"
 #include "check/machine.hpp"
 #include "check/record_motion.hpp"
+#include "check/step_time.hpp"
 #include "run/outputs.hpp"
 
 namespace drape {
@@ -13,6 +14,7 @@ std::optional<Recording> record_scene(const Scene& scene, const CheckSettings& s
   if (!plan) return std::nullopt;
   std::optional<Golden> golden = record_motion(scene, settings, *plan, stop, progress);
   if (!golden) return std::nullopt;
+  if (settings.time && scene.step_count() > 0) golden->time = measure_step_time(scene, 0, stop);
   DrawFrames drawing(scene, golden->size, backend);
   std::vector<Png> pictures = drawing.draw(golden->frames, stop, progress);
   if (stop.stop_requested()) return std::nullopt;

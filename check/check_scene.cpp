@@ -1,6 +1,7 @@
 #include "check/check_scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -17,9 +18,11 @@
 #include "check/name_difference.hpp"
 #include "check/picture.hpp"
 #include "check/record_motion.hpp"
+#include "check/step_time.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "run/outputs.hpp"
+#include "sim/instruction_set.hpp"
 
 namespace drape {
 namespace {
@@ -89,6 +92,7 @@ class SceneCheck {
   void compare() {
     golden_ = read_golden(result_.golden);
     check_precision();
+    check_time_is_there();
     frames_ = chosen_frames(golden_, options_.frames, result_.golden);
     result_.recorded_at = golden_.date;
     result_.recorded_on = golden_.machine;
@@ -109,6 +113,9 @@ class SceneCheck {
         fail_pictures(other_pictures);
       }
     }
+    result_.film = fmt::format("{}", fmt::join(film_mismatch(scene_, settings_, golden_), "; "));
+    if (!result_.film.empty()) result_.findings.push_back(result_.film);
+    if (another_motion.empty()) compare_time();
     if (options_.end_to_end && another_motion.empty() && other_pictures.empty() && !stop_.stop_requested()) {
       compare_end_to_end();
     }
@@ -135,6 +142,31 @@ class SceneCheck {
                       "the scene with that tolerance, or set it to 0 for the same bits",
                       shown(result_.golden), golden_.quanta.compared, settings_.motion_tolerance));
     }
+  }
+
+  void check_time_is_there() const {
+    if (!settings_.time || golden_.time || golden_.step_count == 0) return;
+    throw UsageError(
+        fmt::format("{} holds no time to compare with, as [check] had no 'time' when it was recorded; record it again "
+                    "with drape bless",
+                    shown(result_.golden)));
+  }
+
+  /// Compares times of the same instruction set alone: one that is half as wide may take twice as long.
+  void compare_time() {
+    if (!settings_.time || !golden_.time || stop_.stop_requested()) return;
+    if (golden_.machine.kernels != instruction_set()) {
+      result_.findings.push_back(
+          fmt::format("time was not compared: the golden was recorded with {}, and {} is used here",
+                      golden_.machine.kernels, instruction_set()));
+      return;
+    }
+    try {
+      result_.time = time_mismatch(scene_, *golden_.time, *settings_.time, stop_);
+    } catch (const DivergedError&) {
+      return;  // said of the motion
+    }
+    if (!result_.time.empty()) result_.findings.push_back(result_.time);
   }
 
   void compare_window_motion() {
@@ -236,11 +268,15 @@ class SceneCheck {
     const auto bad = [](const Comparison& c) {
       return c.motion == MotionVerdict::changed || c.picture == PictureVerdict::changed;
     };
-    const bool changed = bad(result_.windows) || (result_.end_to_end && bad(*result_.end_to_end));
+    const bool changed = bad(result_.windows) || (result_.end_to_end && bad(*result_.end_to_end)) ||
+                         !result_.film.empty() || !result_.time.empty();
     result_.verdict = changed ? SceneVerdict::changed : SceneVerdict::passed;
-    if (changed && result_.windows.motion != MotionVerdict::changed &&
-        result_.windows.picture == PictureVerdict::changed) {
-      result_.findings.push_back("the motion did not change");
+    if (changed && result_.windows.motion != MotionVerdict::changed) {
+      if (result_.windows.picture == PictureVerdict::changed) {
+        result_.findings.emplace_back("the motion did not change");
+      } else if (!result_.end_to_end || !bad(*result_.end_to_end)) {
+        result_.findings.emplace_back("the motion and the compared pictures did not change");
+      }
     }
     result_.elsewhere = name_other_machine(golden_.machine, this_machine(result_.renderer));
     if (changed && !result_.elsewhere.empty()) {

@@ -43,6 +43,20 @@ struct GoldenFrame {
   std::string pixels = {};  ///< hash of the picture, see pixel_hash(); set when it is written
 };
 
+/// Values of a film that pictures of some frames, in a size of their own, need not show.
+struct GoldenFilm {
+  double fps = 25;
+  double speed = 1;            ///< seconds of the scene per second of the film
+  Eigen::Vector2i size{0, 0};  ///< [pixels]
+  int samples = 4;             ///< per pixel
+};
+
+/// Time of the first steps.
+struct GoldenTime {
+  std::int64_t steps = 0;
+  double ratio = 0;  ///< to the calibration loop, see measure_step_time()
+};
+
 /// Everything that a scene is compared with.
 struct Golden {
   std::string scene_digest;  ///< Scene::digest
@@ -55,7 +69,9 @@ struct Golden {
   int vertex_count = 0;
   int row = 1;         ///< how far apart the numbers of vertices are that lie side by side, where rows of a grid do
   int body_count = 0;  ///< of GoldenStep::bodies, at most
-  double seconds_per_frame = 0;  ///< of the scene's time
+  double seconds_per_frame = 0;    ///< of the scene's time
+  std::optional<GoldenFilm> film;  ///< absent where an older drape has recorded it
+  std::optional<GoldenTime> time;  ///< absent unless the scene's [check] had a `time`
   Quanta quanta;
   Camera camera;                      ///< what the scene said
   std::vector<View> frames_views;     ///< where it would stand if the compared frames were the whole motion

@@ -9,6 +9,16 @@
 #include "check/record_motion.hpp"
 
 namespace drape {
+namespace {
+
+/// "half the speed", "twice the speed", "0.8 of the speed".
+std::string speed_in_words(double ratio) {
+  if (ratio == 0.5) return "half the speed";
+  if (ratio == 2) return "twice the speed";
+  return ratio > 1 ? fmt::format("{:.3g} times the speed", ratio) : fmt::format("{:.3g} of the speed", ratio);
+}
+
+}  // namespace
 
 std::string motion_mismatch(const Scene& scene, const Golden& golden) {
   if (const int count = scene.simulation.cloth.vertex_count(); count != golden.vertex_count) {
@@ -43,6 +53,28 @@ std::string picture_mismatch(const Scene& scene, const CheckSettings& settings, 
                        fmt::join(recorded, ", "));
   }
   return {};
+}
+
+std::vector<std::string> film_mismatch(const Scene& scene, const CheckSettings& settings, const Golden& golden) {
+  std::vector<std::string> changes;
+  if (!golden.film) return changes;
+  const GoldenFilm now = film_of(scene), &then = *golden.film;
+  if (now.speed != then.speed) {
+    changes.push_back(fmt::format("the film plays at {} (video.speed is {:g}, in the golden {:g})",
+                                  speed_in_words(now.speed / then.speed), now.speed, then.speed));
+  }
+  if (now.fps != then.fps)
+    changes.push_back(fmt::format("the film has {:g} frames a second, the golden one {:g}", now.fps, then.fps));
+  // Pictures that have the film's size are said to differ from the golden ones.
+  if (settings.size && now.size != then.size) {
+    changes.push_back(fmt::format("the film has {}x{} pixels, the golden one {}x{}", now.size.x(), now.size.y(),
+                                  then.size.x(), then.size.y()));
+  }
+  if (now.samples != then.samples) {
+    changes.push_back(fmt::format("the film has {} sample{} per pixel, the golden one {}", now.samples,
+                                  now.samples == 1 ? "" : "s", then.samples));
+  }
+  return changes;
 }
 
 bool same_but_for_rounding(const std::vector<View>& a, const std::vector<View>& b) {

@@ -24,6 +24,7 @@ class Fields {
   /// @param name what stands before the names of its values in messages: "camera."
   Fields(const Json& json, std::string name);
 
+  [[nodiscard]] bool has(const char* key) const { return json_.contains(key); }
   [[nodiscard]] bool is_null(const char* key) const { return at(key).is_null(); }
   [[nodiscard]] Fields object(const char* key) const { return {at(key), name_ + key + "."}; }
   [[nodiscard]] std::vector<Fields> objects(const char* key) const;

@@ -72,6 +72,8 @@ Json to_json(const SceneResult& scene) {
               {"pixels", scene.settings.limits.pixels},
               {"flip", scene.settings.limits.flip}}},
             {"size", scene.size},
+            {"film", scene.film},
+            {"time", scene.time},
             {"ignored", scene.ignored},
             {"recorded_elsewhere", scene.elsewhere},
             {"scene_changed", scene.scene_changed},

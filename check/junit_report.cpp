@@ -54,6 +54,8 @@ std::vector<Case> cases_of(const SceneResult& scene) {
     return {{&scene, "golden", fmt::format("{}", fmt::join(scene.findings, "; ")), {}}};
   if (scene.verdict == SceneVerdict::updated) return {{&scene, "golden", {}, "updated"}};
   std::vector<Case> cases{motion_case(scene, scene.windows, "motion"), picture_case(scene, scene.windows, "pictures")};
+  if (!scene.film.empty()) cases.push_back({&scene, "film", scene.film, {}});
+  if (!scene.time.empty()) cases.push_back({&scene, "time", scene.time, {}});
   if (scene.end_to_end) {
     cases.push_back(motion_case(scene, *scene.end_to_end, "motion end to end"));
     cases.push_back(picture_case(scene, *scene.end_to_end, "pictures end to end"));

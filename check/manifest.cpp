@@ -91,6 +91,24 @@ Machine machine_from(const Fields& fields) {
           .renderer = text("renderer")};
 }
 
+Json to_json(const GoldenFilm& film) {
+  return {{"fps", film.fps}, {"speed", film.speed}, {"size", array_of<2>(film.size)}, {"samples", film.samples}};
+}
+
+GoldenFilm film_from(const Fields& fields) {
+  constexpr int most_samples = 64;  // of any OpenGL
+  return {.fps = fields.positive("fps"),
+          .speed = fields.positive("speed"),
+          .size = fields.pixels("size"),
+          .samples = fields.whole<int>("samples", 1, most_samples)};
+}
+
+Json to_json(const GoldenTime& time) { return {{"steps", time.steps}, {"ratio", time.ratio}}; }
+
+GoldenTime time_from(const Fields& fields, std::int64_t most_steps) {
+  return {.steps = fields.whole<std::int64_t>("steps", 1, most_steps), .ratio = fields.positive("ratio")};
+}
+
 std::vector<GoldenFrame> frames_from(const std::vector<Fields>& list) {
   std::vector<GoldenFrame> frames;
   for (const Fields& fields : list) {
@@ -129,6 +147,8 @@ Manifest manifest_from(const Fields& fields) {
   golden.row = fields.whole<int>("row", 1, any);
   golden.body_count = fields.whole<int>("bodies", 0, most_bodies);
   golden.seconds_per_frame = fields.positive("seconds_per_frame");
+  if (fields.has("film")) golden.film = film_from(fields.object("film"));
+  if (fields.has("time")) golden.time = time_from(fields.object("time"), golden.step_count);
   const Fields quanta = fields.object("quanta");
   golden.quanta.position = quantum_from(quanta, "position");
   golden.quanta.velocity = quantum_from(quanta, "velocity");
@@ -164,25 +184,26 @@ std::string manifest_text(const Golden& golden, const std::string& motion_hash) 
   for (const GoldenFrame& frame : golden.frames) frames.push_back(to_json(frame));
   for (const View& view : golden.frames_views) frames_views.push_back(to_json(view));
   const Quanta& quanta = golden.quanta;
-  return sealed_json(
-      {{"format", format_version},
-       {"scene_hash", golden.scene_digest},
-       {"date", golden.date},
-       {"machine", to_json(golden.machine)},
-       {"size", array_of<2>(golden.size)},
-       {"step", golden.step},
-       {"steps", golden.step_count},
-       {"window_steps", golden.window_steps},
-       {"vertices", golden.vertex_count},
-       {"row", golden.row},
-       {"bodies", golden.body_count},
-       {"seconds_per_frame", golden.seconds_per_frame},
-       {"quanta", {{"position", quanta.position}, {"velocity", quanta.velocity}, {"compared", quanta.compared}}},
-       {"camera", to_json(golden.camera)},
-       {"frames_views", std::move(frames_views)},
-       {"frames", std::move(frames)},
-       {"motion", motion_hash}},
-      indent);
+  Json json{{"format", format_version},
+            {"scene_hash", golden.scene_digest},
+            {"date", golden.date},
+            {"machine", to_json(golden.machine)},
+            {"size", array_of<2>(golden.size)},
+            {"step", golden.step},
+            {"steps", golden.step_count},
+            {"window_steps", golden.window_steps},
+            {"vertices", golden.vertex_count},
+            {"row", golden.row},
+            {"bodies", golden.body_count},
+            {"seconds_per_frame", golden.seconds_per_frame},
+            {"quanta", {{"position", quanta.position}, {"velocity", quanta.velocity}, {"compared", quanta.compared}}},
+            {"camera", to_json(golden.camera)},
+            {"frames_views", std::move(frames_views)},
+            {"frames", std::move(frames)},
+            {"motion", motion_hash}};
+  if (golden.film) json["film"] = to_json(*golden.film);
+  if (golden.time) json["time"] = to_json(*golden.time);
+  return sealed_json(std::move(json), indent);
 }
 
 Manifest read_manifest(std::string_view bytes) {

@@ -78,6 +78,7 @@ Golden described(const Scene& scene, const CheckSettings& settings, const Record
   golden.row = row_of(scene.simulation.cloth);
   golden.camera = scene.camera;
   golden.seconds_per_frame = whole_film(scene).seconds_per_frame;
+  golden.film = film_of(scene);
   golden.quanta = plan.quanta;
   for (const ChosenFrame& chosen : plan.frames) {
     golden.frames.push_back(
@@ -87,6 +88,10 @@ Golden described(const Scene& scene, const CheckSettings& settings, const Record
 }
 
 }  // namespace
+
+GoldenFilm film_of(const Scene& scene) {
+  return {.fps = scene.video.fps, .speed = scene.video.speed, .size = scene.video.size, .samples = scene.look.samples};
+}
 
 Eigen::Vector2i picture_size(const Scene& scene, const CheckSettings& settings) {
   return settings.size.value_or(scene.video.size);

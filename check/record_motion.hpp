@@ -34,6 +34,9 @@ RecordPlan plan_of(const Golden& golden);
 std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& settings, const RecordPlan& plan,
                                     const std::stop_token& stop, Progress& progress);
 
+/// Settings of a scene's film that its golden keeps.
+GoldenFilm film_of(const Scene& scene);
+
 /// The size of a scene's golden pictures [pixels].
 Eigen::Vector2i picture_size(const Scene& scene, const CheckSettings& settings);
 

@@ -112,9 +112,11 @@ struct SceneResult {
   Comparison windows;                 ///< the motion in windows from golden states, and the pictures of those states
   std::optional<Comparison> end_to_end;  ///< the whole motion run again and drawn, if that was asked for
 
-  CheckSettings settings;      ///< with what the command line says
-  double ignored = 0;          ///< the part of every picture that is not judged, 0 to 1
-  std::string elsewhere;       ///< what was another where the golden was recorded, see name_other_machine()
+  CheckSettings settings;  ///< with what the command line says
+  std::string film;        ///< settings of the film that have changed, as sentences; empty: none
+  std::string time;        ///< a sentence if the first steps take too long; empty: they do not, or were not measured
+  double ignored = 0;      ///< the part of every picture that is not judged, 0 to 1
+  std::string elsewhere;   ///< what was another where the golden was recorded, see name_other_machine()
   bool scene_changed = false;  ///< the scene file has changed since it was recorded
   std::string recorded_at;     ///< "2026-01-31T12:00:00Z"; empty without a golden
   Machine recorded_on;

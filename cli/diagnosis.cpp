@@ -15,6 +15,7 @@
 #include "cli/environment.hpp"
 #include "codecs/codecs.hpp"
 #include "core/error.hpp"
+#include "core/installation.hpp"
 #include "figures/svg_printer.hpp"
 #include "output/registry.hpp"
 #include "output/try_format.hpp"
@@ -208,6 +209,7 @@ Diagnosis diagnose() {
   diagnosis.cholmod = fmt::format("{}.{}.{}", version[0], version[1], version[2]);
 
   for (const GlBackend backend : {GlBackend::osmesa, GlBackend::egl}) {
+    if (backend == GlBackend::egl && !portable_root().empty()) continue;  // not part of it
     diagnosis.backends.push_back(find_backend(backend));
   }
   diagnosis.drawing = find_drawing(diagnosis.backends);

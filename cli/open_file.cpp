@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <vector>
 
+#include "core/installation.hpp"
 #include "core/text.hpp"
-
-extern char** environ;  // NOLINT(readability-redundant-declaration): not every libc declares it
 
 namespace drape {
 
@@ -22,8 +22,12 @@ void open_file(const std::string& what) {
   std::string program = "xdg-open", argument = what;
   if (argument.starts_with('-')) argument.insert(0, "./");
   const std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
+  std::vector<std::string> variables = environment_for_others();
+  std::vector<char*> environment;
+  for (std::string& variable : variables) environment.push_back(variable.data());
+  environment.push_back(nullptr);
   pid_t child = 0;
-  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
+  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environment.data());
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0)
     spdlog::warn("cannot open {}: there is no xdg-open; on Debian: apt-get install xdg-utils", shown(what));

@@ -12,6 +12,7 @@
 #include "cli/terminal.hpp"
 #include "cli/watched.hpp"
 #include "core/console.hpp"
+#include "core/installation.hpp"
 #include "core/names_in_folders.hpp"
 #include "core/shell.hpp"
 #include "core/text.hpp"
@@ -94,7 +95,7 @@ ExitCode write_jobs(const SweepArguments& arguments, const SweepPlan& plan, cons
   const std::filesystem::path submit = write_slurm_jobs(
       {.sweep = fmt::format("{} -o {} --jobs {}{}", command, shell_word(arguments.folder), arguments.jobs,
                             arguments.threads > 1 ? fmt::format(" --threads {}", arguments.threads) : ""),
-       .program = std::filesystem::read_symlink("/proc/self/exe").string(),
+       .program = program_command().string(),
        .folder = arguments.folder,
        .tasks = tasks,
        .options = arguments.slurm_options});

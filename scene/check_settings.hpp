@@ -24,6 +24,7 @@ struct CheckSettings {
   double window_time = 0.4;             ///< after which the motion starts again from a golden state [s]
   double motion_tolerance = 1e-6;       ///< how far a vertex may be from its golden place [m]
   PictureLimits limits;
+  std::optional<double> time;  ///< how many times as long as the golden the first steps may take; absent: not measured
   std::vector<PixelRectangle> ignore;  ///< what is not judged in any picture
   std::vector<int> ignore_frames;      ///< whose pictures are not judged at all
 };

@@ -227,6 +227,10 @@ Keys check_keys(CheckSettings& check) {
   keys.add("flip_limit", &check.limits.flip, "", "…and no pixel's FLIP error (Andersson et al. 2020) exceeds this.")
       .at_least(0)
       .at_most(1);
+  keys.add("time", &check.time, "",
+           "Largest accepted ratio of the time of the first steps to that in the golden, both measured beside a "
+           "calibration loop. Default: time is not compared.")
+      .above(1);
   keys.add("ignore", OwnForm{"[[x, y, width, height], …]", &check.ignore}, "pixels",
            "Parts of the golden pictures that are shown but not judged, measured from the top left.");
   keys.add("ignore_frames", &check.ignore_frames, "", "Frames whose pictures are shown but not judged.").at_least(0);

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/error.hpp"
+#include "core/installation.hpp"
 #include "core/memory.hpp"
 #include "render/gl/llvmpipe.hpp"
 
@@ -52,7 +53,11 @@ const char* debian_packages(GlBackend backend) {
 std::unique_ptr<GlContext> make_gl_context(GlBackend backend) {
   require_address_space();
   if (backend == GlBackend::osmesa) return make_osmesa_context();
+  // The system's EGL would load a Mesa that was built with other libraries than those of the archive.
+  if (!portable_root().empty() && backend == GlBackend::egl)
+    throw OutputError("cannot draw: the portable archive has no EGL; it draws with OSMesa (--backend osmesa)");
   if (backend == GlBackend::egl) return make_egl_context();
+  if (!portable_root().empty()) return make_osmesa_context();
   prepare_llvmpipe();  // an environment that is wrong is so for both
   std::string without_osmesa;
   try {

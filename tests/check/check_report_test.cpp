@@ -52,6 +52,22 @@ TEST_F(CheckReports, ReportsToMachines) {
   EXPECT_EQ(failures, 2);
 }
 
+TEST_F(CheckReports, ReportAFilmAtAnotherSpeedAsAFailure) {
+  bless();
+  CheckReport report;
+  report.scenes.push_back(check({"video.speed=0.5", "video.fps=15"}));
+  EXPECT_EQ(exit_code(report), ExitCode::differs);
+  const auto scene = nlohmann::json::parse(json_report(report)).at("scenes")[0];
+  EXPECT_EQ(scene.at("film"), report.scenes[0].film);
+  tinyxml2::XMLDocument xml;
+  ASSERT_EQ(xml.Parse(junit_report(report).c_str()), tinyxml2::XML_SUCCESS);
+  const auto* suite = xml.RootElement()->FirstChildElement("testsuite");
+  EXPECT_EQ(suite->IntAttribute("failures"), 1);
+  const auto* film = suite->LastChildElement("testcase");
+  EXPECT_STREQ(film->Attribute("name"), "film");
+  EXPECT_EQ(film->FirstChildElement("failure")->Attribute("message"), report.scenes[0].film);
+}
+
 TEST_F(CheckReports, ReportsWhatCannotBeJudged) {
   bless();
   put(golden() / "motion.bin", "drape motion 2\n");

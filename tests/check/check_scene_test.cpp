@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "check/manifest.hpp"
 #include "check/record_motion.hpp"
+#include "check/step_time.hpp"
 #include "output/png_encoder.hpp"
 #include "tests/check/checked_scene.hpp"
 #include "tests/support/synthetic_film.hpp"
@@ -37,6 +41,119 @@ TEST_F(CheckScene, PassesWhatWasJustRecorded) {
   ASSERT_EQ(result.windows.frames.size(), 3u);
   EXPECT_FALSE(result.windows.frames[1].expected.empty());
   EXPECT_TRUE(result.windows.frames[1].actual.empty());
+}
+
+TEST_F(CheckScene, SaysThatTheFilmPlaysAtAnotherSpeed) {
+  bless();
+  const SceneResult half = check({"video.speed=0.5", "video.fps=15"});
+  EXPECT_EQ(half.verdict, SceneVerdict::changed);
+  EXPECT_EQ(half.windows.motion, MotionVerdict::same_bits);
+  EXPECT_EQ(half.windows.picture, PictureVerdict::exact);
+  EXPECT_EQ(half.film,
+            "the film plays at half the speed (video.speed is 0.5, in the golden 1); the film has 15 frames a second, "
+            "the golden one 30");
+  ASSERT_GE(half.findings.size(), 2u);
+  EXPECT_EQ(half.findings[0], half.film);
+  EXPECT_EQ(half.findings[1], "the motion and the compared pictures did not change");
+  EXPECT_EQ(check({"video.speed=2", "video.fps=60"}).film.find("the film plays at twice the speed"), 0u);
+  EXPECT_EQ(check({"video.speed=0.8", "video.fps=24"}).film.find("the film plays at 0.8 of the speed"), 0u);
+  EXPECT_EQ(check({"video.speed=3", "video.fps=90"}).film.find("the film plays at 3 times the speed"), 0u);
+}
+
+TEST_F(CheckScene, SaysThatTheFilmHasAnotherSizeThanItsPictures) {
+  put(folder_ / "swing.toml", std::string(test::small_swing) + "size = [32, 24]\n");
+  bless();
+  EXPECT_EQ(check().verdict, SceneVerdict::passed);
+  const SceneResult larger = check({"video.size=[128, 96]"});
+  EXPECT_EQ(larger.verdict, SceneVerdict::changed);
+  EXPECT_EQ(larger.film, "the film has 128x96 pixels, the golden one 64x48");
+  EXPECT_EQ(larger.windows.picture, PictureVerdict::exact);
+}
+
+TEST_F(CheckScene, SaysThatTheFilmHasOtherSamples) {
+  bless();
+  const SceneResult coarse = check({"look.samples=1"});
+  EXPECT_EQ(coarse.verdict, SceneVerdict::changed);
+  EXPECT_EQ(coarse.film, "the film has 1 sample per pixel, the golden one 4");
+}
+
+TEST_F(CheckScene, SaysNothingOfTheFilmToAGoldenThatHasNoneOfItsSettings) {
+  bless();
+  std::string text = test::content(golden() / "manifest.json");
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(text);
+  ASSERT_EQ(json.erase("film"), 1u);
+  put(golden() / "manifest.json", sealed_manifest(json.dump()));
+  const SceneResult half = check({"video.speed=0.5", "video.fps=15"});
+  EXPECT_EQ(half.verdict, SceneVerdict::passed);
+  EXPECT_EQ(half.film, "");
+}
+
+// No assertion here is about how long something takes: the golden's own time is replaced by one that is far away.
+class CheckTime : public CheckScene {
+ protected:
+  CheckTime() { put(folder_ / "swing.toml", std::string(test::small_swing) + "time = 1.3\n"); }
+
+  void replace_time(double factor) const {
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(test::content(golden() / "manifest.json"));
+    json.at("time").at("ratio") = json.at("time").at("ratio").get<double>() * factor;
+    put(golden() / "manifest.json", sealed_manifest(json.dump()));
+  }
+};
+
+TEST_F(CheckTime, FailsWhereTheGoldenTookAFractionOfIt) {
+  bless();
+  replace_time(1e-3);
+  const SceneResult slow = check();
+  EXPECT_EQ(slow.verdict, SceneVerdict::changed);
+  EXPECT_EQ(slow.windows.motion, MotionVerdict::same_bits);
+  EXPECT_EQ(slow.windows.picture, PictureVerdict::exact);
+  EXPECT_EQ(slow.time.find("the first "), 0u) << slow.time;
+  EXPECT_NE(slow.time.find("times as long as when the golden was recorded; 1.3 is allowed"), std::string::npos);
+  ASSERT_FALSE(slow.findings.empty());
+  EXPECT_EQ(slow.findings[0], slow.time);
+}
+
+TEST_F(CheckTime, PassesWhereTheGoldenTookFarLonger) {
+  bless();
+  replace_time(1e3);
+  const SceneResult fast = check();
+  EXPECT_EQ(fast.verdict, SceneVerdict::passed);
+  EXPECT_EQ(fast.time, "");
+}
+
+TEST_F(CheckTime, NeedsAGoldenThatHasOne) {
+  put(folder_ / "swing.toml", test::small_swing);
+  bless();
+  EXPECT_EQ(test::content(golden() / "manifest.json").find("\"time\": {"), std::string::npos);
+  try {
+    check({"check.time=1.3"});
+    FAIL() << "there is nothing to compare with";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("holds no time to compare with"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(CheckTime, IsNotComparedBetweenInstructionSets) {
+  bless();
+  replace_time(1e-3);
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(test::content(golden() / "manifest.json"));
+  json.at("machine").at("kernels") = "abacus";
+  put(golden() / "manifest.json", sealed_manifest(json.dump()));
+  const SceneResult result = check();
+  EXPECT_EQ(result.verdict, SceneVerdict::passed);
+  ASSERT_FALSE(result.findings.empty());
+  EXPECT_EQ(result.findings[0].find("time was not compared: the golden was recorded with abacus"), 0u);
+}
+
+TEST_F(CheckTime, IsMeasuredOverNoMoreThanTheMotion) {
+  const std::optional<GoldenTime> time = measure_step_time(scene(), 0, {});
+  ASSERT_TRUE(time);
+  EXPECT_GE(time->steps, 1);
+  EXPECT_LE(time->steps, scene().step_count());
+  EXPECT_GT(time->ratio, 0);
+  std::stop_source stopped;
+  stopped.request_stop();
+  EXPECT_FALSE(measure_step_time(scene(), 0, stopped.get_token()));
 }
 
 TEST_F(CheckScene, DrawsFromWhereAMovingCameraIsInEachFrame) {

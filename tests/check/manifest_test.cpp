@@ -95,6 +95,38 @@ TEST(Manifest, RefusesValuesThatMakeNoSense) {
   EXPECT_NE(manifest_with("/frames/1/frame", 3), "");  // twice the same
   EXPECT_NE(manifest_with("/window_steps", 0), "");
   EXPECT_NE(manifest_with("/format", 4), "");
+  EXPECT_EQ(manifest_with("/film", nullptr), "'film.' is not a JSON object");
+  EXPECT_NE(manifest_with("/film/fps", 0), "");
+  EXPECT_NE(manifest_with("/film/speed", -1), "");
+  EXPECT_NE(manifest_with("/film/size", {0, 480}), "");
+  EXPECT_EQ(manifest_with("/film/samples", 0), "'film.samples': expected a whole number from 1 to 64");
+}
+
+TEST(Manifest, KeepsTheFilmsSettings) {
+  const std::optional<GoldenFilm> film = read_manifest(manifest()).golden.film;
+  ASSERT_TRUE(film);
+  EXPECT_EQ(film->fps, 12.5);
+  EXPECT_EQ(film->speed, 0.5);
+  EXPECT_EQ(film->size, Eigen::Vector2i(640, 480));
+  EXPECT_EQ(film->samples, 2);
+}
+
+TEST(Manifest, KeepsTheTime) {
+  const std::optional<GoldenTime> time = read_manifest(manifest()).golden.time;
+  ASSERT_TRUE(time);
+  EXPECT_EQ(time->steps, 20);
+  EXPECT_EQ(time->ratio, 123.5);
+  EXPECT_NE(manifest_with("/time/steps", 0), "");
+  EXPECT_NE(manifest_with("/time/steps", 101), "");  // more than the motion has
+  EXPECT_NE(manifest_with("/time/ratio", 0), "");
+}
+
+TEST(Manifest, MayBeWithoutTheFilmsSettings) {
+  Golden golden = recorded();
+  golden.film.reset();
+  const std::string text = manifest_text(golden, "fedcba9876543210");
+  EXPECT_EQ(text.find("\"film\""), std::string::npos);
+  EXPECT_FALSE(read_manifest(text).golden.film);
 }
 
 TEST(Manifest, NeedsEveryValue) {

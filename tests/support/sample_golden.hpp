@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <random>
 
 #include "check/golden.hpp"
@@ -23,6 +24,8 @@ inline Golden sample_golden(int vertices, std::int64_t steps, std::int64_t windo
   golden.row = 4;
   golden.body_count = 7;
   golden.seconds_per_frame = 0.04;
+  golden.film = {.fps = 12.5, .speed = 0.5, .size = {640, 480}, .samples = 2};
+  if (steps > 0) golden.time = {.steps = std::min<std::int64_t>(20, steps), .ratio = 123.5};
   golden.quanta = {0x1p-29, 0x1p-25, 0x1p-24};
   const auto random = [&](double quantum) {
     const Vertices any = Vertices::NullaryExpr(vertices, 3, [&] { return uniform(generator); });

@@ -25,6 +25,13 @@ TEST(SceneCheck, TakesPartsOfPicturesThatAreNotJudged) {
   EXPECT_NE(folder.problems(check + "[[0, 0, -1, 5]]\n").find("scene.toml:7:18: ignore"), std::string::npos);
 }
 
+TEST(SceneCheck, TakesALimitOfTime) {
+  const test::SceneFolder folder;
+  EXPECT_FALSE(folder.load(least_scene).check.time);
+  EXPECT_EQ(folder.load(least_scene + "[check]\ntime = 1.3\n").check.time, 1.3);
+  EXPECT_NE(folder.problems(least_scene + "[check]\ntime = 1\n").find("time"), std::string::npos);
+}
+
 TEST(SceneCheck, RefusesToIgnoreWhatThereIsNot) {
   const test::SceneFolder folder;
   const std::string check =
