@@ -1,6 +1,7 @@
 #include "sim/solvers/accuracy.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "sim/step_objective.hpp"
 #include "sim/system.hpp"
@@ -8,9 +9,10 @@
 namespace drape {
 namespace {
 
-constexpr double visible = 1e-4;     // of the cloth's size
-constexpr double tolerated = 0.003;  // of the way that forces move a vertex in a step
-constexpr double share_of_forces = 0.05, share_of_way = 0.01;
+constexpr double visible = 1e-4;                  // of the cloth's size
+constexpr double tolerated = 0.003;               // of the way that forces move a vertex in a step
+constexpr std::array share_of_forces{0.1, 0.05};  // of the way by forces, by the order of the scheme
+constexpr double share_of_way = 0.01;
 constexpr double customary = 1e-3;  // for a rule that is given without a tolerance [m] or [N]: the homework's
 
 double longest(const Vertices& v) { return v.rowwise().stableNorm().maxCoeff(); }
@@ -78,7 +80,7 @@ double Accuracy::tolerance_at(const StepObjective& objective, const Vertices& x,
   if (!usual) return tolerance;
   const auto [whole, by_forces] = objective.longest_way(x);
   const double changed = start_error < by_forces ? std::pow(start_error / by_forces, order) : 1;
-  const double of_scheme = share_of_forces * changed * by_forces;
+  const double of_scheme = share_of_forces.at(static_cast<std::size_t>(order - 1)) * changed * by_forces;
   return std::max(std::min(of_scheme, share_of_way * whole), objective.error_rounding());
 }
 

@@ -10,13 +10,13 @@ struct System;
 /// When a step is accurate enough: what [integrator] says, and what holds where it does not.
 ///
 /// Without either, a step stops at an error in proportion to what it does, so that small motions are computed as well
-/// as large ones, and rest is exact. It is the smaller of two. One is 0.05 rᵖ τ²a, a tenth of what a scheme of order p
-/// itself leaves out: an error δ is a force of Mδ/τ² that is not there, and a scheme takes forces that change by a part
-/// r in a step for others that are about ½ rᵖ of them beside what they should be (backward Euler: ½h²a' of a velocity,
-/// of ha). r is at most 1, and measured by a step that starts where the forces of its beginning lead: their change is
-/// the error there. The other is 1 % of the longest way in the step, which counts where forces are large but move
-/// nothing that is seen.
-/// Contact solved with the cloth has a rule of its own, see ContactSolver.
+/// as large ones, and rest is exact. It is the smaller of two. One is 0.1 r τ²a, of a scheme of order 2 0.05 r² τ²a,
+/// about a tenth of what the scheme itself leaves out: an error δ is a force of Mδ/τ² that is not there, and a scheme
+/// takes forces that change by a part r in a step for others that are about ½ rᵖ of them beside what they should be
+/// (backward Euler: ½h²a' of a velocity, of ha). r is at most 1, and measured by a step that starts where the forces of
+/// its beginning lead: their change is the error there. The other is 1 % of the longest way in the step, which counts
+/// where forces are large but move nothing that is seen. Contact solved with the cloth has a rule of its own, see
+/// ContactSolver.
 struct Accuracy {
   StoppingRule rule;
   double tolerance;  ///< that is given [m], or [N] for StoppingRule::gradient

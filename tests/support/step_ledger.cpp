@@ -136,7 +136,7 @@ Real StepLedger::tolerance(const State& before, const State& after) const {
     by_forces = std::max(by_forces, (way - settings_.step * before.v.row(i).cast<Real>()).norm());
   }
   const Real rounding = 64 * unit * condition_bound(system_) * aim(before).cwiseAbs().maxCoeff();
-  return std::max(std::min(by_forces / 20, whole / 100), rounding);
+  return std::max(std::min(by_forces / (accuracy.order == 1 ? 10 : 20), whole / 100), rounding);
 }
 
 Real StepLedger::tolerated(const StepBalance& b, const RealVertices& force, const RealVertices& change,
