@@ -9,6 +9,7 @@ import pytest
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 CI = SOURCE / "ci"
 DRAPE = os.environ["DRAPE_EXECUTABLE"]
+os.environ["PATH"] = "/usr/sbin:/usr/bin:/sbin:/bin"  # Debian's packages, as on a runner, and no other python3
 
 SCENE = """
 [cloth]
