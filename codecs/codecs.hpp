@@ -17,10 +17,10 @@ using VideoPen = std::function<void(const cv::Mat& bgr)>;
 /// @throws std::runtime_error why it cannot be written
 using AnimationPen = std::function<void(const cv::Mat* rgb)>;
 
-/// What encodes and decodes videos, and decodes pictures that are no PNG: OpenCV and FFmpeg, in a module of ours beside
-/// the program (codecs/opencv_codecs.cpp), because starting with the two hundred libraries that it needs takes ten
-/// times as long as starting without. Functions, not a class: what the two would know of its type are two things to the
-/// sanitizers.
+/// Encoders and decoders of videos, and decoders of pictures that are no PNG: OpenCV and FFmpeg, in a module of ours
+/// beside the program (codecs/opencv_codecs.cpp), because starting with the two hundred libraries that it needs takes
+/// ten times as long as starting without. Functions, not a class: what the two would know of its type are two things to
+/// the sanitizers.
 struct Codecs {
   /// The picture in the bytes of a file, as cv::imdecode(); says nothing on the terminal.
   /// @param flags cv::ImreadModes

@@ -13,7 +13,7 @@ namespace {
 constexpr int compression = 6;  // zlib's own choice between time and size
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 30;
 
-/// libpng's message, and where to go on from; it has no other way out of an error.
+/// Message of libpng's last error, which it leaves by a jump.
 struct Failure {
   char text[128] = "";
 };

@@ -15,7 +15,7 @@ std::string png_library();
 /// @throws std::runtime_error why it cannot be encoded
 std::vector<std::uint8_t> png_from_bgr(const cv::Mat& bgr);
 
-/// Whether these are the bytes of a PNG file, by their first eight.
+/// Returns whether these are the bytes of a PNG file, by their first eight.
 bool is_png(std::string_view bytes);
 
 /// The pixels of a PNG file, of any kind, as blue, green, red of 8 bits; transparency and colour profiles are ignored.

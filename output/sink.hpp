@@ -32,8 +32,8 @@ class Sink {
   /// @throws std::invalid_argument if it is an image of another size than the first one
   virtual void add(const Item& item) = 0;
 
-  /// Whether it needs the film's frame with this number, where the first that is added has 0. One that it does not need
-  /// may be skipped, unless it becomes the last because the film ends early.
+  /// Returns whether it needs the film's frame with this number, where the first that is added has 0. One that it does
+  /// not need may be skipped, unless it becomes the last because the film ends early.
   [[nodiscard]] virtual bool needs(int /*index*/) const { return true; }
   /// The next frame, which it does not need.
   virtual void skip() {}

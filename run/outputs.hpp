@@ -55,8 +55,8 @@ class Outputs {
   /// Whether any (still) takes images.
   [[nodiscard]] bool drawn() const;
 
-  /// Whether any needs the picture of the film's frame with this number, from 0. Asked from any thread, as it is known
-  /// from the beginning.
+  /// Returns whether any needs the picture of the film's frame with this number, from 0. Asked from any thread, as it
+  /// is known from the beginning.
   [[nodiscard]] bool needs_picture(int index) const;
 
   /// What the frames must hold for them.

@@ -15,7 +15,7 @@ namespace drape {
 /// falls below it by at most 1 + h²λ_max(M⁻¹L), so the iterations are few where Newton's method is stiff but not
 /// extremely so. H is never assembled: its springs' blocks are kept as vectors, and a product is one pass over them.
 ///
-/// Of a fine cloth the preconditioner is A⁻¹ + D⁻¹, D the HessianDiagonal. What falls far below A are motions out of
+/// The preconditioner of a fine cloth is A⁻¹ + D⁻¹, D the HessianDiagonal. What falls far below A are motions out of
 /// the cloth's plane, which nothing but inertia holds where it is not stretched; those that neighbours do not share
 /// fall less below D. As no Hessian exceeds A or D, the sum never exceeds 2 H⁻¹.
 class ConjugateGradients final : public NewtonSolver {

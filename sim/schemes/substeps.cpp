@@ -25,7 +25,7 @@ constexpr double accepted = 0.8;
 constexpr double solve_share = 0.1;  // of the accuracy, that the solves of both motions together may do wrong
 constexpr double most_default_errors = 10;
 
-/// What both motions are of: of second order, with the method that is asked for.
+/// Settings of both motions: of second order, with the method that is asked for.
 IntegratorSettings of_second_order(IntegratorSettings integrator) {
   if (is_explicit(integrator.method)) integrator.method = Method::verlet;
   integrator.scheme = TimeScheme::sdirk2;
