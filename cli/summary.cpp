@@ -35,6 +35,19 @@ std::string name(const std::vector<OutputFile>& files) {
   return files.size() == 1 ? first : fmt::format("{} … {}", first, shown(files.back().path));
 }
 
+/// How steps are computed, and where that was chosen, why.
+std::string method_text(const Scene& scene) {
+  const IntegratorSettings& integrator = scene.simulation.integrator;
+  std::string text = step_method_name(integrator.step_method());
+  if (integrator.substep_count() > 1) text += fmt::format(" in {} substeps", integrator.substep_count());
+  if (!scene.choice) return text;
+  const MethodChoice& choice = *scene.choice;
+  const bool verlet = choice.method == Method::verlet;
+  const double other = verlet ? choice.quasi_newton / choice.verlet : choice.verlet / choice.quasi_newton;
+  return text + fmt::format(" (auto: {}; {} would take about {:.2g} times as long for an error of 1 %)", choice.reason,
+                            verlet ? "quasi-newton" : "verlet", other);
+}
+
 }  // namespace
 
 std::string describe(const Scene& scene, const RunOptions& options) {
@@ -48,7 +61,7 @@ std::string describe(const Scene& scene, const RunOptions& options) {
   }
   std::string text =
       fmt::format("{}: {}, {} vertices, {} springs, {}, {} steps of {:g} s ({:g} s)", shown(scene.file),
-                  step_method_name(s.integrator.step_method()), s.cloth.vertex_count(), s.cloth.springs.size(),
+                  method_text(scene), s.cloth.vertex_count(), s.cloth.springs.size(),
                   shape_of(s.cloth).text(), steps, s.step, static_cast<double>(steps) * s.step);
   for (const Effect& effect : s.effects) text += ", " + std::string(effect.name());
   return text;

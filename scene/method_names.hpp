@@ -14,9 +14,9 @@
 namespace drape {
 
 /// The methods as scenes write them, in the order of the enumeration.
-inline constexpr std::array<std::string_view, 5> method_names{"semi-implicit", "implicit", "liu13", "quasi-newton",
-                                                              "verlet"};
-static_assert(method_names.size() == static_cast<std::size_t>(Method::verlet) + 1);
+inline constexpr std::array<std::string_view, 6> method_names{"semi-implicit", "implicit", "liu13", "quasi-newton",
+                                                              "verlet",        "auto"};
+static_assert(method_names.size() == method_count + 1);
 
 inline std::string method_name(Method method) { return std::string(method_names[static_cast<std::size_t>(method)]); }
 

@@ -175,6 +175,18 @@ class Checks {
   Problems& problems_;
 };
 
+/// Chooses a method, and has the scene and the document name it, as what is kept of a motion has to.
+void name_method(Scene& scene, TomlValue& document, Problems& problems) {
+  SimulationSettings& settings = scene.simulation;
+  scene.choice = choose_method(settings);
+  scene.choice->apply(settings);
+  const IntegratorSettings& integrator = settings.integrator;
+  if (settings.accuracy && !is_explicit(integrator.method)) settings.integrator.scheme = TimeScheme::sdirk2;
+  std::vector<std::string> names{"integrator.method=" + method_name(integrator.method)};
+  if (integrator.substeps) names.push_back(fmt::format("integrator.substeps={}", *integrator.substeps));
+  apply_overrides(document, names, problems);
+}
+
 }  // namespace
 
 std::int64_t Scene::step_count() const { return static_cast<std::int64_t>(std::llround(duration / simulation.step)); }
@@ -251,7 +263,12 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
     if (reader.good("time")) checks.accuracy();
     // An accuracy is reached by schemes of second order, see SubstepScheme.
     IntegratorSettings& integrator = scene.simulation.integrator;
-    if (scene.simulation.accuracy && !is_explicit(integrator.method)) integrator.scheme = TimeScheme::sdirk2;
+    if (integrator.method == Method::automatic) {
+      const bool solved = find_path(document, "integrator.scheme") != nullptr;
+      integrator.method = implied_method(integrator).value_or(solved ? Method::quasi_newton : Method::automatic);
+    }
+    const bool implicit = !is_explicit(integrator.method) && integrator.method != Method::automatic;
+    if (scene.simulation.accuracy && implicit) integrator.scheme = TimeScheme::sdirk2;
   }
   if (reader.good("camera")) checks.camera();
   if (reader.good("look")) checks.samples();
@@ -270,6 +287,13 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   if (keys_good) problems.throw_if_any<SceneConflict>();
   problems.throw_if_any();
   scene.digest = digest(document, {"check", "caption", "overlay"});
+  if (scene.simulation.integrator.method == Method::automatic) {
+    name_method(scene, document, problems);
+    scene.fields = scene_fields(scene.name, scene_tables(cloth_table, scene), effects, document);
+    if (const TomlValue* caption = find_path(document, "caption")) {
+      scene.caption.filled = fill_caption(scene.caption.text, scene.fields, place_of(*caption, "text"), problems);
+    }
+  }
   scene.tables = physics_of_tables(scene_tables(cloth_table, scene), effects, folder);
   scene.portable = make_portable(document, folder, scene.inputs);
   checks.stability();

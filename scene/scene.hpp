@@ -14,6 +14,7 @@
 #include "render/settings.hpp"
 #include "scene/check_settings.hpp"
 #include "scene/portable.hpp"
+#include "sim/schemes/method_choice.hpp"
 #include "sim/settings.hpp"
 
 namespace drape {
@@ -56,7 +57,8 @@ struct Scene {
   std::vector<SceneValue> tables;   ///< what the tables say on which the motion depends, see physics_values()
   PortableScene portable;           ///< all that it was read from
   std::vector<std::string> doubts;  ///< what may not be meant, though it can be simulated: "scene.toml:2:8: …"
-  std::optional<Quality> quality;   ///< that its numbers were changed for
+  std::optional<MethodChoice> choice;  ///< of the method, where none is named
+  std::optional<Quality> quality;      ///< that its numbers were changed for
 
   /// The number of steps that cover the duration: duration/step, rounded to the nearest whole number.
   [[nodiscard]] std::int64_t step_count() const;

@@ -96,6 +96,11 @@ Keys integrator_keys(IntegratorSettings& integrator) {
               "How the method implicit solves Newton's equations: by a sparse Cholesky factorisation, or by conjugate "
               "gradients preconditioned with liu13's matrix. Automatic: by conjugate gradients until those have taken "
               "as many operations as a factorisation would, and then by that for the rest of the step.");
+  keys.add("substeps", &integrator.substeps, "",
+           "Equal substeps that an explicit method cuts each step into. Default: 1; with method auto as many as are "
+           "stable.")
+      .at_least(1)
+      .at_most(most_substeps);
   keys.add("allow_unstable", &integrator.allow_unstable, "",
            "Runs scenes that are otherwise rejected: an explicit method beyond its largest safe step, or an implicit "
            "one where double precision cannot represent the inertia beside the springs.");

@@ -26,7 +26,7 @@ double BlowUpWatch::limit(double ratio) {
 }
 
 BlowUpWatch::BlowUpWatch(const System& system, double limit, int interval)
-    : step_(system.step), limit_(limit), interval_(interval) {
+    : step_(system.whole_step), limit_(limit), interval_(interval) {
   // Where every spring has its rest length, rounding lengths by ε leaves Σ k (εL)²/2.
   double scale = std::numeric_limits<double>::min();
   for (const Spring& s : system.springs) scale += s.stiffness * s.rest_length * s.rest_length;

@@ -16,16 +16,9 @@ void add_drag(const IntegratorSettings& integrator, System& system) {
   system.energies.push_back(std::move(drag));
 }
 
-}  // namespace
-
-System make_system(const SimulationSettings& settings, std::vector<double>* effect_seconds, const Stop& stop,
-                   const Threads& threads) {
-  return make_system(settings, settings.step, effect_seconds, stop, threads);
-}
-
-System make_system(const SimulationSettings& settings, double step, std::vector<double>* effect_seconds,
-                   const Stop& stop, const Threads& threads) {
-  System system(settings.cloth, step, threads);
+/// Adds everything that acts on the cloth.
+void install_effects(const SimulationSettings& settings, std::vector<double>* effect_seconds, const Stop& stop,
+                     System& system) {
   system.stop = stop;
   for (std::size_t i = 0; i < settings.effects.size(); ++i) {
     const SystemSizes before(system);
@@ -34,6 +27,24 @@ System make_system(const SimulationSettings& settings, double step, std::vector<
     if (effect_seconds != nullptr) time_additions(system, before, (*effect_seconds)[i]);
   }
   add_drag(settings.integrator, system);
+}
+
+}  // namespace
+
+System make_system(const SimulationSettings& settings, std::vector<double>* effect_seconds, const Stop& stop,
+                   const Threads& threads) {
+  const int substeps = settings.accuracy ? 1 : settings.integrator.substep_count();
+  System system(settings.cloth, settings.step / substeps, threads);
+  system.whole_step = settings.step;
+  system.substeps = substeps;
+  install_effects(settings, effect_seconds, stop, system);
+  return system;
+}
+
+System make_system(const SimulationSettings& settings, double step, std::vector<double>* effect_seconds,
+                   const Stop& stop, const Threads& threads) {
+  System system(settings.cloth, step, threads);
+  install_effects(settings, effect_seconds, stop, system);
   return system;
 }
 

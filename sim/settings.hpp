@@ -20,8 +20,12 @@ enum class Method {
   implicit,       ///< steps minimised by Newton's method
   liu13,          ///< steps minimised by the local/global alternation of Liu et al. 2013
   quasi_newton,   ///< steps minimised by L-BFGS that starts from the matrix of Liu et al. 2013
-  verlet          ///< velocity Verlet: x += h/2·v, v += h·a(x), x += h/2·v
+  verlet,         ///< velocity Verlet: x += h/2·v, v += h·a(x), x += h/2·v
+  automatic       ///< velocity Verlet in substeps, or quasi-Newton: see choose_method()
 };
+
+/// How many methods there are that compute a step: all but `automatic`, which stands for one of them.
+inline constexpr std::size_t method_count = static_cast<std::size_t>(Method::automatic);
 
 /// Whether a method computes a step from the forces alone: it minimises nothing, and has a largest stable step.
 inline constexpr bool is_explicit(Method method) { return method == Method::semi_implicit || method == Method::verlet; }
@@ -64,6 +68,9 @@ inline constexpr int order_of(StepMethod how) {
   return how.method == Method::verlet || how.scheme == TimeScheme::sdirk2 ? 2 : 1;
 }
 
+/// The most substeps that an explicit method can cut a step into.
+inline constexpr int most_substeps = 1 << 20;
+
 /// When an iterative step is accurate enough.
 enum class StoppingRule {
   change,  ///< the 2-norm of the change of all unknowns together is below the tolerance [m], from the second iteration
@@ -81,14 +88,19 @@ enum class LinearSolver {
 
 /// The scene's [integrator] table. A method ignores the keys that it does not use.
 struct IntegratorSettings {
-  Method method = Method::quasi_newton;
+  Method method = Method::automatic;
   TimeScheme scheme = TimeScheme::backward_euler;
   std::optional<StoppingRule> stop = {};   ///< absent: see Accuracy
   std::optional<double> tolerance = {};    ///< [m] or [N], see `stop`; absent: see Accuracy
   std::optional<int> max_iterations = {};  ///< absent: the homework's 20 for implicit and 100 for liu13; 500 for
                                            ///< quasi_newton; both but liu13 2000 where they stop at an error
   LinearSolver linear_solver = LinearSolver::automatic;  ///< of the implicit method
-  bool allow_unstable = false;                           ///< run what stability_problem() refuses
+  std::optional<int> substeps = {};  ///< that an explicit method cuts each step into; absent: 1, or what is chosen
+                                     ///< with an automatic method
+  bool allow_unstable = false;       ///< run what stability_problem() refuses
+
+  /// How many substeps a step has that is not cut by an accuracy.
+  [[nodiscard]] int substep_count() const { return is_explicit(method) ? substeps.value_or(1) : 1; }
 
   [[nodiscard]] StepMethod step_method() const {
     return is_explicit(method) ? StepMethod(method) : StepMethod(method, scheme);

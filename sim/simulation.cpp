@@ -5,6 +5,7 @@
 
 #include "sim/make_system.hpp"
 #include "sim/parallel/vectors.hpp"
+#include "sim/schemes/method_choice.hpp"
 #include "sim/schemes/registry.hpp"
 #include "sim/spring_network.hpp"
 #include "sim/step_forces.hpp"
@@ -22,7 +23,7 @@ std::unique_ptr<StabilityGuard> make_asked_guard(const SimulationSettings& setti
 
 SimulationSettings valid(SimulationSettings settings) {
   require_valid(settings);
-  return settings;
+  return with_method(std::move(settings));
 }
 
 State initial_state(const Cloth& cloth) {
@@ -77,7 +78,7 @@ class Simulation::Motion {
   StepReport step();
   void restore(const Simulation::Checkpoint& checkpoint);
   Energies energies();
-  [[nodiscard]] double time() const { return system->time(state.step); }
+  [[nodiscard]] double time() const { return static_cast<double>(state.step) * settings.step; }
   /// Whether a step asks anywhere but at its start.
   [[nodiscard]] bool may_be_interrupted() const {
     const bool long_steps = !is_explicit(settings.integrator.method) || settings.accuracy || !system->filters.empty();

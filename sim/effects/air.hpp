@@ -13,6 +13,7 @@ namespace drape {
 /// The air's drag and lift on every triangle: a wind, or air that is still and slows the cloth down.
 struct Air {
   static constexpr std::string_view name = "air";
+  static constexpr EffectCost cost{.evaluated = 0.3e-6, .solved = 1.5e-6};
 
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of the wind [m/s]
   double density = 1.2;                                ///< [kg/m³]

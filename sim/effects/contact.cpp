@@ -53,8 +53,9 @@ void ContactLaw::check(const SimulationSettings& settings, const ProblemSink& pr
   }
   // A vertex on the explicit penalty is a harmonic oscillator of frequency √k, which every step that evaluates the
   // force at its start turns unstable beyond h·√k = 2, whatever the method does with the springs.
-  if (settings.accuracy) return;  // its substeps are short enough
-  const double h = settings.step;
+  // Substeps are short enough, those of an accuracy and those that are chosen.
+  if (settings.accuracy || settings.integrator.method == Method::automatic) return;
+  const double h = settings.step / settings.integrator.substep_count();
   const double product = h * std::sqrt(stiffness);
   if (product > 2) {
     problem("stiffness",

@@ -25,10 +25,19 @@ struct System;
 /// problem.
 using ProblemSink = std::function<void(std::string_view key, const std::string& sentence)>;
 
+/// Estimated time that an effect takes on a processor as they were in 2022, with the iterations that a step has more
+/// where there is it [s], for each vertex and step.
+struct EffectCost {
+  double evaluated = 0;  ///< where forces are evaluated once
+  double solved = 0;     ///< where a step is solved for
+};
+
 /// A type of effect: a struct whose public members say what it is like, with their defaults and units. They are what
 /// a scene's table [effects.NAME] can say, and code writes it as a value, Damping{.factor = 0.2}. It has
 ///   static constexpr std::string_view name            the NAME of its table
 ///   static constexpr bool repeatable = true           where [[effects.NAME]] may occur several times
+///   static constexpr EffectCost cost                  where it takes something to speak of
+///   static constexpr bool touches = true              where the cloth can touch it
 ///   void describe(Keys&)                              lists the table's keys; their values are written to the members
 ///   void check(const SimulationSettings&, const ProblemSink&) const
 ///                                                     says what is wrong with the values taken together and with
@@ -54,6 +63,9 @@ class Effect {
   ~Effect() = default;
 
   [[nodiscard]] std::string_view name() const { return held_->name(); }
+  [[nodiscard]] EffectCost cost() const { return held_->cost(); }
+  /// Whether it is something that the cloth can touch.
+  [[nodiscard]] bool touches() const { return held_->touches(); }
   /// The keys' targets are in this object.
   void describe(Keys& keys) { held_->describe(keys); }
   void check(const SimulationSettings& settings, const ProblemSink& problem) const { held_->check(settings, problem); }
@@ -71,6 +83,8 @@ class Effect {
     virtual ~Any() = default;
     [[nodiscard]] virtual std::unique_ptr<Any> copy() const = 0;
     [[nodiscard]] virtual std::string_view name() const = 0;
+    [[nodiscard]] virtual EffectCost cost() const = 0;
+    [[nodiscard]] virtual bool touches() const = 0;
     virtual void describe(Keys& keys) = 0;
     virtual void check(const SimulationSettings& settings, const ProblemSink& problem) const = 0;
     virtual void install(System& system) const = 0;
@@ -83,6 +97,14 @@ class Effect {
     explicit Held(T v) : value(std::move(v)) {}
     [[nodiscard]] std::unique_ptr<Any> copy() const override { return std::make_unique<Held>(value); }
     [[nodiscard]] std::string_view name() const override { return T::name; }
+    [[nodiscard]] EffectCost cost() const override {
+      if constexpr (requires { T::cost; }) return T::cost;
+      return {};
+    }
+    [[nodiscard]] bool touches() const override {
+      if constexpr (requires { T::touches; }) return T::touches;
+      return false;
+    }
     void describe(Keys& keys) override { value.describe(keys); }
     void check(const SimulationSettings& settings, const ProblemSink& problem) const override {
       if constexpr (requires { &T::check; }) value.check(settings, problem);

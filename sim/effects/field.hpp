@@ -14,6 +14,7 @@ namespace drape {
 /// A field of acceleration by formula, Field{.acceleration = {"-x", "-y", "0"}}: centrifugal, of an attractor, a swirl.
 struct Field {
   static constexpr std::string_view name = "field";
+  static constexpr EffectCost cost{.evaluated = 0.1e-6, .solved = 0.3e-6};
   static constexpr bool repeatable = true;
 
   /// Of a vertex along x, y and z, each a formula in x, y, z, t, vx, vy and vz, see FormulaField [m/s²].

@@ -16,6 +16,8 @@ struct ContactLaw;
 /// A plane that pushes the cloth out of the half-space below it, as a sphere does.
 struct Ground {
   static constexpr std::string_view name = "ground";
+  static constexpr EffectCost cost{.evaluated = 20e-9, .solved = 0.3e-6};
+  static constexpr bool touches = true;
   static constexpr bool repeatable = true;
 
   double height = 0;                                  ///< its distance from the origin along the normal [m]

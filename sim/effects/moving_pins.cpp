@@ -104,7 +104,7 @@ void MovingPins::install(System& system) const {
   if (!keyframes.empty() || !turns.empty() || follow) system.pin_motions.push_back(motion(system.cloth));
   if (release) {
     // The first step that begins at that time or later; times are products and must not miss it by their rounding.
-    const double step = std::ceil(*release / system.step * (1 - 1e-12));
+    const double step = std::ceil(*release / system.whole_step * (1 - 1e-12));
     if (step < most_steps) system.pin_releases.push_back({static_cast<std::int64_t>(step), pins});
   }
 }

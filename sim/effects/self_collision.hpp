@@ -11,6 +11,8 @@ namespace drape {
 /// Keeps the cloth from passing through itself, see SelfContact.
 struct SelfCollision {
   static constexpr std::string_view name = "self_collision";
+  static constexpr EffectCost cost{.evaluated = 0.6e-6, .solved = 4.0e-6};
+  static constexpr bool touches = true;
 
   double thickness = 0.01;  ///< the distance that layers of the cloth keep [m]
   double repulsion = 20;    ///< the part of the missing distance by which they separate per second, at first [1/s]

@@ -22,6 +22,8 @@ struct ContactLaw;
 /// straight on, on an orbit, on keyframes, or on a track.
 struct Sphere {
   static constexpr std::string_view name = "sphere";
+  static constexpr EffectCost cost{.evaluated = 20e-9, .solved = 0.1e-6};
+  static constexpr bool touches = true;
   static constexpr bool repeatable = true;
 
   std::optional<Eigen::Vector3d> center = {};  ///< at 0 s [m]; without one, keyframes or a track say where it is

@@ -5,6 +5,7 @@
 
 #include "sim/schemes/backward_euler.hpp"
 #include "sim/schemes/condition_guard.hpp"
+#include "sim/schemes/divided_step.hpp"
 #include "sim/schemes/safe_step_guard.hpp"
 #include "sim/schemes/sdirk2.hpp"
 #include "sim/schemes/sdirk2_guard.hpp"
@@ -49,7 +50,7 @@ constexpr std::array methods{
     MethodType{Method::quasi_newton, make_implicit<QuasiNewton>, make_implicit_guard},
     MethodType{Method::verlet, make_explicit<Verlet>, make_safe_step_guard},
 };
-static_assert(methods.size() == static_cast<std::size_t>(Method::verlet) + 1);
+static_assert(methods.size() == method_count);
 
 }  // namespace
 
@@ -64,7 +65,11 @@ std::unique_ptr<StabilityGuard> make_guard(const SimulationSettings& settings, c
 std::unique_ptr<Scheme> make_scheme(const SimulationSettings& settings, const System& system,
                                     const StabilityGuard& guard,
                                     const std::function<System(double step)>& make_system) {
-  if (!settings.accuracy) return method_type(settings.integrator.method).make(settings.integrator, system);
+  if (!settings.accuracy) {
+    auto scheme = method_type(settings.integrator.method).make(settings.integrator, system);
+    if (system.substeps == 1) return scheme;
+    return std::make_unique<DividedStep>(system, std::move(scheme));
+  }
   const std::int64_t fewest = SubstepGuard::fewest_substeps(settings.step, guard.longest_step());
   return std::make_unique<SubstepScheme>(settings, fewest, make_system);
 }

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+
+#include "sim/schemes/scheme.hpp"
+
+namespace drape {
+
+/// An explicit scheme that advances each step in equal substeps, those of its system: System::substeps of
+/// System::step seconds. A substep is a step in every respect but the number that State::step counts.
+class DividedStep final : public Scheme {
+ public:
+  /// @param scheme of the same system
+  DividedStep(const System& system, std::unique_ptr<Scheme> scheme) : system_(system), scheme_(std::move(scheme)) {}
+
+  StepReport advance(State& state, StepForces& forces) override;
+
+ private:
+  const System& system_;
+  std::unique_ptr<Scheme> scheme_;
+};
+
+}  // namespace drape

@@ -1,0 +1,106 @@
+#include "sim/schemes/method_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/make_system.hpp"
+#include "sim/schemes/substep_guard.hpp"
+#include "sim/stability.hpp"
+
+namespace drape {
+namespace {
+
+// Of the size of what the scenes of scenes/ take [s].
+constexpr double spring_of_substep = 3e-9, spring_of_iteration = 16e-9, substep = 0.5e-6;
+// Quasi-Newton's iterations of a step grow with the frequency of the springs, and no longer once some of them are
+// Newton's steps.
+constexpr double iterations_per_substep = 2, most_iterations = 60;
+constexpr double steps_of_backward_euler = 2;  // for an error of a hundredth of the cloth's size
+constexpr double worth_of_contact = 10;
+
+/// Whether the effects allow a method, as far as the settings alone tell.
+bool allowed(SimulationSettings settings, Method method, int substeps) {
+  settings.integrator.method = method;
+  settings.integrator.substeps = substeps;
+  bool good = true;
+  for (const Effect& effect : settings.effects) {
+    effect.check(settings, [&](std::string_view, const std::string&) { good = false; });
+  }
+  return good;
+}
+
+bool touches(const SimulationSettings& settings) {
+  return std::ranges::any_of(settings.effects, [](const Effect& effect) { return effect.touches(); });
+}
+
+}  // namespace
+
+double estimated_step(const SimulationSettings& settings, Method method, double substeps, double stiffness) {
+  const auto springs = static_cast<double>(settings.cloth.springs.size());
+  const auto vertices = static_cast<double>(settings.cloth.vertex_count());
+  double evaluated = 0, solved = 0;
+  for (const Effect& effect : settings.effects) {
+    evaluated += effect.cost().evaluated;
+    solved += effect.cost().solved;
+  }
+  if (is_explicit(method)) return substeps * (substep + springs * spring_of_substep + vertices * evaluated);
+  const double iterations = std::min(most_iterations, 1 + iterations_per_substep * stiffness);
+  return substep + springs * spring_of_iteration * iterations + vertices * solved;
+}
+
+MethodChoice choose_method(const SimulationSettings& settings) {
+  SimulationSettings tried = settings;
+  tried.integrator.method = Method::quasi_newton;  // which every system can have
+  const System system = make_system(tried);
+  const double ratio = settings.step / safe_step(system);
+  const std::int64_t fewest = std::max<std::int64_t>(1, SubstepGuard::fewest_substeps(settings.step, safe_step(system)));
+  MethodChoice choice;
+  choice.substeps = settings.integrator.substeps.value_or(static_cast<int>(fewest));
+  // An accuracy is measured by a second motion, and takes no fewer substeps than two.
+  const double measured = settings.accuracy ? 3 : 1;
+  choice.verlet = measured * estimated_step(settings, Method::verlet, choice.substeps, ratio);
+  choice.quasi_newton = steps_of_backward_euler * measured * estimated_step(settings, Method::quasi_newton, 1, ratio);
+  const bool stable = ratio <= static_cast<double>(most_substeps);
+  const bool pushed = settings.step <= safe_step_of_pushes(system);
+  if (!stable || !system.all_internal() || !allowed(settings, Method::verlet, choice.substeps)) {
+    choice.reason = "as velocity Verlet cannot have all that acts here";
+    return choice;
+  }
+  choice.method = Method::verlet;
+  if (!pushed || !allowed(settings, Method::quasi_newton, 1)) {
+    choice.reason = "as pushes are too stiff for longer steps";
+  } else if (choice.verlet <= choice.quasi_newton) {
+    choice.reason = "the more accurate, and the cheaper";
+  } else if (touches(settings) && choice.verlet <= worth_of_contact * choice.quasi_newton) {
+    choice.reason = "as contact needs short steps";
+  } else {
+    choice.method = Method::quasi_newton;
+    choice.reason = "the cheaper";
+  }
+  return choice;
+}
+
+std::optional<Method> implied_method(const IntegratorSettings& integrator) {
+  if (integrator.linear_solver != LinearSolver::automatic) return Method::implicit;
+  const bool solved = integrator.stop || integrator.tolerance || integrator.max_iterations;
+  return solved || integrator.scheme == TimeScheme::sdirk2 ? std::optional(Method::quasi_newton) : std::nullopt;
+}
+
+void MethodChoice::apply(SimulationSettings& settings) const {
+  settings.integrator.method = method;
+  if (method == Method::verlet && !settings.accuracy) settings.integrator.substeps = substeps;
+}
+
+SimulationSettings with_method(SimulationSettings settings) {
+  IntegratorSettings& integrator = settings.integrator;
+  if (integrator.method != Method::automatic) return settings;
+  if (const auto implied = implied_method(integrator)) {
+    integrator.method = *implied;
+  } else {
+    choose_method(settings).apply(settings);
+  }
+  return settings;
+}
+
+}  // namespace drape
