@@ -22,6 +22,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "run/outputs.hpp"
+#include "scene/method_names.hpp"
 #include "sim/instruction_set.hpp"
 
 namespace drape {
@@ -91,6 +92,7 @@ class SceneCheck {
 
   void compare() {
     golden_ = read_golden(result_.golden);
+    if (scene_.choice) use_recorded_method();
     check_precision();
     check_time_is_there();
     frames_ = chosen_frames(golden_, options_.frames, result_.golden);
@@ -120,6 +122,23 @@ class SceneCheck {
       compare_end_to_end();
     }
     conclude();
+  }
+
+  /// Has the scene, which names no method, that with which its golden was recorded.
+  void use_recorded_method() {
+    const GoldenMethod recorded = golden_.method.value_or(GoldenMethod{});
+    IntegratorSettings& integrator = scene_.simulation.integrator;
+    if (recorded.method == integrator.method && recorded.substeps == integrator.substeps) return;
+    const auto text = [](Method method, std::optional<int> substeps) {
+      return method_name(method) + (substeps ? fmt::format(" in {} substeps", *substeps) : "");
+    };
+    result_.findings.push_back(fmt::format(
+        "the golden was recorded with {}, and is compared with that; today the scene has {}: `drape bless` takes it",
+        text(recorded.method, recorded.substeps), text(integrator.method, integrator.substeps)));
+    integrator.method = recorded.method;
+    integrator.substeps = recorded.substeps;
+    const bool solved = scene_.simulation.accuracy && !is_explicit(integrator.method);
+    integrator.scheme = solved ? TimeScheme::sdirk2 : TimeScheme::backward_euler;
   }
 
   [[nodiscard]] bool overridden() const { return !options_.overrides.empty(); }
@@ -311,7 +330,7 @@ class SceneCheck {
         write_candidate(options_.artefacts, result_.name, scene_, recording->golden, recording->pictures);
   }
 
-  const Scene& scene_;
+  Scene scene_;
   const CheckSettings& settings_;
   const CheckOptions& options_;
   const std::stop_token& stop_;

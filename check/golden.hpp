@@ -51,6 +51,12 @@ struct GoldenFilm {
   int samples = 4;             ///< per pixel
 };
 
+/// The method that was chosen where a scene names none.
+struct GoldenMethod {
+  Method method = Method::quasi_newton;  ///< what every scene had that named none, before one was chosen
+  std::optional<int> substeps;           ///< of a step by an explicit method
+};
+
 /// Time of the first steps.
 struct GoldenTime {
   std::int64_t steps = 0;
@@ -71,7 +77,8 @@ struct Golden {
   int body_count = 0;  ///< of GoldenStep::bodies, at most
   double seconds_per_frame = 0;    ///< of the scene's time
   std::optional<GoldenFilm> film;  ///< absent where an older drape has recorded it
-  std::optional<GoldenTime> time;  ///< absent unless the scene's [check] had a `time`
+  std::optional<GoldenMethod> method;  ///< absent where the scene names one
+  std::optional<GoldenTime> time;      ///< absent unless the scene's [check] had a `time`
   Quanta quanta;
   Camera camera;                      ///< what the scene said
   std::vector<View> frames_views;     ///< where it would stand if the compared frames were the whole motion

@@ -11,6 +11,7 @@
 #include "check/machine.hpp"
 #include "core/sealed_json.hpp"
 #include "core/text.hpp"
+#include "scene/method_names.hpp"
 
 namespace drape {
 namespace {
@@ -103,6 +104,22 @@ GoldenFilm film_from(const Fields& fields) {
           .samples = fields.whole<int>("samples", 1, most_samples)};
 }
 
+Json to_json(const GoldenMethod& method) {
+  Json json{{"name", method_name(method.method)}};
+  if (method.substeps) json["substeps"] = *method.substeps;
+  return json;
+}
+
+GoldenMethod method_from(const Fields& fields) {
+  GoldenMethod method;
+  const std::string name = fields.text("name");
+  const auto* const found = std::find(method_names.begin(), method_names.end() - 1, name);
+  if (found == method_names.end() - 1) fields.fail("name", "a method");
+  method.method = static_cast<Method>(found - method_names.begin());
+  if (fields.has("substeps")) method.substeps = fields.whole<int>("substeps", 1, most_substeps);
+  return method;
+}
+
 Json to_json(const GoldenTime& time) { return {{"steps", time.steps}, {"ratio", time.ratio}}; }
 
 GoldenTime time_from(const Fields& fields, std::int64_t most_steps) {
@@ -148,6 +165,7 @@ Manifest manifest_from(const Fields& fields) {
   golden.body_count = fields.whole<int>("bodies", 0, most_bodies);
   golden.seconds_per_frame = fields.positive("seconds_per_frame");
   if (fields.has("film")) golden.film = film_from(fields.object("film"));
+  if (fields.has("method")) golden.method = method_from(fields.object("method"));
   if (fields.has("time")) golden.time = time_from(fields.object("time"), golden.step_count);
   const Fields quanta = fields.object("quanta");
   golden.quanta.position = quantum_from(quanta, "position");
@@ -202,6 +220,7 @@ std::string manifest_text(const Golden& golden, const std::string& motion_hash) 
             {"frames", std::move(frames)},
             {"motion", motion_hash}};
   if (golden.film) json["film"] = to_json(*golden.film);
+  if (golden.method) json["method"] = to_json(*golden.method);
   if (golden.time) json["time"] = to_json(*golden.time);
   return sealed_json(std::move(json), indent);
 }

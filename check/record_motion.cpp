@@ -79,6 +79,10 @@ Golden described(const Scene& scene, const CheckSettings& settings, const Record
   golden.camera = scene.camera;
   golden.seconds_per_frame = whole_film(scene).seconds_per_frame;
   golden.film = film_of(scene);
+  if (scene.choice) {
+    const IntegratorSettings& integrator = scene.simulation.integrator;
+    golden.method = {.method = integrator.method, .substeps = integrator.substeps};
+  }
   golden.quanta = plan.quanta;
   for (const ChosenFrame& chosen : plan.frames) {
     golden.frames.push_back(

@@ -42,9 +42,10 @@ std::string method_text(const Scene& scene) {
   if (integrator.substep_count() > 1) text += fmt::format(" in {} substeps", integrator.substep_count());
   if (!scene.choice) return text;
   const MethodChoice& choice = *scene.choice;
+  if (choice.only) return text + fmt::format(" (auto, as {})", choice.reason);
   const bool verlet = choice.method == Method::verlet;
   const double other = verlet ? choice.quasi_newton / choice.verlet : choice.verlet / choice.quasi_newton;
-  return text + fmt::format(" (auto: {}; {} would take about {:.2g} times as long for an error of 1 %)", choice.reason,
+  return text + fmt::format(" (auto, as {}: {} would take about {:.2g} times as long)", choice.reason,
                             verlet ? "quasi-newton" : "verlet", other);
 }
 

@@ -72,7 +72,8 @@ Keys time_keys(Scene& scene) {
 Keys integrator_keys(IntegratorSettings& integrator) {
   Keys keys;
   keys.choice("method", integrator.method, {method_names.begin(), method_names.end()},
-              "How a step is computed. Explicit: semi-implicit (symplectic Euler) and verlet (velocity Verlet). "
+              "How a step is computed. Auto: by verlet in substeps, or quasi-newton where that is the cheaper one, see "
+              "[accuracy.md](accuracy.md). Explicit: semi-implicit (symplectic Euler) and verlet (velocity Verlet). "
               "Implicit: implicit (Newton's method), liu13 (the local/global method of Liu et al. 2013) and "
               "quasi-newton (L-BFGS started from liu13's matrix).");
   keys.choice("scheme", integrator.scheme, {scheme_names.begin(), scheme_names.end()},

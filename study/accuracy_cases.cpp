@@ -41,6 +41,7 @@ void add_tolerance(StudyCase& what, double tolerance) {
 bool is_stable(SimulationSettings settings, StepMethod method, double step) {
   settings.integrator.method = method.method;
   settings.integrator.scheme = method.scheme;
+  settings.integrator.substeps.reset();
   settings.step = step;
   return !stability_problem(settings, make_system(settings));
 }

@@ -154,7 +154,8 @@ struct ContactFilter final : MotionFilter {
     double outward = relative.dot(n);
     const Eigen::Vector3d along = relative - outward * n;
     double push = -step.h * law.stiffness * contact.gap;
-    const double taken = law.restitution ? std::max(0.0, outward + step.softest * contact.gap) : 0;
+    // No more than the push gave: what else pulls a vertex out does so.
+    const double taken = law.restitution ? std::clamp(outward + step.softest * contact.gap, 0.0, push) : 0;
     outward -= taken;
     push = std::max(0.0, push - taken);
     if (step.halted && taken > 0) {

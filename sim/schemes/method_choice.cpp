@@ -53,8 +53,8 @@ MethodChoice choose_method(const SimulationSettings& settings) {
   SimulationSettings tried = settings;
   tried.integrator.method = Method::quasi_newton;  // which every system can have
   const System system = make_system(tried);
-  const double ratio = settings.step / safe_step(system);
-  const std::int64_t fewest = std::max<std::int64_t>(1, SubstepGuard::fewest_substeps(settings.step, safe_step(system)));
+  const double longest = safe_step(system), ratio = settings.step / longest;
+  const std::int64_t fewest = SubstepGuard::fewest_substeps(settings.step, longest);
   MethodChoice choice;
   choice.substeps = settings.integrator.substeps.value_or(static_cast<int>(fewest));
   // An accuracy is measured by a second motion, and takes no fewer substeps than two.
@@ -64,16 +64,18 @@ MethodChoice choose_method(const SimulationSettings& settings) {
   const bool stable = ratio <= static_cast<double>(most_substeps);
   const bool pushed = settings.step <= safe_step_of_pushes(system);
   if (!stable || !system.all_internal() || !allowed(settings, Method::verlet, choice.substeps)) {
-    choice.reason = "as velocity Verlet cannot have all that acts here";
+    choice.only = true;
+    choice.reason = "velocity Verlet cannot have all that acts here";
     return choice;
   }
   choice.method = Method::verlet;
   if (!pushed || !allowed(settings, Method::quasi_newton, 1)) {
-    choice.reason = "as pushes are too stiff for longer steps";
+    choice.only = true;
+    choice.reason = "pushes are too stiff for longer steps";
   } else if (choice.verlet <= choice.quasi_newton) {
-    choice.reason = "the more accurate, and the cheaper";
+    choice.reason = "the more accurate and the cheaper";
   } else if (touches(settings) && choice.verlet <= worth_of_contact * choice.quasi_newton) {
-    choice.reason = "as contact needs short steps";
+    choice.reason = "contact needs short steps";
   } else {
     choice.method = Method::quasi_newton;
     choice.reason = "the cheaper";

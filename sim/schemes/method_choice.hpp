@@ -13,7 +13,8 @@ struct MethodChoice {
   int substeps = 1;                      ///< of a step by velocity Verlet, the fewest that are stable
   double verlet = 0;                     ///< estimated cost of a step by velocity Verlet, see estimated_step() [s]
   double quasi_newton = 0;               ///< estimated cost of two of quasi-Newton's, half as long [s]
-  std::string reason;                    ///< ends a sentence: "the more accurate, and the cheaper"
+  std::string reason;                    ///< ends a sentence that begins with "as": "the cheaper"
+  bool only = false;                     ///< whether no other method can be taken
 
   /// Has the settings name it.
   void apply(SimulationSettings& settings) const;

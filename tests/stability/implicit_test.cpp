@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Case, HardCasesByDefault, testing::ValuesIn(hard_cases(
 
 TEST_P(HardCasesByDefault, GainNoEnergyOutOfNothing) {
   HardRun hard = load(GetParam(), Method::quasi_newton, {"integrator.allow_unstable=true"});
-  hard.settings.integrator = {};
+  hard.settings.integrator = {.method = Method::quasi_newton};
   if (condition_bound(make_system(hard.settings)) > largest_condition) return;
   const StepLedger ledger(hard.settings);
   const FloatingPointTraps traps;
