@@ -29,6 +29,7 @@ struct MotionHeader {
   int vertices = 0, triangles = 0;
   bool textured = false;                    ///< whether the cloth has texture coordinates
   std::vector<std::string> colliders = {};  ///< their kinds: "sphere", "ground", "body"
+  bool imported = false;                    ///< it was made elsewhere: its scene is what is drawn, and has no physics
 };
 
 /// What a header says of this program.

@@ -49,17 +49,22 @@ std::string cause_of_rises(const Scene& scene, const System& system) {
   return {};
 }
 
-audit::AuditedCloth audited_cloth(const Scene& scene, const System& system, const AuditOptions& options) {
+audit::AuditedCloth audited_cloth(const Scene& scene, const System& system, const AuditOptions& options,
+                                  bool imported) {
   const Cloth& cloth = scene.simulation.cloth;
-  const Eigen::Vector3d gravity = system.gravity;
+  const Eigen::Vector3d gravity = imported ? Eigen::Vector3d(-Eigen::Vector3d::UnitZ()) : system.gravity;
+  const bool known = !imported || options.held.has_value();  // nothing says which vertices are pinned elsewhere
   return {.rest = cloth.rest,
           .triangles = cloth.triangles,
-          .held = {.known = true, .vertices = options.held.value_or(cloth.pins)},
+          .held = {.known = known, .vertices = options.held.value_or(cloth.pins)},
           .down = gravity.isZero(0) ? gravity : Eigen::Vector3d(gravity.normalized())};
 }
 
-audit::AuditLimits limits_of(const Scene& scene, const AuditOptions& options) {
+constexpr double usual_stretch = 1.1;  // beyond which an edge of an imported motion is a finding
+
+audit::AuditLimits limits_of(const Scene& scene, const AuditOptions& options, bool imported) {
   audit::AuditLimits limits{.depth = options.depth};
+  if (imported) limits.stretch = usual_stretch;
   for (const Effect& effect : scene.simulation.effects) {
     const auto* limit = effect.as<StrainLimit>();
     if (limit != nullptr) limits.stretch = limit->max_stretch * (1 + limit->tolerance);
@@ -132,10 +137,12 @@ AuditReport audit_motion(const Scene& scene, const std::shared_ptr<MotionReader>
   const System system = make_system(scene.simulation);
   const std::string file = shown(scene.file);
   try {
-    AuditReport report{.file = file,
-                       .limits = limits_of(scene, options),
-                       .findings = {audited_cloth(scene, system, options), limits_of(scene, options)},
-                       .energy = {}};
+    const bool imported = recorded && recorded->header().imported;
+    AuditReport report{
+        .file = file,
+        .limits = limits_of(scene, options, imported),
+        .findings = {audited_cloth(scene, system, options, imported), limits_of(scene, options, imported)},
+        .energy = {}};
     EnergyBook energies(scene.simulation.step);
     if (recorded) {
       const std::int64_t steps = options.steps.value_or(recorded->last_step());
@@ -144,7 +151,8 @@ AuditReport audit_motion(const Scene& scene, const std::shared_ptr<MotionReader>
       audit_simulation(scene, options.steps.value_or(scene.step_count()), energies, report, stop, progress);
     }
     report.energy = energies.judge();
-    report.energy.not_judged = cause_of_rises(scene, system);
+    report.energy.not_judged =
+        imported ? "masses and springs of an imported motion are not known" : cause_of_rises(scene, system);
     report.interrupted = stop.stop_requested();
     return report;
   } catch (const std::invalid_argument& error) {
