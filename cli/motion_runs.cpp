@@ -75,6 +75,7 @@ Scene scene_to_draw(const std::string& file, const MotionHeader& header, const M
     require_same_physics(file, scene, other, look.empty() ? "--set" : look);
     scene = std::move(other);
   }
+  if (header.imported) scene.fields.clear();  // which are not what moves it
   scene.file = file;
   scene.name = scene.file.stem().string();
   scene.inputs.emplace_back(file);

@@ -11,6 +11,7 @@
 #include "import/vtk_legacy.hpp"
 #include "import/vtk_xml.hpp"
 #include "scene/mesh/obj.hpp"
+#include "scene/mesh/obj_objects.hpp"
 #include "scene/mesh/sequence.hpp"
 
 namespace drape {
@@ -19,44 +20,20 @@ namespace {
 
 constexpr std::size_t most_bytes_of_frame = 4'000'000'000;
 
-/// The faces of some vertices as a mesh of their own.
-Mesh part_of(const Mesh& mesh, const std::vector<int>& vertices) {
-  std::vector<int> numbers(static_cast<std::size_t>(mesh.positions.rows()), -1);
-  Mesh part;
-  part.positions.resize(static_cast<Eigen::Index>(vertices.size()), 3);
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    numbers[static_cast<std::size_t>(vertices[i])] = static_cast<int>(i);
-    part.positions.row(static_cast<Eigen::Index>(i)) = mesh.positions.row(vertices[i]);
-  }
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    Triangle triangle = mesh.triangles[t];
-    for (int& v : triangle) v = numbers[static_cast<std::size_t>(v)];
-    if (*std::ranges::min_element(triangle) < 0) continue;
-    part.triangles.push_back(triangle);
-    if (mesh.uvs.empty()) continue;
-    const auto first = mesh.uvs.begin() + static_cast<std::ptrdiff_t>(3 * t);
-    part.uvs.insert(part.uvs.end(), first, first + 3);
-  }
-  return part;
-}
-
-/// An OBJ; of one that drape has written, its object "cloth" and, as bodies, the others.
+/// An OBJ; of one that drape has written, its cloth and, as bodies, its other objects.
 MeshFrame read_obj_frame(const fs::path& file) {
   const SourceText source = SourceText::read(file);
-  MeshFrame frame{.mesh = read_obj_mesh(source), .time = time_in_comment(source.text())};
-  const std::string_view text = source.text();
-  constexpr std::string_view object = "\no ";
-  if (!text.starts_with("# drape: frame") || text.find("\no cloth\n") == std::string_view::npos) return frame;
-  const Mesh all = std::move(frame.mesh);
-  for (std::size_t at = text.find(object); at != std::string_view::npos; at = text.find(object, at + 1)) {
-    const std::size_t begin = at + object.size();
-    const std::string name(text.substr(begin, text.find('\n', begin) - begin));
-    Mesh part = part_of(all, read_obj_group(source, name));
-    if (name == "cloth") {
-      frame.mesh = std::move(part);
+  MeshFrame frame{.mesh = {}, .time = time_in_comment(source.text())};
+  std::vector<ObjObject> objects = read_drape_objects(source);
+  if (objects.empty()) {
+    frame.mesh = read_obj_mesh(source);
+    return frame;
+  }
+  for (ObjObject& object : objects) {
+    if (&object == &objects.front()) {
+      frame.mesh = std::move(object.mesh);
     } else {
-      part.uvs.clear();
-      frame.bodies.push_back(std::move(part));
+      frame.bodies.push_back(std::move(object.mesh));
     }
   }
   return frame;

@@ -231,6 +231,20 @@ void read_polygons(const VtkXml& file, const std::string& name, const Element* c
   add_faces(name, sizes, file.numbers(*corners), mesh);
 }
 
+/// Those that the point data say are texture coordinates, one pair for each vertex.
+void read_texture_coordinates(const VtkXml& file, const Element* points, Mesh& mesh) {
+  const Element* const array = points == nullptr ? nullptr : named(points, attribute(*points, "TCoords").c_str());
+  if (array == nullptr) return;
+  const std::vector<double> pairs = file.numbers(*array);
+  if (pairs.size() != 2 * static_cast<std::size_t>(mesh.positions.rows())) return;
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const int v : triangle) {
+      const auto at = 2 * static_cast<std::size_t>(v);
+      mesh.uvs.push_back({static_cast<float>(pairs[at]), static_cast<float>(pairs[at + 1])});
+    }
+  }
+}
+
 }  // namespace
 
 MeshFrame read_vtk_xml(const std::string& name, const std::string& text) {
@@ -253,6 +267,7 @@ MeshFrame read_vtk_xml(const std::string& name, const std::string& text) {
   if (const Element* velocity = named(piece->FirstChildElement("PointData"), "velocity")) {
     frame.velocities = vertices_of(name, file.numbers(*velocity));
   }
+  read_texture_coordinates(file, piece->FirstChildElement("PointData"), frame.mesh);
   read_fields(file, data->FirstChildElement("FieldData"), frame);
   return frame;
 }
