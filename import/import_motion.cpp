@@ -47,7 +47,8 @@ class ImportedScene {
       text_ += "rest = \"rest.obj\"\n";
     }
     text_ += fmt::format(
-        "stiffness = 1\n\n[integrator]\nallow_unstable = true\n\n[time]\nstep = {}\nduration = {}\n\n[video]\nfps = "
+        "stiffness = 1\n\n[integrator]\nmethod = \"quasi-newton\"\nallow_unstable = true\n\n[time]\nstep = "
+        "{}\nduration = {}\n\n[video]\nfps = "
         "{}\n"
         "speed = {}\n",
         grid_.step, static_cast<double>(grid_.steps.back()) * grid_.step, grid_.fps, grid_.speed);
