@@ -40,22 +40,25 @@ int GltfParts::add_accessor(int view, std::uint64_t offset, std::uint64_t count,
 GltfMorphedMesh::GltfMorphedMesh(const PartialFile& output, const std::vector<Triangle>& triangles,
                                  const std::vector<std::array<float, 2>>& uvs, Eigen::Index vertices, bool smooth)
     : triangles_(triangles), smooth_(smooth), positions_(output, "its positions"), normals_(output, "its normals") {
-  if (uvs.empty()) {
-    for (Eigen::Index v = 0; v < vertices; ++v) vertex_of_.push_back(static_cast<int>(v));
-    for (const Triangle& triangle : triangles) {
-      for (const int v : triangle) indices_.push_back(static_cast<std::uint32_t>(v));
-    }
-    return;
-  }
-  std::map<std::pair<int, std::array<float, 2>>, std::uint32_t> known;
+  for (Eigen::Index v = 0; v < vertices; ++v) vertex_of_.push_back(static_cast<int>(v));
+  if (!uvs.empty()) uvs_.assign(vertex_of_.size(), {0, 0});
+  std::vector<char> seen(vertex_of_.size(), 0);
+  std::map<std::pair<int, std::array<float, 2>>, std::uint32_t> others;
   for (std::size_t corner = 0; corner < 3 * triangles.size(); ++corner) {
     const int v = triangles[corner / 3][corner % 3];
-    const auto [at, is_new] = known.emplace(std::pair(v, uvs[corner]), static_cast<std::uint32_t>(vertex_of_.size()));
+    indices_.push_back(static_cast<std::uint32_t>(v));
+    if (uvs.empty()) continue;
+    const std::array<float, 2> uv{uvs[corner][0], 1 - uvs[corner][1]};  // glTF's v points down
+    char& known = seen[static_cast<std::size_t>(v)];
+    if (known == 0) uvs_[static_cast<std::size_t>(v)] = uv;
+    known = 1;
+    if (uvs_[static_cast<std::size_t>(v)] == uv) continue;
+    const auto [at, is_new] = others.emplace(std::pair(v, uv), static_cast<std::uint32_t>(vertex_of_.size()));
     if (is_new) {
       vertex_of_.push_back(v);
-      uvs_.push_back({uvs[corner][0], 1 - uvs[corner][1]});  // glTF's v points down
+      uvs_.push_back(uv);
     }
-    indices_.push_back(at->second);
+    indices_.back() = at->second;
   }
 }
 

@@ -32,7 +32,8 @@ class GltfParts {
 /// displacements from there. Its vertices wait on disk.
 class GltfMorphedMesh {
  public:
-  /// @param uvs    per triangle corner, or empty. A vertex with several of them becomes several.
+  /// @param uvs    per triangle corner, or empty. A vertex with several of them becomes several, the others
+  ///               behind all vertices.
   /// @param smooth normals of the vertices are written; otherwise triangles look flat
   /// @param output for which its vertices wait
   GltfMorphedMesh(const PartialFile& output, const std::vector<Triangle>& triangles,
