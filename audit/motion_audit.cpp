@@ -192,7 +192,8 @@ MotionAudit::Finding MotionAudit::stretched(const AuditedState& state) {
   double& largest = found_[static_cast<std::size_t>(Check::stretch)].largest;
   for (const auto& [a, b] : topology_->edges) {
     const double rest = (cloth_.rest.row(a) - cloth_.rest.row(b)).norm();
-    if (rest > 0) largest = std::max(largest, (state.x.row(a) - state.x.row(b)).norm() / rest);
+    const double length = (state.x.row(a) - state.x.row(b)).norm();
+    if (length > 0) largest = std::max(largest, length / rest);  // infinite where there is no length at rest
   }
   const std::vector<StretchedEdge> found = find_stretched(topology_->edges, cloth_.rest, state.x, limits_.stretch);
   if (found.empty()) return finding;
