@@ -142,8 +142,7 @@ ExitCode run_audit(const AuditArguments& arguments, const CommonOptions& common)
 
 void add_audit_command(CLI::App& app, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<AuditArguments>();
-  CLI::App* sub =
-      app.add_subcommand("audit", "Check motions exactly: what crosses, is stretched, stuck or gains energy");
+  CLI::App* sub = app.add_subcommand("audit", "Check motions exactly for what crosses, stretches or sticks");
   sub->add_option("MOTION", arguments->motions,
                   "Motions (.drape), or scene files (TOML), which are simulated\nExits with 1 where something is found")
       ->required();

@@ -7,6 +7,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
+#include "import/mesh_sequence.hpp"
 #include "import/time_grid.hpp"
 #include "motion/checkpoint.hpp"
 #include "motion/writer.hpp"
@@ -188,13 +189,35 @@ std::uint64_t write(const fs::path& file, const Scene& scene, MotionSource& clot
   }
 }
 
+/// Opens a motion or a body in metres with z up.
+std::unique_ptr<MotionSource> open_upright(const std::string& file, const std::string& mesh, const std::string& prim,
+                                           const ImportAxes& axes) {
+  const std::string ending = lower_ending(file);
+  if (axes.y_up && (ending == ".usda" || ending == ".usd")) {
+    fail_import(file, "a USD file says itself which axis is up: omit --up");
+  }
+  return with_axes(open_motion_source(file, mesh, prim), axes);
+}
+
+/// Loads the scene, whose problems are those of the cloth's file.
+Scene load_scene_of(const ImportedScene& text, const MotionSource& cloth, const fs::path& folder) {
+  try {
+    return text.load();
+  } catch (const UsageError& error) {
+    std::string message = error.what();
+    const std::string before = folder.string() + "/";
+    for (std::size_t at = 0; (at = message.find(before, at)) != std::string::npos;) message.erase(at, before.size());
+    fail_import(cloth.name(), "it cannot be drawn: " + message.substr(0, message.find('\n')));
+  }
+}
+
 }  // namespace
 
 ImportedMotion import_motion(const ImportOptions& options, const fs::path& file, const std::stop_token& stop,
                              Progress& progress) {
   std::vector<std::unique_ptr<MotionSource>> parts;
   for (const std::string& cloth : options.cloths) {
-    parts.push_back(with_axes(open_motion_source(cloth, options.mesh, options.prim), options.axes));
+    parts.push_back(open_upright(cloth, options.mesh, options.prim, options.axes));
   }
   const std::unique_ptr<MotionSource> cloth = joined(std::move(parts));
   if (cloth->mesh().triangles.empty()) fail_import(cloth->name(), "there is no face in it");
@@ -204,9 +227,9 @@ ImportedMotion import_motion(const ImportOptions& options, const fs::path& file,
   text.add_cloth(*cloth);
   text.add(cloth->colliders());
   for (const std::string& body : options.bodies) {
-    text.add_body(*with_axes(open_motion_source(body, {}, {}), options.axes));
+    text.add_body(*open_upright(body, {}, {}, options.axes));
   }
-  Scene scene = text.load();
+  Scene scene = load_scene_of(text, *cloth, folder.path());
   scene.name = file.stem().string();
   progress.begin("importing", "frames", static_cast<std::int64_t>(cloth->count()));
   ImportedMotion result{.frames = static_cast<std::int64_t>(cloth->count()),

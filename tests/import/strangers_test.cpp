@@ -89,6 +89,10 @@ TEST_F(Strangers, AreToldWhatIsWrongWithASequence) {
   expect_refused("nan.ply", "vertex 1 has the y coordinate nan");
   put("large.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n");
   expect_refused("large.ply", "the file is too short for them");
+  put("far/0.obj", "v 0 0 0\nv 5e90 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_refused("far/{frame}.obj", "it cannot be drawn: ");
+  put("up.usda", "#usda 1.0\n");
+  EXPECT_NE(usage_error([&] { read("up.usda", {.axes = {.y_up = true}}); }).find("omit --up"), std::string::npos);
   put("a.stl", "solid");
   expect_refused("a.stl", "expected a motion: .npz");
 }
