@@ -5,6 +5,7 @@
 #include "import/import_motion.hpp"
 #include "motion/reader.hpp"
 #include "motion/scene_folder.hpp"
+#include "scene/mesh_file.hpp"
 #include "sim/make_system.hpp"
 #include "tests/import/random_motion.hpp"
 
@@ -136,6 +137,20 @@ TEST_F(RoundTrip, TurnsAndScalesAndTakesVelocitiesFromDifferences) {
   const Vertices first = reader.state(0).x;
   const Vertices second = reader.state(1).x;
   EXPECT_LT((reader.state(0).v - 10 * (second - first)).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST_F(RoundTrip, OfAnObjWithWhatTheClothMayTouchIsTheClothOfAScene) {
+  int with_others = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const RandomMotion motion(31 * seed);
+    motion.write_frames(path("o/"), ".obj", obj_writer(motion.info()));
+    const Mesh mesh = read_mesh(path("o/0001.obj"));
+    EXPECT_EQ(mesh.triangles, motion.cloth.triangles);
+    EXPECT_EQ(mesh.uvs.size(), motion.uvs.size());
+    expect_near(mesh.positions, motion.frames[1].positions, Precision::nine_digits);
+    with_others += motion.frames[1].colliders.empty() ? 0 : 1;
+  }
+  EXPECT_GT(with_others, 3);
 }
 
 TEST_F(RoundTrip, JoinsSeveralClothsIntoOneMesh) {
