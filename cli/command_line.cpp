@@ -188,6 +188,8 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   add_watch_command(app, common, command);
   add_lint_command(app, common, command);
   add_compare_command(app, common, command);
+  add_import_command(app, common, command);
+  add_audit_command(app, common, command);
   add_sweep_command(app, common, command);
   add_merge_command(app, common, command);
   add_check_command(app, common, command);

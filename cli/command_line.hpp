@@ -37,6 +37,12 @@ void add_check_command(CLI::App& app, const CommonOptions& common, Command& comm
 void add_accept_command(CLI::App& app, const CommonOptions& common, Command& command);
 void add_bless_command(CLI::App& app, const CommonOptions& common, Command& command);
 
+/// Adds import, which makes motion files of other programs' motions.
+void add_import_command(CLI::App& app, const CommonOptions& common, Command& command);
+
+/// Adds audit, which checks the states of motions exactly.
+void add_audit_command(CLI::App& app, const CommonOptions& common, Command& command);
+
 /// Adds sweep, which runs scenes with many values, and merge, which puts together what several machines have done.
 void add_sweep_command(CLI::App& app, const CommonOptions& common, Command& command);
 void add_merge_command(CLI::App& app, const CommonOptions& common, Command& command);

@@ -13,7 +13,7 @@ struct Examples {
   std::string_view lines;    ///< what stands after "drape", with a line feed after each
 };
 
-constexpr std::array<Examples, 20> all_examples{{
+constexpr std::array<Examples, 22> all_examples{{
     {"",
      "new flag\n"
      "render flag.toml\n"
@@ -45,6 +45,14 @@ constexpr std::array<Examples, 20> all_examples{{
      "compare a.toml b.toml -o ab.gif\n"
      "compare scene.toml --vary integrator.method=liu13,verlet\n"
      "compare a.toml b.toml --difference -o ab.html\n"},
+    {"import",
+     "import 'meshes/{frame:04}.obj' --fps 30 -o motion.drape\n"
+     "import cloth.npz --up y --body 'arm/{frame:04}.obj' -o motion.drape\n"
+     "import cache.pc2 --mesh cloth.obj --scale 0.01 -o motion.drape\n"},
+    {"audit",
+     "audit motion.drape\n"
+     "audit scene.toml --max-stretch 1.2 -o audit.html\n"
+     "audit scenes/*.toml --steps 100\n"},
     {"sweep",
      "sweep scene.toml --vary cloth.stiffness=10..80/8\n"
      "sweep scene.toml --vary integrator.method=liu13,implicit --film gif\n"},

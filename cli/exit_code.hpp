@@ -11,7 +11,7 @@ namespace drape {
 /// What the drape process returns to its caller. Of several, the largest.
 enum class ExitCode : int {
   ok = 0,
-  differs = 1,       ///< images or motion differ from the golden ones
+  differs = 1,       ///< images or motion differ from the golden ones, or an audit has found something
   usage = 2,         ///< the command line, the scene or a file it names is wrong
   diverged = 3,      ///< the simulation left the range of finite numbers
   output = 4,        ///< drawing, encoding or writing failed

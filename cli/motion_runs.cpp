@@ -8,12 +8,17 @@
 #include <filesystem>
 
 #include "cli/film_times.hpp"
+#include "cli/watched.hpp"
 #include "core/build_info.hpp"
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
+#include "core/text.hpp"
+#include "import/import_motion.hpp"
 #include "motion/scene_folder.hpp"
 #include "output/registry.hpp"
 #include "run/motion_frames.hpp"
 #include "scene/quality.hpp"
+#include "sim/stop.hpp"
 
 namespace drape {
 namespace {
@@ -45,16 +50,32 @@ void keep_solver(const Scene& scene, Scene& other) {
   }
 }
 
+/// The scene of an imported motion with the camera, look and film of another one, whose cloth may be any.
+Scene with_look(Scene scene, const Scene& other) {
+  scene.camera = other.camera;
+  scene.look = other.look;
+  scene.video = other.video;
+  scene.caption = other.caption;
+  scene.caption_place = other.caption_place;
+  scene.overlay = other.overlay;
+  scene.texture_place = other.texture_place;
+  if (scene.uvs.empty()) scene.look.texture.clear();
+  return scene;
+}
+
 /// The scene that says how a motion is drawn: its own, unless it is told otherwise.
-Scene scene_to_draw(const std::string& file, const MotionScene& folder, const std::vector<std::string>& overrides,
-                    const std::string& look) {
+Scene scene_to_draw(const std::string& file, const MotionHeader& header, const MotionScene& folder,
+                    const std::vector<std::string>& overrides, const std::string& look) {
   Scene scene = folder.scene();
-  if (!look.empty() || !overrides.empty()) {
+  if (header.imported && !look.empty()) {
+    scene = with_look(std::move(scene), load_scene(look, overrides));
+  } else if (!look.empty() || !overrides.empty()) {
     Scene other = look.empty() ? folder.load(overrides) : load_scene(look, overrides, cells_of(scene));
     keep_solver(scene, other);
     require_same_physics(file, scene, other, look.empty() ? "--set" : look);
     scene = std::move(other);
   }
+  if (header.imported) scene.fields.clear();  // which are not what moves it
   scene.file = file;
   scene.name = scene.file.stem().string();
   scene.inputs.emplace_back(file);
@@ -70,14 +91,44 @@ bool is_motion_file(const std::string& file) {
 
 SceneToRun open_motion(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
   const auto motion = std::make_shared<OpenMotion>(file);
-  return {scene_to_draw(file, motion->folder, overrides, look), std::shared_ptr<MotionReader>(motion, &motion->reader)};
+  return {scene_to_draw(file, motion->reader.header(), motion->folder, overrides, look),
+          std::shared_ptr<MotionReader>(motion, &motion->reader)};
 }
+
+namespace {
+
+/// A motion in another program's format, as a motion file of its own for as long as it is read.
+SceneToRun open_import(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
+  struct Imported {
+    TemporaryFolder folder{"drape-import"};
+    SceneToRun opened = {};
+  };
+  const auto imported = std::make_shared<Imported>();
+  std::string name = std::filesystem::path(file).stem().string();
+  std::erase_if(name, [](char c) { return c == '{' || c == '}' || c == ':'; });
+  const std::filesystem::path motion = imported->folder.path() / (name + ".drape");
+  try {
+    run_watched(true, [&](const std::stop_token& stop, Progress& progress) {
+      import_motion({.cloths = {file}}, motion, stop, progress);
+    });
+  } catch (const Interrupted&) {
+    throw UsageError(shown(file) + ": interrupted while it was read");
+  }
+  imported->opened = open_motion(motion.string(), overrides, look);
+  Scene scene = imported->opened.scene;
+  scene.file = file;
+  scene.name = name;
+  return {std::move(scene), std::shared_ptr<MotionReader>(imported, imported->opened.recorded.get())};
+}
+
+}  // namespace
 
 SceneToRun open_scene(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
   if (file.ends_with(".drape.partial")) {
     throw UsageError(fmt::format("{0} is not complete: drape simulate --resume {0} continues it", file));
   }
   if (is_motion_file(file)) return open_motion(file, overrides, look);
+  if (is_importable(file)) return open_import(file, overrides, look);
   return {load_scene(file, overrides), nullptr};
 }
 
@@ -109,7 +160,7 @@ std::optional<RunToGoOn> find_run_to_go_on(const std::string& file, const std::v
   options.steps = header.steps;
   options.from = std::shared_ptr<const Resumption>(motion, &motion->from);
   return RunToGoOn{std::shared_ptr<const Scene>(motion, &motion->scene), options,
-                   scene_to_draw(file, motion->folder, overrides, look)};
+                   scene_to_draw(file, header, motion->folder, overrides, look)};
 }
 
 RecordedSteps parse_every(const std::string& text, double step) {

@@ -16,6 +16,7 @@
 #include "cli/scene_run.hpp"
 #include "core/console.hpp"
 #include "core/text.hpp"
+#include "import/sources.hpp"
 #include "output/registry.hpp"
 #include "render/gl/inspect.hpp"
 #include "render/texture_image.hpp"
@@ -141,7 +142,7 @@ std::vector<SceneToRun> load_all(const RunArguments& arguments) {
   std::vector<SceneToRun> all;
   SceneProblems problems;
   for (const std::string& file : arguments.scenes) {
-    if (is_motion_file(file) && !arguments.drawing) {
+    if ((is_motion_file(file) || is_importable(file)) && !arguments.drawing) {
       throw UsageError(fmt::format("{} is already a motion: use drape render to draw it", file));
     }
     try {

@@ -64,6 +64,8 @@ std::string difference_text(const KeyDifference& difference, std::size_t scene) 
 }  // namespace
 
 std::vector<KeyDifference> differences(const std::vector<Scene>& scenes) {
+  // A motion that was made elsewhere has no keys to compare.
+  if (std::ranges::any_of(scenes, [](const Scene& scene) { return scene.fields.empty(); })) return {};
   std::vector<std::string> keys;
   for (const Scene& scene : scenes) {
     for (const SceneField& field : scene.fields) {

@@ -64,19 +64,20 @@ std::vector<std::string> collider_kinds(const std::vector<Collider>& colliders) 
 std::string this_program() { return build_info().version + " (" + build_info().revision + ")"; }
 
 std::string pack_header(const MotionHeader& header) {
-  const Json json{{"program", header.program},
-                  {"name", header.name},
-                  {"scene", header.scene},
-                  {"files", header.files},
-                  {"physics", header.physics},
-                  {"step", header.step},
-                  {"steps", header.steps},
-                  {"every", header.recorded.every ? Json(*header.recorded.every) : Json("frames")},
-                  {"vertices", header.vertices},
-                  {"triangles", header.triangles},
-                  {"texture_coordinates", header.textured},
-                  {"colliders", header.colliders},
-                  {"group", states_in_group}};
+  Json json{{"program", header.program},
+            {"name", header.name},
+            {"scene", header.scene},
+            {"files", header.files},
+            {"physics", header.physics},
+            {"step", header.step},
+            {"steps", header.steps},
+            {"every", header.recorded.every ? Json(*header.recorded.every) : Json("frames")},
+            {"vertices", header.vertices},
+            {"triangles", header.triangles},
+            {"texture_coordinates", header.textured},
+            {"colliders", header.colliders},
+            {"group", states_in_group}};
+  if (header.imported) json["imported"] = true;
   return pack(json.dump(1, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -99,6 +100,7 @@ MotionHeader unpack_header(std::string_view payload) {
     header.textured = json.at("texture_coordinates").get<bool>();
     header.colliders = json.at("colliders").get<std::vector<std::string>>();
     count(json, "group", states_in_group, states_in_group);
+    header.imported = json.value("imported", false);
   } catch (const Json::exception&) {
     throw std::invalid_argument("has a head that is not what it should be");
   }

@@ -29,6 +29,7 @@ struct MotionHeader {
   int vertices = 0, triangles = 0;
   bool textured = false;                    ///< whether the cloth has texture coordinates
   std::vector<std::string> colliders = {};  ///< their kinds: "sphere", "ground", "body"
+  bool imported = false;                    ///< it was made elsewhere: its scene is what is drawn, and has no physics
 };
 
 /// What a header says of this program.
@@ -47,10 +48,6 @@ std::string pack_rows(const std::vector<StepRow>& rows);
 std::vector<StepRow> unpack_rows(std::string_view payload, const MotionHeader& header);
 
 /// A cloth's triangles and its texture coordinates, as in Mesh, likewise.
-struct Surface {
-  std::vector<Triangle> triangles;
-  std::vector<std::array<float, 2>> uvs;
-};
 std::string pack_surface(const std::vector<Triangle>& triangles, const std::vector<std::array<float, 2>>& uvs);
 
 // The tags of blocks, in the order in which a file has them; states and rows alternate.

@@ -72,6 +72,33 @@ NpyArray& NpzWriter::make(std::string name, std::string type, std::vector<std::s
 void NpzWriter::make_colliders(const Frame& first) {
   of_.spheres = &make("spheres", "'<f8'", {count_of<SphereShape>(first), 4});
   of_.grounds = &make("grounds", "'<f8'", {count_of<GroundShape>(first), 4});
+  for (const Collider& collider : first.colliders) {
+    const auto* mesh = std::get_if<MeshShape>(&collider);
+    if (mesh == nullptr) continue;
+    NpyArray& positions = make(fmt::format("body{}_positions", bodies_.size() + 1), "'<f8'",
+                               {static_cast<std::size_t>(mesh->positions.rows()), 3});
+    bodies_.push_back({&positions, mesh->triangles, {}});
+  }
+}
+
+void NpzWriter::add_bodies(const Frame& frame) {
+  std::size_t k = 0;
+  for (const Collider& collider : frame.colliders) {
+    const auto* mesh = std::get_if<MeshShape>(&collider);
+    if (mesh == nullptr) continue;
+    Body& body = bodies_.at(k++);
+    const std::string now = vertex_bytes<double>(mesh->positions);
+    if (frames_ == 0) {
+      body.first = now;
+      body.positions->append(now);
+      continue;
+    }
+    if (!body.moves && now == body.first) continue;
+    for (std::size_t i = 1; !body.moves && i < frames_; ++i) body.positions->append(body.first);
+    body.moves = true;
+    body.positions->append(now);
+  }
+  ++frames_;
 }
 
 void NpzWriter::add(const Frame& frame) {
@@ -103,6 +130,7 @@ void NpzWriter::add(const Frame& frame) {
   }
   of_.spheres->append(spheres);
   of_.grounds->append(grounds);
+  add_bodies(frame);
 }
 
 std::vector<OutputFile> NpzWriter::finish(Ending ending) {
@@ -112,6 +140,10 @@ std::vector<OutputFile> NpzWriter::finish(Ending ending) {
       .append_rows(film_.texture_coordinates().size() / 3, bytes_of(film_.texture_coordinates()));
   if (film_.cloth != nullptr)
     make("rest", "'<f8'", {3}).append_rows(vertices_, vertex_bytes<double>(film_.cloth->rest));
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const std::vector<Triangle>& triangles = *bodies_[k].triangles;
+    make(fmt::format("body{}_faces", k + 1), "'<i4'", {3}).append_rows(triangles.size(), bytes_of(triangles));
+  }
   make("fps", "'<f8'", {}).append(numbers({film_.fps}));
 
   ZipWriter zip(file_);

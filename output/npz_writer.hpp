@@ -56,6 +56,16 @@ class NpzWriter final : public MotionWriter {
   struct {
     NpyArray *positions, *velocities, *times, *frames, *energies, *spheres, *grounds;
   } of_ = {};  // of the motion; into arrays_
+  /// Where a body is. One that rests is written once.
+  struct Body {
+    NpyArray* positions;
+    std::shared_ptr<const std::vector<Triangle>> triangles;
+    std::string first;  // its place in the first frame
+    bool moves = false;
+  };
+  void add_bodies(const Frame& frame);
+  std::vector<Body> bodies_;
+  std::size_t frames_ = 0;
   std::size_t vertices_ = 0;
 };
 

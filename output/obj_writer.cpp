@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <map>
 #include <string_view>
 #include <utility>
+
+#include "output/collider_mesh.hpp"
 
 namespace drape {
 namespace {
@@ -29,22 +32,50 @@ std::string surface_lines(const std::vector<Triangle>& triangles, const std::vec
   return coordinates + faces;
 }
 
-}  // namespace
+void append_vertices(const Vertices& positions, std::string& text) {
+  for (const auto& x : positions.rowwise()) {
+    fmt::format_to(std::back_inserter(text), "v {:.9g} {:.9g} {:.9g}\n", x[0], x[1], x[2]);
+  }
+}
 
-std::function<std::string(const Frame&)> obj_writer(const FilmInfo& film) {
-  const std::string surface = surface_lines(film.triangles(), film.texture_coordinates());
-  return [surface](const Frame& frame) {
-    std::string text = fmt::format("# drape: frame {} at {:.9g} s, in metres, z up\n", frame.index, frame.time);
-    for (const auto& x : frame.positions.rowwise()) {
-      fmt::format_to(std::back_inserter(text), "v {:.9g} {:.9g} {:.9g}\n", x[0], x[1], x[2]);
+/// Appends spheres and bodies as objects whose vertices follow `before` others.
+void append_objects(const std::vector<Collider>& colliders, Eigen::Index before, std::string& text) {
+  int spheres = 0, bodies = 0;
+  for (const Collider& collider : colliders) {
+    if (std::holds_alternative<GroundShape>(collider)) continue;
+    const bool ball = std::holds_alternative<SphereShape>(collider);
+    const Surface surface = surface_of({collider}, {});
+    fmt::format_to(std::back_inserter(text), "o {}{}\n", ball ? "sphere" : "body", ball ? ++spheres : ++bodies);
+    append_vertices(surface.positions, text);
+    for (const auto& [a, b, c] : surface.triangles) {
+      fmt::format_to(std::back_inserter(text), "f {} {} {}\n", before + a + 1, before + b + 1, before + c + 1);
     }
-    return text + surface;
+    before += surface.positions.rows();
+  }
+}
+
+std::function<std::string(const Frame&)> make_writer(const FilmInfo& film, bool with_objects) {
+  const std::string surface = surface_lines(film.triangles(), film.texture_coordinates());
+  return [surface, with_objects](const Frame& frame) {
+    std::string text = fmt::format("# drape: frame {} at {:.9g} s, in metres, z up\n", frame.index, frame.time);
+    const auto is_ground = [](const Collider& collider) { return std::holds_alternative<GroundShape>(collider); };
+    const bool objects = with_objects && !std::ranges::all_of(frame.colliders, is_ground);
+    if (objects) text += "o cloth\n";
+    append_vertices(frame.positions, text);
+    text += surface;
+    if (objects) append_objects(frame.colliders, frame.positions.rows(), text);
+    return text;
   };
 }
 
+}  // namespace
+
+std::function<std::string(const Frame&)> obj_writer(const FilmInfo& film) { return make_writer(film, true); }
+std::function<std::string(const Frame&)> cloth_obj_writer(const FilmInfo& film) { return make_writer(film, false); }
+
 OutputFormat obj_format() {
   return {.extension = ".obj",
-          .help = "the cloth as a Wavefront mesh [m, z up], without spheres and ground",
+          .help = "the cloth as a Wavefront mesh [m, z up], with spheres and bodies as objects, without the ground",
           .made_by = {},
           .packages = {},
           .make = FrameMaker<Frame>(obj_writer)};

@@ -12,7 +12,7 @@ Pc2Writer::Pc2Writer(const std::filesystem::path& file, const FilmInfo& film)
     : expected_(film.expected_frames),
       file_(file),
       mesh_(file_beside(file, first_mesh, film, film.first_frame)),
-      mesh_text_(obj_writer(film)) {}
+      mesh_text_(cloth_obj_writer(film)) {}
 
 std::string Pc2Writer::header(Eigen::Index points, int samples) const {
   std::string bytes("POINTCACHE2\0", 12);

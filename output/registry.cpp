@@ -9,6 +9,7 @@
 #include "core/nearest.hpp"
 #include "output/animation_encoder.hpp"
 #include "output/gif_encoder.hpp"
+#include "output/glb_writer.hpp"
 #include "output/npz_writer.hpp"
 #include "output/obj_writer.hpp"
 #include "output/pc2_writer.hpp"
@@ -36,6 +37,7 @@ const std::vector<OutputFormat>& output_formats() {
       pvd_format(),   //
       vtp_format(),   //
       pc2_format(),   //
+      glb_format(),   //
       {.extension = ".drape",
        .help = "the motion itself, to draw later in any way and to resume after Ctrl-C",
        .made_by = {},

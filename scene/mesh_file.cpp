@@ -6,6 +6,7 @@
 #include <string>
 
 #include "scene/mesh/obj.hpp"
+#include "scene/mesh/obj_objects.hpp"
 #include "scene/mesh/sequence.hpp"
 #include "scene/mesh/source.hpp"
 #include "scene/usd/mesh.hpp"
@@ -54,7 +55,9 @@ void add_inputs(const std::filesystem::path& file, const UsdStage* stage, Inputs
 }
 
 Mesh read_obj(const std::filesystem::path& file, const MeshOptions& options, Inputs* inputs) {
-  Mesh mesh = read_obj_mesh(SourceText::read(file));
+  const SourceText source = SourceText::read(file);
+  std::vector<ObjObject> objects = read_drape_objects(source);
+  Mesh mesh = objects.empty() ? read_obj_mesh(source) : std::move(objects.front().mesh);
   add_inputs(file, nullptr, inputs);
   if (options.up == MeshOptions::Up::y) {  // (x, y, z) → (x, −z, y), as for USD
     mesh.positions.col(1).swap(mesh.positions.col(2));

@@ -151,6 +151,15 @@ TEST_F(Interop, ThreeAndTinyusdzReadTheStage) {
   expect_same_balls(found.moments, written.frames, 1e-14);
 }
 
+TEST_F(Interop, KhronosValidatorAndThreeReadTheBinaryGltf) {
+  const test::WrittenMotion written = write({"x.glb"});
+  const Found found = read_by("node " + reader("read_glb.mjs") + " '" + std::getenv("DRAPE_INTEROP") +
+                              "/node_modules'" + quoted("x.glb"));
+  EXPECT_EQ(found.triangles.size(), scene_.simulation.cloth.triangles.size());
+  expect_same(found.moments, written.frames, 3e-7);  // a displacement and where it begins, each in single precision
+  expect_same_balls(found.moments, written.frames, 1e-5);
+}
+
 TEST_F(Interop, BlenderShowsTheCacheOnItsMeshAndTheMeshes) {
   const test::WrittenMotion written = write({"x.pc2", "{frame}.ply", "{frame}.obj"});
   const std::size_t count = written.frames.size();

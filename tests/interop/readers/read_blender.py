@@ -7,7 +7,8 @@ import bpy
 
 def import_obj(file):
     bpy.ops.wm.obj_import(filepath=file, forward_axis="Y", up_axis="Z")
-    return bpy.context.selected_objects[0]
+    objects = bpy.context.selected_objects  # what the cloth may touch, too
+    return next((one for one in objects if one.name.startswith("cloth")), objects[0])
 
 
 cache, frames, *meshes = sys.argv[sys.argv.index("--") + 1:]

@@ -1,0 +1,205 @@
+#include "audit/motion_audit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "audit/crossings.hpp"
+#include "audit/inside.hpp"
+#include "audit/passages.hpp"
+#include "audit/stretch.hpp"
+
+namespace drape::audit {
+namespace {
+
+/// The triangles of a mesh at an edge.
+std::vector<Triangle> triangles_at(const Topology& mesh, const Edge& edge) {
+  std::vector<Triangle> found;
+  for (const Triangle& t : mesh.triangles) {
+    if (std::ranges::find(t, edge[0]) != t.end() && std::ranges::find(t, edge[1]) != t.end()) found.push_back(t);
+  }
+  return found;
+}
+
+/// A set of the cloth's vertices, ascending.
+class Marked {
+ public:
+  template <class Vertices>
+  void add(Owner owner, const Vertices& vertices) {
+    if (owner == Owner::cloth) marked_.insert(std::begin(vertices), std::end(vertices));
+  }
+  [[nodiscard]] std::vector<int> all() const { return {marked_.begin(), marked_.end()}; }
+
+ private:
+  std::set<int> marked_;
+};
+
+/// Pairs of triangles of which an edge of one goes through the other, each once.
+/// @param other the body, or the cloth itself
+std::size_t count_pairs(const std::vector<Crossing>& crossings, const Topology& cloth, const Topology& other) {
+  std::set<std::pair<Triangle, Triangle>> pairs;
+  for (const Crossing& crossing : crossings) {
+    const bool of_body = crossing.edge_owner == Owner::body;
+    for (const Triangle& at : triangles_at(of_body ? other : cloth, crossing.edge)) {
+      std::pair<Triangle, Triangle> pair(at, crossing.triangle);
+      const bool one_mesh = crossing.edge_owner == crossing.triangle_owner;
+      if (of_body || (one_mesh && pair.second < pair.first)) std::swap(pair.first, pair.second);
+      pairs.insert(pair);
+    }
+  }
+  return pairs.size();
+}
+
+}  // namespace
+
+MotionAudit::MotionAudit(AuditedCloth cloth, const AuditLimits& limits)
+    : cloth_(std::move(cloth)),
+      limits_(limits),
+      topology_(std::make_unique<const Topology>(make_topology(cloth_.triangles))),
+      stuck_(*topology_, cloth_.rest, cloth_.held, cloth_.down) {
+  for (const Triangle& triangle : cloth_.triangles) {
+    if (std::ranges::max(triangle) < cloth_.rest.rows()) continue;
+    throw std::invalid_argument(
+        fmt::format("a triangle names vertex {}, and there are {}", std::ranges::max(triangle), cloth_.rest.rows()));
+  }
+}
+
+void MotionAudit::add(const AuditedState& state) {
+  if (state.x.rows() != cloth_.rest.rows()) {
+    throw std::invalid_argument(
+        fmt::format("a state has {} vertices, and the cloth {}", state.x.rows(), cloth_.rest.rows()));
+  }
+  if (states_ == 0) {
+    for (const Collider& collider : state.colliders) {
+      const auto* body = std::get_if<MeshShape>(&collider);
+      bodies_.push_back(body != nullptr ? make_topology(*body->triangles) : Topology{});
+      closed_.push_back(static_cast<char>(body != nullptr && is_closed(*body->triangles)));
+    }
+  }
+  note(Check::crossings, state, crossings(state));
+  if (states_ > 0) note(Check::ways, state, ways(state));
+  note(Check::inside, state, inside(state));
+  note(Check::stretch, state, stretched(state));
+  const std::vector<int> stuck = stuck_.add(state.x, state.colliders);
+  std::string text = stuck.empty() ? "" : fmt::format("cloth vertex {} stands still while others fall", stuck.front());
+  note(Check::stuck, state, {stuck.size(), static_cast<double>(stuck.size()), std::move(text), stuck});
+  ++states_;
+  before_ = state.x;
+  colliders_before_ = state.colliders;
+}
+
+bool MotionAudit::clean() const {
+  return std::ranges::all_of(found_, [](const CheckFindings& of) { return of.states == 0; });
+}
+
+void MotionAudit::note(Check check, const AuditedState& state, Finding finding) {
+  if (finding.count == 0) return;
+  CheckFindings& all = found_[static_cast<std::size_t>(check)];
+  if (all.states++ == 0) {
+    all.first = state.step;
+    all.first_time = state.time;
+  } else if (finding.value <= all.worst.value) {
+    return;
+  }
+  all.worst = {
+      state.step, state.time,     finding.count, finding.value, std::move(finding.text), std::move(finding.vertices),
+      state.x,    state.colliders};
+}
+
+MotionAudit::Finding MotionAudit::crossings(const AuditedState& state) const {
+  Finding finding;
+  Marked marked;
+  const auto take = [&](const std::vector<Crossing>& found, const Topology& other) {
+    finding.count += count_pairs(found, *topology_, other);
+    for (const Crossing& crossing : found) {
+      if (finding.text.empty()) finding.text = describe(crossing);
+      marked.add(crossing.edge_owner, crossing.edge);
+      marked.add(crossing.triangle_owner, crossing.triangle);
+    }
+  };
+  const Surface cloth{*topology_, state.x};
+  take(find_crossings(cloth), *topology_);
+  for (std::size_t i = 0; i < state.colliders.size(); ++i) {
+    const auto* body = std::get_if<MeshShape>(&state.colliders[i]);
+    if (body != nullptr) take(find_crossings(cloth, {bodies_[i], body->positions}), bodies_[i]);
+  }
+  finding.value = static_cast<double>(finding.count);
+  finding.vertices = marked.all();
+  return finding;
+}
+
+MotionAudit::Finding MotionAudit::ways(const AuditedState& state) {
+  Finding finding;
+  Marked marked;
+  const auto take = [&](const std::vector<Passage>& found) {
+    for (const Passage& passage : found) {
+      if (passage.touch) {
+        ++found_[static_cast<std::size_t>(Check::ways)].touches;
+        continue;
+      }
+      ++finding.count;
+      if (finding.text.empty()) finding.text = describe(passage);
+      const auto middle = passage.vertices.begin() + (passage.kind == Passage::Kind::vertex_triangle ? 1 : 2);
+      marked.add(passage.first_owner, std::vector<int>(passage.vertices.begin(), middle));
+      marked.add(passage.second_owner, std::vector<int>(middle, passage.vertices.end()));
+    }
+  };
+  const SurfaceMotion cloth{*topology_, before_, state.x};
+  take(find_passages(cloth));
+  for (std::size_t i = 0; i < state.colliders.size(); ++i) {
+    const auto* body = std::get_if<MeshShape>(&state.colliders[i]);
+    if (body == nullptr) continue;
+    take(find_passages(cloth, {bodies_[i], std::get<MeshShape>(colliders_before_.at(i)).positions, body->positions}));
+  }
+  finding.value = static_cast<double>(finding.count);
+  finding.vertices = marked.all();
+  return finding;
+}
+
+MotionAudit::Finding MotionAudit::inside(const AuditedState& state) {
+  Finding finding;
+  double& largest = found_[static_cast<std::size_t>(Check::inside)].largest;
+  const auto take = [&](const std::vector<Inside>& found) {
+    for (const Inside& one : found) {
+      largest = std::max(largest, one.depth);
+      if (one.depth <= limits_.depth) continue;
+      ++finding.count;
+      finding.vertices.push_back(one.vertex);
+      if (one.depth > finding.value) {
+        finding.value = one.depth;
+        finding.text = describe(one);
+      }
+    }
+  };
+  for (std::size_t i = 0; i < state.colliders.size(); ++i) {
+    if (const auto* body = std::get_if<MeshShape>(&state.colliders[i])) {
+      if (closed_[i] != 0) take(find_inside(state.x, {bodies_[i], body->positions}));
+    } else if (const auto* sphere = std::get_if<SphereShape>(&state.colliders[i])) {
+      take(find_inside_sphere(state.x, sphere->center, sphere->radius));
+    } else if (const auto* ground = std::get_if<GroundShape>(&state.colliders[i])) {
+      take(find_behind_plane(state.x, ground->height * ground->normal, ground->normal));
+    }
+  }
+  std::ranges::sort(finding.vertices);
+  return finding;
+}
+
+MotionAudit::Finding MotionAudit::stretched(const AuditedState& state) {
+  Finding finding;
+  double& largest = found_[static_cast<std::size_t>(Check::stretch)].largest;
+  for (const auto& [a, b] : topology_->edges) {
+    const double rest = (cloth_.rest.row(a) - cloth_.rest.row(b)).norm();
+    const double length = (state.x.row(a) - state.x.row(b)).norm();
+    if (length > 0) largest = std::max(largest, length / rest);  // infinite where there is no length at rest
+  }
+  const std::vector<StretchedEdge> found = find_stretched(topology_->edges, cloth_.rest, state.x, limits_.stretch);
+  if (found.empty()) return finding;
+  Marked marked;
+  for (const StretchedEdge& one : found) marked.add(Owner::cloth, one.edge);
+  return {found.size(), found.front().stretch, describe(found.front()), marked.all()};
+}
+
+}  // namespace drape::audit

@@ -1,0 +1,87 @@
+#include "import/time_grid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "import/motion_source.hpp"
+
+namespace drape {
+namespace {
+
+constexpr double usual_fps = 25;
+constexpr double on_a_step = 0.02;  // of a step: times may be written with few digits
+constexpr double most_steps = 1e9;
+
+/// The speed at which a film of so many frames per second shows each step, to the bit where there is such a number.
+double speed_of(double step, double fps) {
+  const double about = step * fps;
+  for (const double speed : {about, std::nextafter(about, 0), std::nextafter(about, HUGE_VAL)}) {
+    if (speed / fps == step) return speed;
+  }
+  return about;
+}
+
+/// The film that shows a step in each of its frames, unless steps are too short or too long for that.
+void choose_film(TimeGrid& grid, std::optional<double> of_file) {
+  constexpr double slowest = 4, fastest = 120;
+  const double rate = 1 / grid.step;
+  if (of_file && std::isfinite(*of_file) && *of_file > 0 && *of_file <= 1000) {
+    grid.fps = *of_file;
+  } else if (rate >= slowest && rate <= fastest) {
+    const double whole = std::round(rate);
+    grid.fps = std::abs(rate - whole) < 1e-6 * rate ? whole : rate;
+  } else {
+    return;
+  }
+  grid.speed = speed_of(grid.step, grid.fps);
+}
+
+}  // namespace
+
+TimeGrid make_time_grid(const std::string& name, std::size_t count, const std::vector<double>& times,
+                        std::optional<double> fps, std::optional<double> of_file) {
+  TimeGrid grid;
+  if (fps || times.size() < 2) {
+    grid.step = 1 / fps.value_or(of_file.value_or(usual_fps));
+    for (std::size_t i = 0; i < count; ++i) grid.steps.push_back(static_cast<std::int64_t>(i));
+    choose_film(grid, fps ? fps : of_file);
+    return grid;
+  }
+  double least = HUGE_VAL;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double gap = times[i] - times[i - 1];
+    if (!(gap > 0) || !std::isfinite(gap)) {
+      fail_import(name,
+                  fmt::format("its times do not increase: frame {} is at {} s, and frame {} at {} s; --fps takes its "
+                              "frames as evenly spaced",
+                              i - 1, times[i - 1], i, times[i]));
+    }
+    least = std::min(least, gap);
+  }
+  double steps = 0;
+  grid.steps.push_back(0);
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    steps += std::round((times[i] - times[i - 1]) / least);
+    if (steps > most_steps) fail_import(name, "its times are too far apart; --fps takes its frames as evenly spaced");
+    grid.steps.push_back(static_cast<std::int64_t>(steps));
+  }
+  const double first = times[1] - times[0], mean = (times.back() - times.front()) / steps;
+  const bool exact = times[0] == 0 && grid.steps[1] == 1 && std::ranges::all_of(grid.steps, [&](const std::int64_t& s) {
+                       return static_cast<double>(s) * first == times[static_cast<std::size_t>(&s - grid.steps.data())];
+                     });
+  grid.step = exact ? first : mean;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double expected = times[0] + static_cast<double>(grid.steps[i]) * grid.step;
+    if (std::abs(times[i] - expected) <= on_a_step * grid.step) continue;
+    fail_import(name,
+                fmt::format("its times lie on no equal steps: frame {} is at {} s, which is no multiple of {:.6g} s; "
+                            "--fps takes its frames as evenly spaced",
+                            i, times[i], grid.step));
+  }
+  choose_film(grid, of_file);
+  return grid;
+}
+
+}  // namespace drape

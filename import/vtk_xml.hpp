@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "import/mesh_frame.hpp"
+
+namespace drape {
+
+/// Reads a VTK XML file of PolyData or an unstructured grid of polygons (.vtp, .vtu): its points, its polygons, the
+/// point data "velocity", and of the field data what drape writes: TimeValue, energies, spheres and grounds. Arrays may
+/// be ASCII, base64 or appended, of either byte order, and compressed with zlib.
+/// @param name of the file, for messages
+/// @throws UsageError "name: message"
+MeshFrame read_vtk_xml(const std::string& name, const std::string& text);
+
+/// A line of a .pvd.
+struct PvdEntry {
+  double time = 0;  ///< [s]
+  int part = 0;
+  std::string file;  ///< relative to the .pvd
+};
+
+/// Reads a ParaView collection. @throws UsageError as above
+std::vector<PvdEntry> read_pvd(const std::string& name, const std::string& text);
+
+}  // namespace drape

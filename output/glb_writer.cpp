@@ -1,0 +1,232 @@
+#include "output/glb_writer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/read_file.hpp"
+#include "output/bytes.hpp"
+#include "render/color.hpp"
+
+namespace drape {
+namespace {
+
+constexpr std::size_t most_frames = 3000;  // weights of all targets stand at each of the animation's times
+constexpr std::size_t most_texture_bytes = 64'000'000;
+
+std::string material(const std::string& name, const Rgb& color, const std::string& more = {}) {
+  const Eigen::Vector3f linear = linear_color(color);
+  return fmt::format(
+      "{{\"name\": \"{}\", \"doubleSided\": true, \"pbrMetallicRoughness\": {{\"baseColorFactor\": [{:.6g}, {:.6g}, "
+      "{:.6g}, 1], \"metallicFactor\": 0, \"roughnessFactor\": 0.9{}}}}}",
+      name, linear[0], linear[1], linear[2], more);
+}
+
+/// The bytes of a texture that glTF can hold, a PNG or JPEG; empty: none.
+std::string texture_bytes(const Look& look, std::string& type) {
+  if (look.texture.empty()) return {};
+  std::string bytes = read_file(look.texture, most_texture_bytes);
+  type = bytes.starts_with("\x89PNG") ? "image/png" : bytes.starts_with("\xFF\xD8") ? "image/jpeg" : "";
+  if (type.empty()) bytes.clear();
+  return bytes;
+}
+
+/// Pads a text to whole words.
+std::string padded(std::string text, char with) {
+  while (text.size() % 4 != 0) text += with;
+  return text;
+}
+
+}  // namespace
+
+GlbWriter::GlbWriter(const std::filesystem::path& file, const FilmInfo& film) : film_(film), file_(file) {
+  if (film.cloth != nullptr) patch_ = ground_patch(film.cloth->positions);
+}
+
+void GlbWriter::add_first(const Frame& frame) {
+  cloth_ = std::make_unique<GltfMorphedMesh>(file_, film_.triangles(), film_.texture_coordinates(),
+                                             frame.positions.rows(), true);
+  static const std::vector<std::array<float, 2>> no_uvs;
+  for (const Collider& collider : frame.colliders) {
+    if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
+      SphereShape around_origin = *sphere;
+      around_origin.center.setZero();
+      Ball ball{.first = *sphere,
+                .surface = std::make_unique<Surface>(surface_of({around_origin}, {})),
+                .mesh = {},
+                .places = {}};
+      ball.mesh = std::make_unique<GltfMorphedMesh>(file_, ball.surface->triangles, no_uvs,
+                                                    ball.surface->positions.rows(), true);
+      ball.mesh->add(ball.surface->positions);
+      balls_.push_back(std::move(ball));
+      continue;
+    }
+    Solid solid;
+    const auto* body = std::get_if<MeshShape>(&collider);
+    solid.is_ground = body == nullptr;
+    solid.name = fmt::format("{}{}", solid.is_ground ? "Ground" : "Body", solids_.size() + 1);
+    Eigen::Index vertices = 4;
+    if (body != nullptr) {
+      solid.triangles = body->triangles;
+      vertices = body->positions.rows();
+    } else {
+      solid.triangles = std::make_shared<const std::vector<Triangle>>(std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
+    }
+    solid.mesh = std::make_unique<GltfMorphedMesh>(file_, *solid.triangles, no_uvs, vertices, false);
+    solids_.push_back(std::move(solid));
+  }
+}
+
+void GlbWriter::add(const Frame& frame) {
+  if (times_.empty()) add_first(frame);
+  if (times_.size() == most_frames) {
+    throw OutputError(
+        fmt::format("{}: a .glb holds {} frames at most, as each is a morph target: choose fewer, with "
+                    "--frames or --every",
+                    file_.file().string(), most_frames));
+  }
+  times_.push_back(static_cast<float>(static_cast<double>(times_.size()) / film_.fps));
+  cloth_->add(frame.positions);
+  std::size_t ball = 0, solid = 0;
+  for (const Collider& collider : frame.colliders) {
+    if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
+      Ball& of = balls_.at(ball++);
+      for (const double x : sphere->center) of.places.push_back(static_cast<float>(x));
+      of.moves = of.moves || sphere->center != of.first.center;
+    } else if (const auto* body = std::get_if<MeshShape>(&collider)) {
+      solids_.at(solid++).mesh->add(body->positions);
+    } else {
+      Solid& of = solids_.at(solid++);
+      if (times_.size() == 1) of.mesh->add(ground_corners(std::get<GroundShape>(collider), patch_));
+    }
+  }
+}
+
+std::string GlbWriter::json(GltfParts& parts, std::vector<std::string>& tail) {
+  const Look look = film_.look != nullptr ? *film_.look : Look{};
+  std::string image_type, images;
+  std::string texture = film_.texture_coordinates().empty() ? "" : texture_bytes(look, image_type);
+  std::vector<std::string> meshes, nodes, channels, samplers;
+  const auto add_channel = [&](std::size_t node, const char* path, int input, int output) {
+    channels.push_back(fmt::format("{{\"sampler\": {}, \"target\": {{\"node\": {}, \"path\": \"{}\"}}}}",
+                                   samplers.size(), node, path));
+    samplers.push_back(fmt::format("{{\"input\": {}, \"output\": {}, \"interpolation\": \"LINEAR\"}}", input, output));
+  };
+  std::vector<std::pair<std::size_t, bool>> morphed;  // nodes, and whether they move
+  const auto add_mesh = [&](const std::string& name, GltfMorphedMesh& mesh, int material_number,
+                            const std::string& more) {
+    const std::string primitive = mesh.describe(parts, material_number);
+    const bool moves = mesh.moves();
+    std::string weights;
+    if (moves) weights = fmt::format(", \"weights\": [{}]", fmt::join(std::vector<int>(times_.size() - 1, 0), ", "));
+    morphed.emplace_back(nodes.size() + 1, moves);
+    nodes.push_back(fmt::format("{{\"name\": \"{}\", \"mesh\": {}{}}}", name, meshes.size(), more));
+    meshes.push_back(fmt::format("{{\"name\": \"{}\", \"primitives\": [{}]{}}}", name, primitive, weights));
+  };
+  add_mesh("Cloth", *cloth_, 0, "");
+  for (Ball& ball : balls_) {
+    add_mesh(fmt::format("Sphere{}", 1 + (&ball - balls_.data())), *ball.mesh, 1,
+             fmt::format(", \"translation\": [{:.9g}, {:.9g}, {:.9g}]", ball.first.center.x(), ball.first.center.y(),
+                         ball.first.center.z()));
+  }
+  for (Solid& solid : solids_) add_mesh(solid.name, *solid.mesh, solid.is_ground ? 3 : 2, "");
+
+  const std::size_t frames = times_.size();
+  const bool animated = std::ranges::any_of(morphed, [](const auto& of) { return of.second; }) ||
+                        std::ranges::any_of(balls_, &Ball::moves);
+  if (animated) {
+    tail.emplace_back(bytes_of(times_));
+    const int input =
+        parts.add_accessor(parts.add_view(4 * frames), 0, frames,
+                           fmt::format("\"componentType\": 5126, \"type\": \"SCALAR\", \"min\": [0], \"max\": [{}]",
+                                       static_cast<double>(times_.back())));
+    std::vector<float> weights(frames * (frames - 1), 0);
+    for (std::size_t k = 1; k < frames; ++k) weights[k * (frames - 1) + k - 1] = 1;
+    std::optional<int> shared;
+    for (const auto& [node, moves] : morphed) {
+      if (!moves) continue;
+      if (!shared) {
+        tail.emplace_back(bytes_of(weights));
+        shared = parts.add_accessor(parts.add_view(4 * weights.size()), 0, weights.size(),
+                                    "\"componentType\": 5126, \"type\": \"SCALAR\"");
+      }
+      add_channel(node, "weights", input, *shared);
+    }
+    for (const Ball& ball : balls_) {
+      if (!ball.moves) continue;
+      tail.emplace_back(bytes_of(ball.places));
+      const int output = parts.add_accessor(parts.add_view(4 * ball.places.size()), 0, frames,
+                                            "\"componentType\": 5126, \"type\": \"VEC3\"");
+      add_channel(2 + static_cast<std::size_t>(&ball - balls_.data()), "translation", input, output);
+    }
+  }
+  if (!texture.empty()) {
+    const int view = parts.add_view(texture.size());
+    images = fmt::format(
+        ", \"images\": [{{\"bufferView\": {}, \"mimeType\": \"{}\"}}], \"samplers\": [{{}}], \"textures\": "
+        "[{{\"sampler\": 0, "
+        "\"source\": 0}}]",
+        view, image_type);
+  }
+  const std::string cloth_material = texture.empty()
+                                         ? material("cloth", look.color)
+                                         : material("cloth", {1, 1, 1}, ", \"baseColorTexture\": {\"index\": 0}");
+  tail.push_back(std::move(texture));
+  std::vector<int> children;
+  for (std::size_t i = 1; i <= nodes.size(); ++i) children.push_back(static_cast<int>(i));
+  // z up becomes y up by a turn of −90° about x.
+  return fmt::format(
+      "{{\"asset\": {{\"version\": \"2.0\", \"generator\": \"drape\"}}, \"scene\": 0, \"scenes\": [{{\"nodes\": "
+      "[0]}}], "
+      "\"nodes\": [{{\"name\": \"Scene\", \"rotation\": [-0.7071067811865476, 0, 0, 0.7071067811865476], \"children\": "
+      "[{}]}}, {}], \"meshes\": [{}], \"materials\": [{}, {}, {}, {}], \"bufferViews\": [{}], \"accessors\": [{}], "
+      "\"buffers\": [{{\"byteLength\": {}}}]{}{}}}",
+      fmt::join(children, ", "), fmt::join(nodes, ", "), fmt::join(meshes, ", "), cloth_material,
+      material("sphere", look.sphere_color), material("body", look.body_color), material("ground", look.ground_color),
+      fmt::join(parts.views(), ", "), fmt::join(parts.accessors(), ", "), parts.size(),
+      animated ? fmt::format(", \"animations\": [{{\"name\": \"motion\", \"channels\": [{}], \"samplers\": [{}]}}]",
+                             fmt::join(channels, ", "), fmt::join(samplers, ", "))
+               : "",
+      images);
+}
+
+std::vector<OutputFile> GlbWriter::finish(Ending ending) {
+  if (times_.empty()) return {};
+  GltfParts parts;
+  std::vector<std::string> tail;
+  const std::string text = padded(json(parts, tail), ' ');
+  const std::uint64_t bytes = (parts.size() + 3) / 4 * 4, whole = 12 + 8 + text.size() + 8 + bytes;
+  if (whole > UINT32_MAX) {
+    throw OutputError(fmt::format("{}: a .glb holds 4 GB at most: choose fewer frames, with --frames or --every",
+                                  file_.file().string()));
+  }
+  std::string head = "glTF";
+  append_number<std::uint32_t>(head, 2);
+  append_number<std::uint32_t>(head, static_cast<std::uint32_t>(whole));
+  append_number<std::uint32_t>(head, static_cast<std::uint32_t>(text.size()));
+  head += "JSON" + text;
+  append_number<std::uint32_t>(head, static_cast<std::uint32_t>(bytes));
+  head += std::string("BIN\0", 4);
+  file_.write(head);
+  cloth_->write(file_);
+  for (Ball& ball : balls_) ball.mesh->write(file_);
+  for (Solid& solid : solids_) solid.mesh->write(file_);
+  for (const std::string& part : tail) file_.write(part);
+  file_.write(std::string(bytes - parts.size(), '\0'));
+  const std::uintmax_t size = file_.commit(ending);
+  return {{file_.name(ending), size}};
+}
+
+OutputFormat glb_format() {
+  return {.extension = ".glb",
+          .help = "the motion as binary glTF, for browsers and viewers: cloth, texture, spheres, bodies and grounds",
+          .made_by = {},
+          .packages = {},
+          .make = FilmMaker<Frame>([](const std::filesystem::path& file, const FilmInfo& film) {
+            return std::make_unique<GlbWriter>(file, film);
+          })};
+}
+
+}  // namespace drape

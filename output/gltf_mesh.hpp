@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/spool.hpp"
+#include "sim/mesh.hpp"
+
+namespace drape {
+
+/// A glTF file's JSON objects and the bytes that they refer to, as they are put together.
+class GltfParts {
+ public:
+  /// Adds a view of bytes that are written in this order. @returns its number
+  int add_view(std::uint64_t size, const std::string& more = {});
+  /// @param more fields beside the view: "\"componentType\": 5126, …" @returns its number
+  int add_accessor(int view, std::uint64_t offset, std::uint64_t count, const std::string& more);
+
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+  [[nodiscard]] const std::vector<std::string>& views() const { return views_; }
+  [[nodiscard]] const std::vector<std::string>& accessors() const { return accessors_; }
+
+ private:
+  std::uint64_t size_ = 0;  // of all views [bytes]
+  std::vector<std::string> views_, accessors_;
+};
+
+/// A triangle mesh whose vertices move, as glTF has it: the first frame, and for each later one a morph target with the
+/// displacements from there. Its vertices wait on disk.
+class GltfMorphedMesh {
+ public:
+  /// @param uvs    per triangle corner, or empty. A vertex with several of them becomes several, the others
+  ///               behind all vertices.
+  /// @param smooth normals of the vertices are written; otherwise triangles look flat
+  /// @param output for which its vertices wait
+  GltfMorphedMesh(const PartialFile& output, const std::vector<Triangle>& triangles,
+                  const std::vector<std::array<float, 2>>& uvs, Eigen::Index vertices, bool smooth);
+
+  /// The next frame.
+  void add(const Vertices& x);
+
+  [[nodiscard]] bool moves() const { return moves_; }
+  /// Adds its views and accessors, whose bytes write() writes then. @returns its primitive
+  std::string describe(GltfParts& parts, int material);
+  void write(PartialFile& file);
+
+ private:
+  using Singles = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  struct Bounds {
+    Eigen::RowVector3f low, high;
+  };
+
+  [[nodiscard]] Singles split(const Vertices& of_vertices) const;
+  [[nodiscard]] Vertices normals(const Vertices& x) const;
+  [[nodiscard]] std::string attributes(int position, std::optional<int> normal) const;
+
+  const std::vector<Triangle>& triangles_;
+  bool smooth_, moves_ = false;
+  std::vector<int> vertex_of_;             // by glTF's vertex
+  std::vector<std::array<float, 2>> uvs_;  // likewise, or empty
+  std::vector<std::uint32_t> indices_;
+  Singles first_x_, first_n_;
+  std::vector<Bounds> bounds_;
+  Spool positions_, normals_;
+};
+
+}  // namespace drape

@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/mesh.hpp"
+#include "tests/cli/run_drape.hpp"
+#include "tests/support/files.hpp"
+
+namespace drape::import_cli {
+namespace {
+
+using test::drape;
+using test::Finished;
+using test::SceneFolder;
+
+/// An OBJ of a sheet of 8×8 cells that has fallen for some frames of 20 ms.
+std::string falling(int frame, const std::function<void(Vertices&)>& fault = {}) {
+  const Mesh grid = make_grid(8, 8);
+  Vertices x = grid.positions;
+  x.col(2).array() -= 0.5 * 9.81 * std::pow(0.02 * frame, 2);
+  if (fault) fault(x);
+  std::string text;
+  for (const auto& p : x.rowwise()) text += fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
+  for (const auto& [a, b, c] : grid.triangles) text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
+  return text;
+}
+
+/// A sequence of ten frames, one of which may have a fault.
+void write_sequence(const SceneFolder& folder, const std::function<void(Vertices&)>& fault = {}) {
+  for (int frame = 0; frame < 10; ++frame) {
+    folder.write(fmt::format("m/{:02}.obj", frame), falling(frame, frame == 5 ? fault : nullptr));
+  }
+}
+
+const std::string sequence = "'m/{frame:02}.obj'";
+
+TEST(Import, MakesAMotionThatIsDrawnComparedAndAudited) {
+  const SceneFolder folder;
+  write_sequence(folder);
+  const Finished imported = drape(folder, "import " + sequence + " --fps 50 -o motion.drape");
+  EXPECT_EQ(imported.code, 0) << imported.text;
+  EXPECT_NE(imported.text.find("10 frames, 0.02 s apart, of 81 vertices and 128 triangles"), std::string::npos)
+      << imported.text;
+  folder.write("scene.toml",
+               "[cloth]\nmesh = { grid = [8, 8] }\nstiffness = 10\n[time]\nstep = 0.02\nduration = 0.18\n"
+               "[effects.gravity]\n[video]\nsize = [64, 48]\n");
+  folder.write("look.toml", test::least_scene + "[look]\ncolor = \"navy\"\n[video]\nsize = [64, 48]\nfps = 50\n");
+  EXPECT_EQ(drape(folder, "render motion.drape --scene look.toml -o film.gif").code, 0);
+  EXPECT_EQ(drape(folder, "render motion.drape --set look.color_by=speed --set 'video.size=[64, 48]' -o a.png").code,
+            0);
+  EXPECT_EQ(drape(folder, "render " + sequence + " --set 'video.size=[64, 48]' -o b.png").code, 0);
+  const Finished compared = drape(folder, "compare scene.toml motion.drape --difference -o ab.png");
+  EXPECT_EQ(compared.code, 0) << compared.text;
+  const Finished audited = drape(folder, "audit motion.drape");
+  EXPECT_EQ(audited.code, 0) << audited.text;
+  EXPECT_NE(audited.text.find("masses and springs of an imported motion are not known"), std::string::npos);
+}
+
+TEST(Import, IsFoundByTheAuditToHaveTheFaultsThatWerePutIntoIt) {
+  const SceneFolder folder;
+  write_sequence(folder, [](Vertices& x) {  // a corner through the middle, for one frame
+    x.row(0) = x.row(40) + Eigen::RowVector3d(0.06, 0.02, -0.1);
+    x.row(1) = x.row(40) + Eigen::RowVector3d(0.05, 0.01, 0.1);
+  });
+  const Finished crossing = drape(folder, "audit " + sequence + " --max-stretch 100 -o page.html");
+  EXPECT_EQ(crossing.code, 1) << crossing.text;
+  EXPECT_NE(crossing.text.find("(step 5): "), std::string::npos) << crossing.text;
+  EXPECT_NE(crossing.text.find("cloth edge 0 1 goes through cloth triangle"), std::string::npos) << crossing.text;
+  EXPECT_NE(test::content(folder.path("page.html")).find("data:image/png;base64"), std::string::npos);
+
+  write_sequence(folder, [](Vertices& x) { x(0, 0) -= 0.05; });  // a side of 0.25 becomes 0.3
+  const Finished stretched = drape(folder, "audit " + sequence);
+  EXPECT_EQ(stretched.code, 1) << stretched.text;
+  EXPECT_NE(stretched.text.find("cloth edge 0 1 is stretched to 1.2"), std::string::npos) << stretched.text;
+}
+
+TEST(Import, RefusesInOneMessageWithExitCode2) {
+  const SceneFolder folder;
+  write_sequence(folder);
+  const auto expect_refused = [&](const std::string& arguments, const std::string& message) {
+    const Finished finished = drape(folder, arguments);
+    EXPECT_EQ(finished.code, 2) << arguments;
+    EXPECT_NE(finished.text.find(message), std::string::npos) << finished.text;
+    EXPECT_EQ(std::count(finished.text.begin(), finished.text.end(), '\n'), 1) << finished.text;
+  };
+  expect_refused("import " + sequence + " -o motion.npz", "expected the name of a motion file");
+  expect_refused("import missing.npz -o motion.drape", "missing.npz");
+  expect_refused("import " + sequence + " --prim /a -o motion.drape", "only a USD file has prims");
+  expect_refused("import " + sequence + " --up x -o motion.drape", "--up");
+  expect_refused("simulate " + sequence, "is already a motion");
+  folder.write("m/12.obj", falling(0));
+  expect_refused("render " + sequence + " -o film.gif", "10.obj is missing before 12.obj");
+}
+
+}  // namespace
+}  // namespace drape::import_cli

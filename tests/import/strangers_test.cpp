@@ -1,0 +1,156 @@
+// Files of other programs, and files that are wrong: one message each.
+
+#include <gtest/gtest.h>
+
+#include "import/import_motion.hpp"
+#include "motion/reader.hpp"
+#include "tests/import/random_motion.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/usage_error.hpp"
+
+namespace drape::test {
+namespace {
+
+class Strangers : public InScratchFolder {
+ protected:
+  ImportedMotion read(const std::string& name, ImportOptions options = {}) {
+    options.cloths = {path(name)};
+    Progress progress;
+    std::filesystem::remove(path("out.drape"));
+    return import_motion(options, path("out.drape"), {}, progress);
+  }
+  void expect_refused(const std::string& name, const std::string& message) {
+    const std::string found = usage_error([&] { read(name); });
+    EXPECT_NE(found.find(message), std::string::npos) << name << ": " << found;
+    EXPECT_FALSE(std::filesystem::exists(path("out.drape.partial"))) << name;
+    EXPECT_FALSE(std::filesystem::exists(path("out.drape"))) << name;
+  }
+  void put(const std::string& name, const std::string& text) { ScratchFolder::put(path(name), text); }
+};
+
+const std::string triangle_obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+TEST_F(Strangers, HaveQuadsAndAsciiAndBigEndianNumbers) {
+  put("a/0.ply",
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
+      "0 0 0 1\n1 0 0 2\n1 1 0 3\n0 1 0.5 4\n4 0 1 2 3\n");
+  EXPECT_EQ(read("a/{frame}.ply").triangles, 2);
+  std::string binary = "# vtk DataFile Version 3.0\ncloth\nBINARY\nDATASET POLYDATA\nPOINTS 3 float\n";
+  const auto big = [&](std::uint32_t word) {
+    for (int shift = 24; shift >= 0; shift -= 8) binary += static_cast<char>(word >> shift & 0xFF);
+  };
+  for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.25F}) big(std::bit_cast<std::uint32_t>(x));
+  binary += "\nPOLYGONS 1 4\n";
+  for (const std::uint32_t word : {3U, 0U, 1U, 2U}) big(word);
+  binary += "\nPOINT_DATA 3\n";
+  put("b/0.vtk", binary);
+  EXPECT_EQ(read("b/{frame}.vtk").triangles, 1);
+  EXPECT_EQ(MotionReader(path("out.drape")).state(0).x(2, 2), 0.25);
+  put("c.vtk",
+      "# vtk DataFile Version 5.1\ncloth\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+      "0 0 0 1 0 0 1 1 0 0 1 0\nCELLS 2 4\nOFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\n"
+      "CELL_TYPES 1\n9\n");
+  EXPECT_EQ(read("c.vtk").triangles, 2);
+}
+
+TEST_F(Strangers, HaveTimesOfTheirOwn) {
+  put("a.usda",
+      "#usda 1.0\n(\n upAxis = \"Z\"\n metersPerUnit = 1\n timeCodesPerSecond = 10\n)\ndef Mesh \"m\"\n{\n"
+      " int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2]\n point3f[] points.timeSamples = {\n"
+      "  0: [(0, 0, 0), (1, 0, 0), (0, 1, 0)],\n  1: [(0, 0, 1), (1, 0, 1), (0, 1, 1)],\n"
+      "  4: [(0, 0, 4), (1, 0, 4), (0, 1, 4)],\n }\n}\n");
+  const ImportedMotion found = read("a.usda");
+  EXPECT_EQ(found.frames, 3);
+  EXPECT_NEAR(found.step, 0.1, 1e-15);
+  MotionReader reader(path("out.drape"));
+  EXPECT_EQ(reader.last_step(), 4);
+  EXPECT_NEAR(reader.state(1).v(0, 2), 10, 1e-9);  // (4 − 0)/0.4 s
+}
+
+TEST_F(Strangers, AreToldWhatIsWrongWithASequence) {
+  put("gap/0.obj", triangle_obj);
+  put("gap/2.obj", triangle_obj);
+  expect_refused("gap/{frame}.obj", "1.obj is missing before 2.obj");
+  expect_refused("none/{frame}.obj", "none");
+  put("more/0.obj", triangle_obj);
+  put("more/1.obj", "v 0 0 1\n" + triangle_obj);
+  expect_refused("more/{frame}.obj",
+                 "1.obj: expected the 3 vertices and 1 triangles of the first frame, found 4 vertices and 1 triangles");
+  put("other/0.obj", triangle_obj);
+  put("other/1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 2\n");
+  expect_refused("other/{frame}.obj", "triangle 0 has other vertices");
+  put("nan/0.obj", triangle_obj);
+  put("nan/1.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_refused("nan/{frame}.obj", "1.obj:1:7: expected a finite number, found 'nan'");
+  put("nan.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n");
+  expect_refused("nan.ply", "vertex 1 has the y coordinate nan");
+  put("large.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n");
+  expect_refused("large.ply", "the file is too short for them");
+  put("far/0.obj", "v 0 0 0\nv 5e90 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_refused("far/{frame}.obj", "it cannot be drawn: ");
+  put("up.usda", "#usda 1.0\n");
+  EXPECT_NE(usage_error([&] { read("up.usda", {.axes = {.y_up = true}}); }).find("omit --up"), std::string::npos);
+  put("a.stl", "solid");
+  expect_refused("a.stl", "expected a motion: .npz");
+}
+
+TEST_F(Strangers, AreToldWhatIsWrongWithOneFile) {
+  const RandomMotion motion(3);
+  motion.write_film<NpzWriter>(path("a.npz"));
+  motion.write_film<Pc2Writer>(path("c.pc2"));
+  const std::string npz = content(path("a.npz")), pc2 = content(path("c.pc2"));
+  put("cut.npz", npz.substr(0, npz.size() / 2));
+  expect_refused("cut.npz", "it is cut short, or no .npz");
+  put("cut.pc2", pc2.substr(0, pc2.size() - 4));
+  std::filesystem::copy(path("c.obj"), path("cut.obj"));
+  expect_refused("cut.pc2", "it is cut short: ");
+  put("other.pc2", pc2);
+  put("other.obj", triangle_obj);
+  expect_refused("other.pc2", "points, and");
+  put("text.pc2", "hello, this is no point cache at all");
+  expect_refused("text.pc2", "it does not begin with POINTCACHE2");
+  std::string nan = pc2;
+  const float not_a_number = NAN;
+  std::memcpy(nan.data() + nan.size() - 4, &not_a_number, 4);
+  put("nan.pc2", nan);
+  std::filesystem::copy(path("c.obj"), path("nan.obj"));
+  expect_refused("nan.pc2", "z coordinate nan");
+  put("a.pvd", "<VTKFile type=\"Collection\"><Collection></Collection></VTKFile>");
+  expect_refused("a.pvd", "it names no file");
+  put("b.pvd", "<VTKFile");
+  expect_refused("b.pvd", "no whole XML file");
+  expect_refused("missing.npz", "cannot be read");
+}
+
+/// Cuts and damages of files are a message or a motion, and never anything else.
+TEST_F(Strangers, MayBeDamagedAnywhere) {
+  const RandomMotion motion(3);
+  motion.write_film<NpzWriter>(path("a.npz"));
+  motion.write_frames(path("v"), ".vtp", vtp_writer(motion.info()));
+  motion.write_frames(path("p"), ".ply", ply_writer(motion.info()));
+  put("l0000.vtk",
+      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"
+      "POLYGONS 1 4\n3 0 1 2\n");
+  Random random(8);
+  for (const char* name : {"a.npz", "v0000.vtp", "p0000.ply", "l0000.vtk"}) {
+    const std::string whole = content(path(name));
+    const std::string damaged = std::string("damaged") + std::filesystem::path(name).extension().string();
+    for (int i = 0; i < tries(60); ++i) {
+      std::string bytes = whole;
+      if (i % 3 == 0) bytes.resize(static_cast<std::size_t>(random.below(static_cast<int>(bytes.size()))));
+      for (int k = 0; k < 3 && !bytes.empty(); ++k) {
+        bytes[static_cast<std::size_t>(random.below(static_cast<int>(bytes.size())))] =
+            static_cast<char>(random.below(256));
+      }
+      put(damaged, bytes);
+      const std::string found = usage_error([&] { read(damaged); });
+      EXPECT_TRUE(found == "(no error)" || found.find(damaged) != std::string::npos) << found;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace drape::test
