@@ -1,0 +1,87 @@
+#include "study/known_answers.hpp"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "study/elastica.hpp"
+
+namespace drape {
+namespace {
+
+using std::numbers::pi;
+
+/// A sheet that falls flat from rest: the way over v∞²/g at the time x, in v∞/g.
+double fallen(double time) { return std::log(std::cosh(time)); }
+
+/// The acceleration of what lies on a slope of tangent x with friction 0.3, over g.
+double sliding(double tangent) {
+  constexpr double friction = 0.3;
+  return std::max(0.0, (tangent - friction) / std::hypot(1, tangent));
+}
+
+/// 2W/(E e²) of a sheet of one spring direction family per entry of `angles`, by which it is strained at angle x.
+/// Families of equal stiffness and area hold ½E ε² each, see stiffen_by_area().
+double diagonal_grid_modulus(double angle) {
+  double sum = 0;
+  for (const double spring : {0.0, 90.0, 135.0}) sum += std::pow(std::cos((angle - spring) * pi / 180), 4);
+  return sum;
+}
+
+const std::map<std::string, KnownCurve>& all_known_curves() {
+  static const std::map<std::string, KnownCurve> curves{
+      {"heavy-cantilever/drop", {[](double gamma) { return heavy_elastica(gamma).drop; }}},
+      {"heavy-cantilever/reach", {[](double gamma) { return heavy_elastica(gamma).reach; }}},
+      {"bending-length/angle", {[](double gamma) { return heavy_elastica(gamma).chord_angle(); }}},
+      {"catenary/sag", {catenary_sag}},
+      {"pendulum/period", {pendulum_period}},
+      {"hanging-chain/frequency", {[](double n) { return bessel_zero(static_cast<int>(std::lround(n))) / 2; }, false}},
+      {"membrane/frequency", {[](double waves) { return waves; }}},
+      {"terminal-velocity/fallen", {fallen}},
+      {"incline/acceleration", {sliding}},
+      {"restitution/rebound", {[](double e) { return e * e; }}},
+      {"pattern-stiffness/diagonal", {diagonal_grid_modulus}},
+      {"pattern-stiffness/isotropic", {[](double) { return 9.0 / 8; }}},
+      {"rolled-sheet/energy", {[](double) { return 1.0; }}},
+      {"free-flight/ratio", {[](double) { return 1.0; }, false}},
+  };
+  return curves;
+}
+
+}  // namespace
+
+KnownCurve known_curve(const std::string& name, const std::string& curve) {
+  const auto found = all_known_curves().find(name + "/" + curve);
+  return found == all_known_curves().end() ? KnownCurve{} : found->second;
+}
+
+double bessel_zero(int k) {
+  const double b = (k - 0.25) * pi;
+  double x = b + 1 / (8 * b);  // McMahon's expansion
+  for (int i = 0; i < 20; ++i) x += std::cyl_bessel_j(0, x) / std::cyl_bessel_j(1, x);
+  return x;
+}
+
+double catenary_sag(double span) {
+  // a sinh(x/a) = 1, x half the span: u = x/a has sinh(u)/u = 1/x.
+  const double half = span / 2;
+  double low = 1e-9, high = 50;
+  for (int i = 0; i < 200; ++i) {
+    const double u = (low + high) / 2;
+    (half * std::sinh(u) > u ? high : low) = u;
+  }
+  const double a = half / low;
+  return a * (std::cosh(low) - 1);
+}
+
+double pendulum_period(double amplitude) {
+  double a = 1, b = std::cos(amplitude * pi / 360);
+  for (int i = 0; i < 60 && std::abs(a - b) > 1e-16; ++i) {
+    const double mean = (a + b) / 2;
+    b = std::sqrt(a * b);
+    a = mean;
+  }
+  return 1 / a;
+}
+
+}  // namespace drape
