@@ -13,7 +13,7 @@ struct Examples {
   std::string_view lines;    ///< what stands after "drape", with a line feed after each
 };
 
-constexpr std::array<Examples, 20> all_examples{{
+constexpr std::array<Examples, 22> all_examples{{
     {"",
      "new flag\n"
      "render flag.toml\n"
@@ -69,6 +69,12 @@ constexpr std::array<Examples, 20> all_examples{{
     {"study homework", "study homework --runs 3 -o out/homework\n"},
     {"study scaling", "study scaling --largest 40\n"},
     {"study stability", "study stability --per-decade 2 -o out/maps\n"},
+    {"study validation",
+     "study validation\n"
+     "study validation pendulum catenary --methods implicit-sdirk2 -o out/two\n"},
+    {"validate",
+     "validate heavy-cantilever answers.csv\n"
+     "validate catenary motion.npz --problem span-1.2\n"},
     {"schema",
      "schema\n"
      "schema -o scene.schema.json\n"},

@@ -80,7 +80,7 @@ void add_validation_study(CLI::App& study, const CommonOptions& common, Command&
   sub->add_flag("--quick", options.quick, "Run a few problems as their scenes are, without defaults and variants");
   sub->add_option("--jobs", arguments->jobs, "Runs at once; default one for each free processor")
       ->check(whole_number_in({1, 1000}));
-  sub->add_option("--patience", options.patience, "Computing time in s after which a run is given up; default 60")
+  sub->add_option("--patience", options.patience, "Computing time in s after which a run is given up; default 30")
       ->check(number_in({.minimum = 0, .minimum_excluded = true}));
   sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/validation")
       ->check(on_one_line());

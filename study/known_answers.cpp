@@ -1,5 +1,7 @@
 #include "study/known_answers.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -20,12 +22,17 @@ double sliding(double tangent) {
   return std::max(0.0, (tangent - friction) / std::hypot(1, tangent));
 }
 
-/// 2W/(E e²) of a sheet of one spring direction family per entry of `angles`, by which it is strained at angle x.
-/// Families of equal stiffness and area hold ½E ε² each, see stiffen_by_area().
-double diagonal_grid_modulus(double angle) {
-  double sum = 0;
-  for (const double spring : {0.0, 90.0, 135.0}) sum += std::pow(std::cos((angle - spring) * pi / 180), 4);
-  return sum;
+/// The modulus over E at an angle [degrees] of springs along 0°, 90° and both diagonals, by their weights.
+double modulus_at(double angle, double sides, double rising, double falling) {
+  const auto share = [angle](double spring) { return std::pow(std::cos((angle - spring) * pi / 180), 4); };
+  return sides * (share(0) + share(90)) + rising * share(45) + falling * share(135);
+}
+
+/// The modulus over E of an isotropic sheet of Poisson's ratio 1/3: strained in one direction, in the other, in both by
+/// the same, and by the opposite.
+double isotropic_modulus(double load) {
+  constexpr std::array values{9.0 / 8, 9.0 / 8, 3.0, 1.5};
+  return values.at(static_cast<std::size_t>(std::lround(load) - 1));
 }
 
 const std::map<std::string, KnownCurve>& all_known_curves() {
@@ -40,8 +47,12 @@ const std::map<std::string, KnownCurve>& all_known_curves() {
       {"terminal-velocity/fallen", {fallen}},
       {"incline/acceleration", {sliding}},
       {"restitution/rebound", {[](double e) { return e * e; }}},
-      {"pattern-stiffness/diagonal", {diagonal_grid_modulus}},
-      {"pattern-stiffness/isotropic", {[](double) { return 9.0 / 8; }}},
+      {"pattern-stiffness/diagonal", {[](double angle) { return modulus_at(angle, 1, 0, 1); }}},
+      {"pattern-stiffness/alternating", {[](double angle) { return modulus_at(angle, 1, 0.5, 0.5); }}},
+      {"pattern-stiffness/x", {[](double angle) { return modulus_at(angle, 0.5, 1, 1); }}},
+      {"pattern-stiffness/grid", {isotropic_modulus, false}},
+      {"lateral-buckling/buckled", {[](double gamma) { return gamma > 12.85 * std::numbers::sqrt2 ? 1.0 : 0.0; }}},
+      {"clamped-plate/frequency", {[](double) { return 35.985; }, false}},
       {"rolled-sheet/energy", {[](double) { return 1.0; }}},
       {"free-flight/ratio", {[](double) { return 1.0; }, false}},
   };

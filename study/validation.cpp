@@ -46,7 +46,8 @@ void plan_case(const ValidationCase& of, const ValidationOptions& options, std::
     if (wanted(problem)) add(problem, scene_factor, scene_factor, {});
   }
   if (options.quick) return;
-  for (const ValidationProblem& problem : of.problems) add(problem, default_factor, default_factor, of.default_overrides);
+  for (const ValidationProblem& problem : of.problems)
+    add(problem, default_factor, default_factor, of.default_overrides);
   for (const ValidationFactor& factor : of.factors) {
     for (const ValidationVariant& variant : factor.variants) {
       const bool asked = variant.method.empty() || options.methods.empty() ||

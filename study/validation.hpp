@@ -33,10 +33,10 @@ struct ValidationRun {
   double step = 0;      ///< h [s]
   double cell = 0;      ///< mean length of a spring [m]
   std::int64_t vertices = 0;
-  std::int64_t capped = 0;             ///< steps that ended at the cap
-  double rest_speed = 0;               ///< of the fastest vertex at the end [m/s]
-  std::vector<std::string> names;      ///< of the quantities
-  std::vector<double> values;          ///< theirs
+  std::int64_t capped = 0;         ///< steps that ended at the cap
+  double rest_speed = 0;           ///< of the fastest vertex at the end [m/s]
+  std::vector<std::string> names;  ///< of the quantities
+  std::vector<double> values;      ///< theirs
 
   [[nodiscard]] std::optional<double> value(const std::string& quantity) const;
 };
@@ -47,7 +47,7 @@ struct ValidationOptions {
   std::vector<std::string> methods;  ///< of the runs that vary the method; empty: all that a case has
   bool quick = false;                ///< a few problems as their scenes are, without defaults and variants
   int jobs = 1;                      ///< runs at once
-  double patience = 60;              ///< after so much computing time a run is given up [s]
+  double patience = 30;              ///< after so much computing time a run is given up [s]
 };
 
 /// All that a study has measured.

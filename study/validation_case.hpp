@@ -47,20 +47,20 @@ struct ValidationFactor {
 
 /// A case of scenes/validation: a question whose answer is known.
 struct ValidationCase {
-  std::string name;                                 ///< of its folder: "heavy-cantilever"
-  std::string title;                                ///< "Heavy cantilever"
-  std::string question, theory, source, mesh;       ///< sentences
-  std::string scene;                                ///< relative to the data folder
-  std::string measure;                              ///< see measure_motion()
-  std::string x_title;                              ///< of the curves' parameter
-  bool only_end = false;                            ///< the measure needs the last state alone
-  std::optional<double> rest_speed;                 ///< a run ends once no vertex is faster [m/s]
-  double rest_after = 0;                            ///< not before this time [s]
-  std::map<std::string, double> given;              ///< numbers that every problem has
-  std::vector<ValidationCurve> curves;              ///< at least one
-  std::vector<std::string> default_overrides;       ///< take every key about how to compute out of the scene
-  std::vector<ValidationProblem> problems;          ///< at least one
-  std::vector<std::string> quick;                   ///< names of the problems of the quick form
+  std::string name;                            ///< of its folder: "heavy-cantilever"
+  std::string title;                           ///< "Heavy cantilever"
+  std::string question, theory, source, mesh;  ///< sentences
+  std::string scene;                           ///< relative to the data folder
+  std::string measure;                         ///< see measure_motion()
+  std::string x_title;                         ///< of the curves' parameter
+  bool only_end = false;                       ///< the measure needs the last state alone
+  std::optional<double> rest_speed;            ///< a run ends once no vertex is faster [m/s]
+  double rest_after = 0;                       ///< not before this time [s]
+  std::map<std::string, double> given;         ///< numbers that every problem has
+  std::vector<ValidationCurve> curves;         ///< at least one
+  std::vector<std::string> default_overrides;  ///< take every key about how to compute out of the scene
+  std::vector<ValidationProblem> problems;     ///< at least one
+  std::vector<std::string> quick;              ///< names of the problems of the quick form
   std::vector<ValidationFactor> factors;
 
   /// @throws UsageError with the nearest name

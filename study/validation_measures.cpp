@@ -85,7 +85,9 @@ std::vector<double> part_of_shape(const MotionOfCase& m, int axis, const VectorX
   return parts;
 }
 
-Quantities measure_sag(const MotionOfCase& m) { return {{"sag", m.mean_of_pins(m.last()).z() - m.last().col(2).minCoeff()}}; }
+Quantities measure_sag(const MotionOfCase& m) {
+  return {{"sag", m.mean_of_pins(m.last()).z() - m.last().col(2).minCoeff()}};
+}
 
 /// A strip that is clamped at the lower end of its rest shape's x: where its tip is, in its free lengths.
 Quantities measure_clamped_strip(const MotionOfCase& m) {
@@ -141,8 +143,8 @@ Quantities measure_membrane(const MotionOfCase& m) {
   Quantities found;
   for (const auto& [rows, columns] : {std::array{1, 1}, std::array{3, 1}, std::array{3, 3}}) {
     const Vertices& r = m.rest();
-    const VectorXd shape = (rows * pi / rest_width * r.col(0).array()).cos() *
-                           (columns * pi / rest_width * r.col(1).array()).cos();
+    const VectorXd shape =
+        (rows * pi / rest_width * r.col(0).array()).cos() * (columns * pi / rest_width * r.col(1).array()).cos();
     const double omega = angular_frequency(m.motion.times, part_of_shape(m, 2, shape));
     found[fmt::format("mode-{}-{}", rows, columns)] = omega * width / (pi * speed);
   }
@@ -232,8 +234,8 @@ Quantities measure_free_flight(const MotionOfCase& m) {
     }
     return sum;
   };
-  const Vector3d turned = turning(m.last(), m.motion.velocities.back()) -
-                          turning(m.motion.positions.front(), m.motion.velocities.front());
+  const Vector3d turned =
+      turning(m.last(), m.motion.velocities.back()) - turning(m.motion.positions.front(), m.motion.velocities.front());
   const double before = energy_of(cloth, m.motion.positions.front(), m.motion.velocities.front());
   return {{"way", way.norm() / (velocity.norm() * seconds)},
           {"angular-momentum", 1 + turned.norm() / (cloth.masses.sum() * velocity.norm())},
@@ -246,7 +248,8 @@ Quantities measure_strain_energy(const MotionOfCase& m) {
   const double energy = energy_of(cloth, m.last(), Vertices::Zero(m.last().rows(), 3));
   double area = 0;
   for (const auto& [a, b, c] : cloth.triangles) {
-    const Vector3d p = (m.rest().row(b) - m.rest().row(a)).transpose(), q = (m.rest().row(c) - m.rest().row(a)).transpose();
+    const Vector3d p = (m.rest().row(b) - m.rest().row(a)).transpose(),
+                   q = (m.rest().row(c) - m.rest().row(a)).transpose();
     area += p.cross(q).norm() / 2;
   }
   return {{"modulus", 2 * energy / (area * m.number("E") * std::pow(m.number("strain"), 2))}};
@@ -255,8 +258,8 @@ Quantities measure_strain_energy(const MotionOfCase& m) {
 /// The energy of the first state over ½ D A/R².
 Quantities measure_rolled_sheet(const MotionOfCase& m) {
   if (m.motion.elastic.empty()) throw UsageError("expected the elastic energy of every state: give the answer as CSV");
-  return {{"energy", m.motion.elastic.front() /
-                         (0.5 * m.number("D") * m.number("area") / std::pow(m.number("radius"), 2))}};
+  return {{"energy",
+           m.motion.elastic.front() / (0.5 * m.number("D") * m.number("area") / std::pow(m.number("radius"), 2))}};
 }
 
 struct MeasureType {
@@ -294,8 +297,8 @@ std::map<std::string, double> measure_motion(const std::string& measure, const O
                                              const std::map<std::string, double>& given) {
   const auto found = std::ranges::find(all_measures(), measure, &MeasureType::name);
   if (found == all_measures().end()) {
-    throw UsageError(fmt::format("unknown measure '{}'{}", measure,
-                                 did_you_mean(measure, measure_names(), "the measures are")));
+    throw UsageError(
+        fmt::format("unknown measure '{}'{}", measure, did_you_mean(measure, measure_names(), "the measures are")));
   }
   if (motion.positions.empty() || motion.times.size() != motion.positions.size()) {
     throw UsageError("expected a time for every state of the motion");

@@ -16,7 +16,7 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 std::string figure(double value) {
   if (!std::isfinite(value)) return "–";
   return value != 0 && (std::abs(value) < 1e-3 || std::abs(value) >= 1e5) ? fmt::format("{:.2e}", value)
-                                                                        : fmt::format("{:.5g}", value);
+                                                                          : fmt::format("{:.5g}", value);
 }
 
 std::string seconds_text(double seconds) { return fmt::format("{:.2g}", seconds); }
@@ -118,7 +118,8 @@ NamedChart master_curve(const ValidationStudy& study, const ValidationCase& of, 
       const auto add = [&](html::ChartSeries& to, const ValidationRun* run) {
         const std::optional<double> value = run == nullptr ? std::nullopt : run->value(answer.name);
         if (!value) return;
-        to.points.push_back({answer.x, *value,
+        to.points.push_back({answer.x,
+                             *value,
                              fmt::format("{}: {}, known {}", problem.name, figure(*value), figure(answer.value)),
                              run->what.command(),
                              {}});
@@ -181,7 +182,8 @@ NamedChart cost_chart(const ValidationStudy& study, const ValidationCase& of) {
     if (!series.points.empty() && run.factor != "cell" && run.factor != "step") {
       series.points.push_back({run.seconds, not_known, {}, {}, {}});
     }
-    series.points.push_back({std::max(run.seconds, 1e-4), worst,
+    series.points.push_back({std::max(run.seconds, 1e-4),
+                             worst,
                              fmt::format("{} {}, {}: {} of what is allowed, {} s", run.factor, run.setting, run.problem,
                                          three_digits(worst), seconds_text(run.seconds)),
                              run.what.command(),
@@ -207,14 +209,14 @@ StudySection section_of(const ValidationStudy& study, const ValidationCase& of) 
 }
 
 ResultTable summary_table(const ValidationStudy& study) {
-  ResultTable table{"validation",
-                    "Cases with known answers",
-                    {"case", "answers", "met", "worst error / allowed", "at", "time [s]", "default's worst",
-                     "default's time [s]"},
-                    {},
-                    {"An answer is met if |drape − known| is at most what is allowed. The default is the same scene without "
-                     "a key about how to compute: step, method, tolerance, accuracy.",
-                     "Time is computing time of one thread for all problems of the case."}};
+  ResultTable table{
+      "validation",
+      "Cases with known answers",
+      {"case", "answers", "met", "worst error / allowed", "at", "time [s]", "default's worst", "default's time [s]"},
+      {},
+      {"An answer is met if |drape − known| is at most what is allowed. The default is the same scene without "
+       "a key about how to compute: step, method, tolerance, accuracy.",
+       "Time is computing time of one thread for all problems of the case."}};
   for (const ValidationCase& one : study.cases) {
     const ValidationVerdict scene = verdict_of(study, one, scene_factor);
     const ValidationVerdict otherwise = verdict_of(study, one, default_factor);
@@ -242,7 +244,8 @@ NamedChart summary_chart(const ValidationStudy& study) {
       const ValidationVerdict verdict = verdict_of(study, one, factor);
       if (verdict.answers == 0 || !std::isfinite(verdict.worst)) continue;
       if (!series.points.empty()) series.points.push_back({verdict.seconds, not_known, {}, {}, {}});
-      series.points.push_back({std::max(verdict.seconds, 1e-4), std::max(verdict.worst, 1e-6),
+      series.points.push_back({std::max(verdict.seconds, 1e-4),
+                               std::max(verdict.worst, 1e-6),
                                fmt::format("{}: {} of what is allowed, {} s", one.title, three_digits(verdict.worst),
                                            seconds_text(verdict.seconds)),
                                fmt::format("drape study validation {}", one.name),
@@ -307,7 +310,8 @@ StudyReport validation_report(const ValidationStudy& study) {
   report.provenance = study.provenance;
   report.seconds = study.seconds;
   report.introduction =
-      "Each case is a scene whose answer is known from a formula, from an ordinary differential equation solved to 1e-10, or from "
+      "Each case is a scene whose answer is known from a formula, from an ordinary differential equation solved to "
+      "1e-10, or from "
       "published figures. Its question, answer and tolerance are in scenes/validation/CASE/case.json, so that another "
       "simulator's answer can be judged, too: drape validate CASE answer.csv.";
   std::size_t measured = 0, met = 0;

@@ -10,11 +10,11 @@ StudyReport validation_report(const ValidationStudy& study);
 
 /// What became of a case.
 struct ValidationVerdict {
-  bool met = false;            ///< every answer is within its tolerance
-  int answers = 0, missed = 0; ///< that were measured, and of them those beyond their tolerance or without a value
-  double worst = 0;            ///< largest |measured − value|/tolerance
+  bool met = false;             ///< every answer is within its tolerance
+  int answers = 0, missed = 0;  ///< that were measured, and of them those beyond their tolerance or without a value
+  double worst = 0;             ///< largest |measured − value|/tolerance
   std::string worst_problem, worst_answer;
-  double seconds = 0;          ///< computing time of all problems
+  double seconds = 0;  ///< computing time of all problems
 };
 
 /// @param factor scene_factor or default_factor
