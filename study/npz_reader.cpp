@@ -122,31 +122,72 @@ std::vector<NpyNumbers> numbers_in(const NpzBytes& file, const std::string& npy)
   return {std::move(numbers)};
 }
 
+constexpr std::size_t wide_number = 0xFFFFFFFFU;  // a number that is elsewhere, in 64 bits
+
+/// Where the directory begins, and how many entries it has.
+struct NpzDirectory {
+  std::size_t begin = 0, count = 0;
+};
+
+NpzDirectory directory_of(const NpzBytes& bytes) {
+  const std::size_t end = bytes.all().rfind("PK\x05\x06");
+  if (end == std::string::npos) bytes.fail("expected an NPZ file");
+  const NpzDirectory narrow{bytes.number(end + 16, 4), bytes.number(end + 10, 2)};
+  if (narrow.begin != wide_number && narrow.count != 0xFFFF) return narrow;
+  constexpr std::size_t locator_size = 20;
+  if (end < locator_size || bytes.part(end - locator_size, 4) != "PK\x06\x07") bytes.fail("its directory is damaged");
+  const std::size_t record = bytes.number(end - locator_size + 8, 8);
+  if (bytes.part(record, 4) != "PK\x06\x06") bytes.fail("its directory is damaged");
+  return {bytes.number(record + 48, 8), bytes.number(record + 32, 8)};
+}
+
+/// An entry of the directory.
+struct NpzEntry {
+  std::string name;
+  std::size_t method = 0, packed = 0, size = 0, local = 0, next = 0;
+};
+
+NpzEntry entry_at(const NpzBytes& bytes, std::size_t place) {
+  if (bytes.part(place, 4) != "PK\x01\x02") bytes.fail("its directory is damaged");
+  NpzEntry entry;
+  const std::size_t name = bytes.number(place + 28, 2), extra = bytes.number(place + 30, 2);
+  entry.name = std::string(bytes.part(place + 46, name));
+  entry.method = bytes.number(place + 10, 2);
+  entry.packed = bytes.number(place + 20, 4);
+  entry.size = bytes.number(place + 24, 4);
+  entry.local = bytes.number(place + 42, 4);
+  entry.next = place + 46 + name + extra + bytes.number(place + 32, 2);
+  // Numbers of 64 bits follow in the extra field of kind 1: those that are needed, in this order.
+  for (std::size_t field = place + 46 + name; field + 4 <= place + 46 + name + extra;) {
+    const std::size_t kind = bytes.number(field, 2), size = bytes.number(field + 2, 2);
+    std::size_t number = field + 4;
+    for (std::size_t* value : {&entry.size, &entry.packed, &entry.local}) {
+      if (kind != 1 || *value != wide_number || number + 8 > field + 4 + size) continue;
+      *value = bytes.number(number, 8);
+      number += 8;
+    }
+    field += 4 + size;
+  }
+  return entry;
+}
+
 }  // namespace
 
 std::map<std::string, NpyNumbers> read_npz(const std::filesystem::path& file) {
   const NpzBytes bytes(file);
-  constexpr std::size_t end_size = 22, large = 0xFFFFFFFFU;
-  const std::size_t end = bytes.all().rfind("PK\x05\x06");
-  if (end == std::string::npos || bytes.all().size() < end_size) bytes.fail("expected an NPZ file");
-  std::size_t entry = bytes.number(end + 16, 4);
-  const std::size_t count = bytes.number(end + 10, 2);
+  const NpzDirectory directory = directory_of(bytes);
   std::map<std::string, NpyNumbers> arrays;
-  for (std::size_t k = 0; k < count; ++k) {
-    if (bytes.part(entry, 4) != "PK\x01\x02") bytes.fail("its directory is damaged");
-    const std::size_t method = bytes.number(entry + 10, 2), packed = bytes.number(entry + 20, 4),
-                      size = bytes.number(entry + 24, 4), name_size = bytes.number(entry + 28, 2),
-                      extra = bytes.number(entry + 30, 2), comment = bytes.number(entry + 32, 2),
-                      local = bytes.number(entry + 42, 4);
-    if (packed == large || size == large || local == large) bytes.fail("expected less than 4 GB");
-    std::string name(bytes.part(entry + 46, name_size));
-    const std::size_t data = local + 30 + bytes.number(local + 26, 2) + bytes.number(local + 28, 2);
-    const std::string_view stored = bytes.part(data, packed);
-    if (method != 0 && method != 8) bytes.fail("it is packed in a way that numpy does not use");
-    const std::string npy = method == 0 ? std::string(stored) : inflated(bytes, stored, size);
-    if (name.ends_with(".npy")) name.resize(name.size() - 4);
-    for (NpyNumbers& numbers : numbers_in(bytes, npy)) arrays[name] = std::move(numbers);
-    entry += 46 + name_size + extra + comment;
+  std::size_t place = directory.begin;
+  for (std::size_t k = 0; k < directory.count; ++k) {
+    NpzEntry entry = entry_at(bytes, place);
+    place = entry.next;
+    if (entry.local > bytes.all().size()) bytes.fail("its directory is damaged");
+    const std::size_t data = entry.local + 30 + bytes.number(entry.local + 26, 2) + bytes.number(entry.local + 28, 2);
+    const std::string_view stored = bytes.part(data, entry.packed);
+    if (entry.method != 0 && entry.method != 8) bytes.fail("it is packed in a way that numpy does not use");
+    const std::string npy = entry.method == 0 ? std::string(stored) : inflated(bytes, stored, entry.size);
+    if (entry.name.ends_with(".npy")) entry.name.resize(entry.name.size() - 4);
+    for (NpyNumbers& numbers : numbers_in(bytes, npy)) arrays[entry.name] = std::move(numbers);
   }
   return arrays;
 }

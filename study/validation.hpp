@@ -43,11 +43,11 @@ struct ValidationRun {
 
 /// What is asked of a study.
 struct ValidationOptions {
-  std::vector<std::string> cases;    ///< empty: all
-  std::vector<std::string> methods;  ///< of the runs that vary the method; empty: all that a case has
-  bool quick = false;                ///< a few problems as their scenes are, without defaults and variants
-  int jobs = 1;                      ///< runs at once
-  double patience = 30;              ///< after so much computing time a run is given up [s]
+  std::vector<std::string> cases = {};    ///< empty: all
+  std::vector<std::string> methods = {};  ///< of the runs that vary the method; empty: all that a case has
+  bool quick = false;                     ///< a few problems as their scenes are, without defaults and variants
+  int jobs = 1;                           ///< runs at once
+  double patience = 30;                   ///< after so much computing time a run is given up [s]
 };
 
 /// All that a study has measured.
