@@ -46,6 +46,7 @@ const std::map<std::string, KnownCurve>& all_known_curves() {
       {"membrane/frequency", {[](double waves) { return waves; }}},
       {"terminal-velocity/fallen", {fallen}},
       {"incline/acceleration", {sliding}},
+      {"turntable/slipped", {[](double load) { return load > 1 ? 1.0 : 0.0; }}},
       {"restitution/rebound", {[](double e) { return e * e; }}},
       {"pattern-stiffness/diagonal", {[](double angle) { return modulus_at(angle, 1, 0, 1); }}},
       {"pattern-stiffness/alternating", {[](double angle) { return modulus_at(angle, 1, 0.5, 0.5); }}},

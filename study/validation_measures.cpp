@@ -196,6 +196,13 @@ Quantities measure_sliding(const MotionOfCase& m) {
   return {{"acceleration", way / (half * half) / m.number("g")}};
 }
 
+/// 1 if the centre of mass ends more than 2 % further from the z axis than it began, otherwise 0.
+Quantities measure_turntable(const MotionOfCase& m) {
+  const auto distance = [&](const Vertices& x) { return m.mass_centre(x).head<2>().norm(); };
+  const double share = distance(m.last()) / distance(m.motion.positions.front());
+  return {{"slipped", share > 1.02 ? 1.0 : 0.0}};
+}
+
 /// The height of the first rebound over the fall, above what the cloth rests on.
 Quantities measure_rebound(const MotionOfCase& m) {
   const double floor = m.number("floor");
@@ -278,6 +285,7 @@ const std::vector<MeasureType>& all_measures() {
       {"fall", measure_fall},
       {"sliding", measure_sliding},
       {"rebound", measure_rebound},
+      {"turntable", measure_turntable},
       {"free-flight", measure_free_flight},
       {"strain-energy", measure_strain_energy},
       {"rolled-sheet", measure_rolled_sheet},

@@ -11,6 +11,7 @@
 namespace drape {
 namespace {
 
+constexpr double least_shown = 1e-3;  // of an error in tolerances, on a logarithmic axis
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 std::string figure(double value) {
@@ -147,7 +148,7 @@ NamedChart master_curve(const ValidationStudy& study, const ValidationCase& of, 
   }
   // Lines join what theory says; runs are points of their own.
   chart.series = {std::move(theory)};
-  for (html::ChartSeries* series : {&scene, &otherwise}) {
+  for (html::ChartSeries* series : {&otherwise, &scene}) {
     html::ChartSeries apart = *series;
     apart.points.clear();
     for (const html::ChartPoint& point : series->points) {
@@ -245,7 +246,7 @@ NamedChart summary_chart(const ValidationStudy& study) {
       if (verdict.answers == 0 || !std::isfinite(verdict.worst)) continue;
       if (!series.points.empty()) series.points.push_back({verdict.seconds, not_known, {}, {}, {}});
       series.points.push_back({std::max(verdict.seconds, 1e-4),
-                               std::max(verdict.worst, 1e-6),
+                               std::max(verdict.worst, least_shown),
                                fmt::format("{}: {} of what is allowed, {} s", one.title, three_digits(verdict.worst),
                                            seconds_text(verdict.seconds)),
                                fmt::format("drape study validation {}", one.name),
