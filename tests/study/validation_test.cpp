@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "scene/scene.hpp"
@@ -133,6 +135,60 @@ TEST_F(ValidationRuns, OfCsvAnswersAreJudged) {
   expect_error("problem,quantity,value\ngamma-10,drop,0.7m\n", "b.csv:2: expected a number, found '0.7m'");
   put(path("c.csv"), "problem,quantity,value\ngamma-10,drop,nan\n");
   EXPECT_FALSE(read_answers(of, path("c.csv"), "").front().met());
+}
+
+/// Bytes of a little-endian number.
+std::string bytes_of(std::uint64_t number, int count) {
+  std::string bytes;
+  for (int k = 0; k < count; ++k) bytes += static_cast<char>(number >> (8 * k) & 0xFFU);
+  return bytes;
+}
+
+/// An NPZ file with one array as numpy.savez writes it, without checksums.
+std::string npz(const std::string& name, const std::string& header, const std::vector<double>& values) {
+  std::string array = "\x93NUMPY";
+  array += {1, 0};
+  array += bytes_of(header.size(), 2) + header;
+  for (const double value : values) array += bytes_of(std::bit_cast<std::uint64_t>(value), 8);
+  const std::string file = name + ".npy", size = bytes_of(array.size(), 4), length = bytes_of(file.size(), 2);
+  const std::string same =
+      bytes_of(20, 2) + bytes_of(0, 2) + bytes_of(0, 2) + bytes_of(0, 4) + bytes_of(0, 4) + size + size + length;
+  const std::string local = "PK\x03\x04" + same + bytes_of(0, 2) + file + array;
+  const std::string entry = "PK\x01\x02" + bytes_of(20, 2) + same + bytes_of(0, 2) + bytes_of(0, 2) + bytes_of(0, 2) +
+                            bytes_of(0, 2) + bytes_of(0, 4) + bytes_of(0, 4) + file;
+  return local + entry + "PK\x05\x06" + bytes_of(0, 4) + bytes_of(1, 2) + bytes_of(1, 2) + bytes_of(entry.size(), 4) +
+         bytes_of(local.size(), 4) + bytes_of(0, 2);
+}
+
+TEST_F(ValidationRuns, OfNpzMotionsAreMeasured) {
+  const ValidationCase of = validation_cases({"pattern-stiffness"}).front();
+  StudyCase what;
+  what.scene = of.scene;
+  const Vertices x = what.load().simulation.cloth.positions;
+  std::vector<double> values;
+  for (Eigen::Index i = 0; i < x.rows(); ++i) values.insert(values.end(), {x(i, 0), x(i, 1), x(i, 2)});
+  const std::string shape = "{'descr': '<f8', 'fortran_order': False, 'shape': (81, 3), }";
+  put(path("right.npz"), npz("positions", shape, values));
+  const std::vector<GivenAnswer> right = read_answers(of, path("right.npz"), "diagonal-0");
+  ASSERT_EQ(right.size(), 1U);
+  EXPECT_TRUE(right.front().met()) << right.front().value;
+  for (double& value : values) value *= 1.0001;
+  put(path("wrong.npz"), npz("positions", shape, values));
+  EXPECT_FALSE(read_answers(of, path("wrong.npz"), "diagonal-0").front().met());
+  const auto expect_error = [&](const std::string& bytes, const std::string& problem, const std::string& message) {
+    put(path("bad.npz"), bytes);
+    expect_usage_error([&] { read_answers(of, path("bad.npz"), problem); }, message);
+  };
+  const std::string good = npz("positions", shape, values);
+  expect_error(good, "", "expected --problem with the motion's problem");
+  expect_error(good.substr(0, good.size() / 2), "diagonal-0", "expected an NPZ file");
+  expect_error(npz("x", shape, values), "diagonal-0", "expected an array 'positions'");
+  expect_error(npz("positions", "{'descr': '<f8', 'fortran_order': False, 'shape': (243,), }", values), "diagonal-0",
+               "expected [times ×] 81 × 3 numbers");
+  expect_error(npz("positions", "{'descr': '<f8', 'fortran_order': False, 'shape': (810, 3), }", values), "diagonal-0",
+               "is damaged");
+  expect_error(npz("positions", "{'descr': '<f8', 'fortran_order': True, 'shape': (81, 3), }", values), "diagonal-0",
+               "in C order");
 }
 
 TEST(Measures, ComputeWhatPositionsSay) {
