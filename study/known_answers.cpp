@@ -46,6 +46,7 @@ const std::map<std::string, KnownCurve>& all_known_curves() {
       {"membrane/frequency", {[](double waves) { return waves; }}},
       {"terminal-velocity/fallen", {fallen}},
       {"incline/acceleration", {sliding}},
+      {"capstan/slipped", {[](double load) { return load > 1 ? 1.0 : 0.0; }}},
       {"turntable/slipped", {[](double load) { return load > 1 ? 1.0 : 0.0; }}},
       {"restitution/rebound", {[](double e) { return e * e; }}},
       {"pattern-stiffness/diagonal", {[](double angle) { return modulus_at(angle, 1, 0, 1); }}},
@@ -72,6 +73,12 @@ double bessel_zero(int k) {
   double x = b + 1 / (8 * b);  // McMahon's expansion
   for (int i = 0; i < 20; ++i) x += std::cyl_bessel_j(0, x) / std::cyl_bessel_j(1, x);
   return x;
+}
+
+double capstan_limit(double friction, double light, double radius) {
+  // T/(ρgR) = C e^{µθ} + a cos θ + b sin θ, and b has no part at either end.
+  const double a = -2 * friction / (1 + friction * friction);
+  return ((light / radius - a) * std::exp(friction * pi) - a) * radius;
 }
 
 double catenary_sag(double span) {

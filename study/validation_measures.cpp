@@ -203,6 +203,13 @@ Quantities measure_turntable(const MotionOfCase& m) {
   return {{"slipped", share > 1.02 ? 1.0 : 0.0}};
 }
 
+/// 1 if the end that hangs lowest at first has fallen by more than 5 cm, otherwise 0.
+Quantities measure_capstan(const MotionOfCase& m) {
+  Eigen::Index lowest = 0;
+  const double start = m.motion.positions.front().col(2).minCoeff(&lowest);
+  return {{"slipped", start - m.last()(lowest, 2) > 0.05 ? 1.0 : 0.0}};
+}
+
 /// The height of the first rebound over the fall, above what the cloth rests on.
 Quantities measure_rebound(const MotionOfCase& m) {
   const double floor = m.number("floor");
@@ -285,6 +292,7 @@ const std::vector<MeasureType>& all_measures() {
       {"fall", measure_fall},
       {"sliding", measure_sliding},
       {"rebound", measure_rebound},
+      {"capstan", measure_capstan},
       {"turntable", measure_turntable},
       {"free-flight", measure_free_flight},
       {"strain-energy", measure_strain_energy},

@@ -40,6 +40,17 @@ TEST(KnownAnswers, CatenaryAndPendulumHaveTheirLimits) {
   EXPECT_NEAR(pendulum_period(1), 1 + std::pow(M_PI / 180, 2) / 16, 1e-9);
 }
 
+TEST(KnownAnswers, ACapstanHoldsEulersRatioWhereItsStrapIsLight) {
+  EXPECT_NEAR(capstan_limit(0.3, 1, 1e-9) / std::exp(0.3 * M_PI), 1, 1e-8);
+  EXPECT_NEAR(capstan_limit(0, 0.7, 0.2), 0.7, 1e-12);
+  const ValidationCase of = validation_cases({"capstan"}).front();
+  for (const ValidationProblem& problem : of.problems) {
+    const double limit =
+        capstan_limit(problem.given.at("friction"), problem.given.at("light"), problem.given.at("radius"));
+    EXPECT_NEAR(problem.answers.front().x, problem.given.at("heavy") / limit, 1e-9) << problem.name;
+  }
+}
+
 std::vector<std::string> all_case_names() {
   std::vector<std::string> names;
   for (const ValidationCase& one : validation_cases()) names.push_back(one.name);
