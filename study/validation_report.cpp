@@ -96,6 +96,59 @@ ResultTable factors_table(const ValidationStudy& study, const ValidationCase& of
   return table;
 }
 
+/// Every known answer on a curve, with its problem.
+template <class Use>
+void for_answers_on(const ValidationCase& of, const ValidationCurve& curve, Use use) {
+  for (const ValidationProblem& problem : of.problems) {
+    for (const KnownAnswer& answer : problem.answers) {
+      if (answer.curve == curve.name) use(problem, answer);
+    }
+  }
+}
+
+/// What theory says between the first and the last answer of a curve.
+html::ChartSeries theory_series(const ValidationCase& of, const ValidationCurve& curve) {
+  html::ChartSeries theory{"theory", {}};
+  theory.markers = false;
+  theory.style = 0;
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for_answers_on(of, curve, [&](const ValidationProblem&, const KnownAnswer& answer) {
+    low = std::min(low, answer.x);
+    high = std::max(high, answer.x);
+    theory.points.push_back({answer.x, answer.value, fmt::format("known: {}", figure(answer.value)), {}, {}});
+  });
+  std::ranges::stable_sort(theory.points, {}, &html::ChartPoint::x);
+  const KnownCurve known = known_curve(of.name, curve.name);
+  if (known.value == nullptr || !known.continuous || !(high > low)) return theory;
+  theory.points.clear();
+  constexpr int parts = 80;
+  for (int k = 0; k <= parts; ++k) {
+    const double x = low + (high - low) * k / parts;
+    theory.points.push_back({x, known.value(x), fmt::format("{}: {}", figure(x), figure(known.value(x))), {}, {}});
+  }
+  return theory;
+}
+
+/// What the runs of a factor found, as points without a line.
+html::ChartSeries found_series(const ValidationStudy& study, const ValidationCase& of, const ValidationCurve& curve,
+                               const std::string& factor) {
+  html::ChartSeries found{factor == scene_factor ? "drape" : "drape by default", {}};
+  found.style = 3;
+  found.other = factor != scene_factor;
+  for_answers_on(of, curve, [&](const ValidationProblem& problem, const KnownAnswer& answer) {
+    const ValidationRun* run = study.run(of.name, problem.name, factor);
+    const std::optional<double> value = run == nullptr ? std::nullopt : run->value(answer.name);
+    if (!value) return;
+    if (!found.points.empty()) found.points.push_back({answer.x, not_known, {}, {}, {}});
+    found.points.push_back({answer.x,
+                            *value,
+                            fmt::format("{}: {}, known {}", problem.name, figure(*value), figure(answer.value)),
+                            run->what.command(),
+                            {}});
+  });
+  return found;
+}
+
 /// Theory as a line, drape's answers as points.
 NamedChart master_curve(const ValidationStudy& study, const ValidationCase& of, const ValidationCurve& curve) {
   html::Chart chart{of.title + ": " + curve.title + ". Theory is a line, drape's runs are points.",
@@ -103,59 +156,11 @@ NamedChart master_curve(const ValidationStudy& study, const ValidationCase& of, 
                     curve.title,
                     html::Scale::linear,
                     html::Scale::linear,
-                    {},
+                    {theory_series(of, curve)},
                     {}};
-  html::ChartSeries theory{"theory", {}}, scene{"drape", {}}, otherwise{"drape by default", {}};
-  theory.markers = false;
-  theory.style = 0;
-  scene.style = otherwise.style = 3;
-  otherwise.other = true;
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const ValidationProblem& problem : of.problems) {
-    for (const KnownAnswer& answer : problem.answers) {
-      if (answer.curve != curve.name) continue;
-      low = std::min(low, answer.x);
-      high = std::max(high, answer.x);
-      const auto add = [&](html::ChartSeries& to, const ValidationRun* run) {
-        const std::optional<double> value = run == nullptr ? std::nullopt : run->value(answer.name);
-        if (!value) return;
-        to.points.push_back({answer.x,
-                             *value,
-                             fmt::format("{}: {}, known {}", problem.name, figure(*value), figure(answer.value)),
-                             run->what.command(),
-                             {}});
-      };
-      add(scene, study.run(of.name, problem.name));
-      add(otherwise, study.run(of.name, problem.name, default_factor));
-    }
-  }
-  const KnownCurve known = known_curve(of.name, curve.name);
-  if (known.value != nullptr && known.continuous && high > low) {
-    constexpr int parts = 80;
-    for (int k = 0; k <= parts; ++k) {
-      const double x = low + (high - low) * k / parts;
-      theory.points.push_back({x, known.value(x), fmt::format("{}: {}", figure(x), figure(known.value(x))), {}, {}});
-    }
-  } else {
-    for (const ValidationProblem& problem : of.problems) {
-      for (const KnownAnswer& answer : problem.answers) {
-        if (answer.curve == curve.name) {
-          theory.points.push_back({answer.x, answer.value, fmt::format("known: {}", figure(answer.value)), {}, {}});
-        }
-      }
-    }
-    std::ranges::stable_sort(theory.points, {}, &html::ChartPoint::x);
-  }
-  // Lines join what theory says; runs are points of their own.
-  chart.series = {std::move(theory)};
-  for (html::ChartSeries* series : {&otherwise, &scene}) {
-    html::ChartSeries apart = *series;
-    apart.points.clear();
-    for (const html::ChartPoint& point : series->points) {
-      if (!apart.points.empty()) apart.points.push_back({point.x, not_known, {}, {}, {}});
-      apart.points.push_back(point);
-    }
-    if (!apart.points.empty()) chart.series.push_back(std::move(apart));
+  for (const char* factor : {default_factor, scene_factor}) {
+    html::ChartSeries found = found_series(study, of, curve, factor);
+    if (!found.points.empty()) chart.series.push_back(std::move(found));
   }
   return {fmt::format("{}-{}", of.name, curve.name), std::move(chart)};
 }
@@ -324,8 +329,9 @@ StudyReport validation_report(const ValidationStudy& study) {
     report.findings.push_back(finding_of(study, one));
   }
   std::ranges::stable_sort(report.findings, {}, [](const StudyFinding& f) { return f.tone == html::Tone::good; });
-  report.headline = met == measured ? fmt::format("All {} cases with known answers are met", measured)
-                                    : fmt::format("{} of {} cases with known answers are met", met, measured);
+  report.headline = met < measured  ? fmt::format("{} of {} cases with known answers are met", met, measured)
+                    : measured == 1 ? "The case with known answers is met"
+                                    : fmt::format("All {} cases with known answers are met", measured);
   report.answer = StudySection{"Summary", {}, {summary_table(study)}, {summary_chart(study)}, {}};
   for (const ValidationCase& one : study.cases) {
     if (verdict_of(study, one, scene_factor).answers > 0) report.sections.push_back(section_of(study, one));
