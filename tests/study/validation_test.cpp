@@ -73,8 +73,9 @@ TEST(Validation, HasFewerThan400RunsAndDefaultsWithoutAKeyAboutHow) {
     const SimulationSettings settings = run.what.load().simulation;
     EXPECT_EQ(settings.step, SimulationSettings{}.step) << run.name;
     EXPECT_FALSE(settings.accuracy) << run.name;
-    EXPECT_EQ(settings.integrator.method, otherwise.method) << run.name;
+    EXPECT_EQ(settings.integrator.scheme, otherwise.scheme) << run.name;
     EXPECT_FALSE(settings.integrator.tolerance || settings.integrator.stop) << run.name;
+    EXPECT_FALSE(settings.integrator.max_iterations) << run.name;
   }
 }
 
