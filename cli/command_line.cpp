@@ -196,6 +196,7 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   add_accept_command(app, common, command);
   add_bless_command(app, common, command);
   add_study_command(app, common, command);
+  add_validate_command(app, common, command);
   add_schema_command(app, command);
   add_doctor_command(app, command);
   add_help_command(app, common, command);

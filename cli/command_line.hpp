@@ -50,6 +50,9 @@ void add_merge_command(CLI::App& app, const CommonOptions& common, Command& comm
 /// Adds study, whose subcommands are the studies.
 void add_study_command(CLI::App& app, const CommonOptions& common, Command& command);
 
+/// Adds validate, which judges answers to problems whose answers are known.
+void add_validate_command(CLI::App& app, const CommonOptions& common, Command& command);
+
 /// Adds schema, which prints a JSON schema of scenes.
 void add_schema_command(CLI::App& app, Command& command);
 

@@ -77,6 +77,12 @@ constexpr std::array<Examples, 22> all_examples{{
     {"study homework", "study homework --runs 3 -o out/homework\n"},
     {"study scaling", "study scaling --largest 40\n"},
     {"study stability", "study stability --per-decade 2 -o out/maps\n"},
+    {"study validation",
+     "study validation\n"
+     "study validation pendulum catenary --methods implicit-sdirk2 -o out/two\n"},
+    {"validate",
+     "validate heavy-cantilever answers.csv\n"
+     "validate catenary motion.npz --problem span-1.2\n"},
     {"schema",
      "schema\n"
      "schema -o scene.schema.json\n"},

@@ -42,5 +42,6 @@ std::optional<StudyReport> report_of(const std::optional<Study>& study, StudyRep
 void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& command);
 void add_scaling_study(CLI::App& study, const CommonOptions& common, Command& command);
 void add_stability_study(CLI::App& study, const CommonOptions& common, Command& command);
+void add_validation_study(CLI::App& study, const CommonOptions& common, Command& command);
 
 }  // namespace drape

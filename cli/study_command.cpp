@@ -71,6 +71,7 @@ void add_study_command(CLI::App& app, const CommonOptions& common, Command& comm
   add_accuracy_study(*study, common, command);
   add_scaling_study(*study, common, command);
   add_stability_study(*study, common, command);
+  add_validation_study(*study, common, command);
 }
 
 }  // namespace drape

@@ -39,7 +39,7 @@ def copy_with_links(page, folder, done):
         if (ROOT / found).is_dir():
             # Scenes are in the gallery; other folders are of the sources, which the site has not.
             gallery = os.path.relpath("gallery.md", page.parent)
-            if found.parts[:1] == ("scenes",) and found.name != "hard":
+            if found.parts[:1] == ("scenes",) and not {"hard", "validation"} & set(found.parts):
                 text = text.replace(f"]({target})", f"]({gallery})")
             else:
                 text = re.sub(r"\[([^\]]*)\]\(" + re.escape(target) + r"\)", r"\1", text)

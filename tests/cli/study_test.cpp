@@ -227,6 +227,51 @@ TEST(Study, OfStabilityWritesEverything) {
                  {"semi-implicit-springs", "liu13-springs", "implicit-explicit-push", "quasi-newton-implicit-push"});
 }
 
+TEST(Study, OfValidationWritesEverythingAndGoesOn) {
+  const SceneFolder folder;
+  const Finished finished = drape(folder, "study validation rolled-sheet pattern-stiffness -o results");
+  EXPECT_NE(finished.text.find("All 2 cases with known answers are met"), std::string::npos) << finished.text;
+  expect_results(folder, finished,
+                 {"runs.csv", "validation.csv", "rolled-sheet-answers.tex", "pattern-stiffness-answers.csv"},
+                 {"validation-summary", "rolled-sheet-energy", "rolled-sheet-cost", "pattern-stiffness-diagonal"});
+  const std::string table = test::content(folder.path() / "results/validation.csv");
+  const Finished again = drape(folder, "study validation --report-only -o results");
+  EXPECT_EQ(again.code, 0) << again.text;
+  EXPECT_EQ(test::content(folder.path() / "results/validation.csv"), table);
+  const Finished resumed = drape(folder, "study validation rolled-sheet pattern-stiffness --resume -o results");
+  EXPECT_EQ(resumed.code, 0) << resumed.text;
+  EXPECT_EQ(test::content(folder.path() / "results/validation.csv"), table);  // the times too: nothing was measured
+  const Finished other = drape(folder, "study validation rolled-sheet --resume -o results");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.text.find("is of another command: drape study validation rolled-sheet pattern-stiffness"),
+            std::string::npos)
+      << other.text;
+}
+
+TEST(Study, OfValidationNamesWhatIsNotMet) {
+  const SceneFolder folder;
+  const Finished finished = drape(folder, "study validation lateral-buckling --patience 0.001 -o results");
+  EXPECT_EQ(finished.code, 1) << finished.text;
+  EXPECT_NE(finished.text.find("not met: Lateral buckling."), std::string::npos) << finished.text;
+  EXPECT_NE(test::content(folder.path() / "results/report.md").find("given up after 0.001 s"), std::string::npos);
+  EXPECT_EQ(drape(folder, "study validation catenery").code, 2);
+  EXPECT_EQ(drape(folder, "study validation catenary --report-only").code, 2);
+}
+
+TEST(Study, AnAnswerIsJudgedByItsCase) {
+  const SceneFolder folder;
+  folder.write("answers.csv", "problem,quantity,value\nspan-1.2,sag,0.7256\n");
+  EXPECT_EQ(drape(folder, "validate catenary answers.csv").code, 0);
+  folder.write("wrong.csv", "problem,quantity,value\nspan-1.2,sag,0.8\n");
+  EXPECT_EQ(drape(folder, "validate catenary wrong.csv").code, 1);
+  EXPECT_EQ(drape(folder, "validate catenary none.csv").code, 2);
+  const std::string source = std::string(DRAPE_SOURCE_DIR) + "/scenes/validation/terminal-velocity/";
+  ASSERT_EQ(drape(folder, "simulate " + source + "terminal-velocity.toml --every 1 -o motion.npz").code, 0);
+  const Finished finished = drape(folder, "validate terminal-velocity motion.npz");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+  EXPECT_NE(finished.text.find("4 of 4 answers are met"), std::string::npos) << finished.text;
+}
+
 // These studies would take hours: whether the results can be written is found out before.
 TEST(Study, LooksForItsFolderFirst) {
   const SceneFolder folder;

@@ -1,0 +1,96 @@
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "cli/line_option.hpp"
+#include "cli/number_option.hpp"
+#include "cli/studies.hpp"
+#include "core/atomic_file.hpp"
+#include "core/processors.hpp"
+#include "core/shell.hpp"
+#include "study/validation_report.hpp"
+#include "study/validation_runs.hpp"
+
+namespace drape {
+namespace {
+
+struct ValidationArguments {
+  ValidationOptions options;
+  int jobs = 0;
+  std::string folder = "out/validation";
+  bool report_only = false, resume = false;
+};
+
+/// The command line again, but for what does not change the result.
+std::string command_line(const ValidationArguments& arguments) {
+  std::string text = "drape study validation";
+  for (const std::string& name : arguments.options.cases) text += " " + shell_word(name);
+  std::string methods;
+  for (const std::string& name : arguments.options.methods) methods.append(methods.empty() ? "" : ",").append(name);
+  if (!methods.empty()) text += " --methods " + methods;
+  return text + (arguments.options.quick ? " --quick" : "");
+}
+
+ExitCode unless_missed(ExitCode code, bool met) { return code == ExitCode::ok && !met ? ExitCode::differs : code; }
+
+/// The report of what a folder holds.
+ExitCode validation_again(const ValidationArguments& arguments, const CommonOptions& common) {
+  if (!arguments.options.cases.empty())
+    throw UsageError("--report-only measures nothing: it takes no case, but -o with the folder");
+  const ValidationStudy study = validation_study(std::filesystem::path(arguments.folder) / validation_runs_name);
+  return unless_missed(conclude_study(validation_report(study), arguments.folder, common), all_met(study));
+}
+
+ExitCode run_validation(const ValidationArguments& arguments, const CommonOptions& common) {
+  if (arguments.report_only) return validation_again(arguments, common);
+  const auto begin = std::chrono::steady_clock::now();
+  const std::filesystem::path file = std::filesystem::path(arguments.folder) / validation_runs_name;
+  ValidationOptions options = arguments.options;
+  options.jobs = arguments.jobs > 0 ? arguments.jobs : processors_left();
+  ValidationStudy study = plan_validation(options);
+  study.command = command_line(arguments);
+  study.provenance = study_provenance();
+  if (arguments.resume && std::filesystem::exists(file)) read_validation_runs(file, study);
+  const double before = study.seconds;
+  const auto save = [&] {
+    study.seconds = before + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    write_file_atomically(file, validation_runs(study));
+  };
+  const ExitCode code = run_study(arguments.folder, common,
+                                  [&](const std::stop_token& stop, Progress& progress) -> std::optional<StudyReport> {
+                                    if (!measure_validation(study, options, stop, progress, save)) return std::nullopt;
+                                    save();
+                                    return validation_report(study);
+                                  });
+  return unless_missed(code, all_met(study));
+}
+
+}  // namespace
+
+void add_validation_study(CLI::App& study, const CommonOptions& common, Command& command) {
+  auto arguments = std::make_shared<ValidationArguments>();
+  ValidationOptions& options = arguments->options;
+  CLI::App* sub = study.add_subcommand("validation", "Compare with problems whose answers are known");
+  sub->add_option("CASE", options.cases, "Cases of scenes/validation; default all");
+  sub->add_option("--methods", options.methods, "Methods of the runs that vary the method: M1,M2; default all")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  sub->add_flag("--quick", options.quick, "Run a few problems as their scenes are, without defaults and variants");
+  sub->add_option("--jobs", arguments->jobs, "Runs at once; default one for each free processor")
+      ->check(whole_number_in({1, 1000}));
+  sub->add_option("--patience", options.patience, "Computing time in s after which a run is given up; default 30")
+      ->check(number_in({.minimum = 0, .minimum_excluded = true}));
+  sub->add_option("-o,--output", arguments->folder, "Folder for the results; default out/validation")
+      ->check(on_one_line());
+  sub->add_flag("--resume", arguments->resume,
+                "Keep the runs that an interrupted run of the same command has finished in the folder");
+  sub->add_flag("--report-only", arguments->report_only,
+                "Measure nothing: recreate the report from the folder's runs.csv");
+  sub->callback([arguments, &common, &command] {
+    command = [arguments, &common] { return run_validation(*arguments, common); };
+  });
+}
+
+}  // namespace drape

@@ -1,0 +1,325 @@
+#include "study/validation_measures.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/nearest.hpp"
+#include "study/known_answers.hpp"
+
+namespace drape {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using std::numbers::pi;
+using Quantities = std::map<std::string, double>;
+
+/// A motion with the numbers that its problem gives.
+struct MotionOfCase {
+  const ObservedMotion& motion;
+  const std::map<std::string, double>& given;
+
+  [[nodiscard]] double number(const std::string& name) const {
+    const auto found = given.find(name);
+    if (found == given.end()) throw UsageError(fmt::format("the case gives no number '{}'", name));
+    return found->second;
+  }
+  [[nodiscard]] const Vertices& last() const { return motion.positions.back(); }
+  [[nodiscard]] const Vertices& rest() const { return motion.cloth.rest; }
+
+  /// The mean place in `x` of the vertices that are as far along an axis of the rest shape as the furthest.
+  [[nodiscard]] Vector3d side(const Vertices& x, int axis, double sign) const {
+    const VectorXd along = sign * rest().col(axis);
+    const double end = along.maxCoeff();
+    Vector3d sum = Vector3d::Zero();
+    int count = 0;
+    for (Eigen::Index i = 0; i < x.rows(); ++i) {
+      if (along[i] < end - 1e-9) continue;
+      sum += x.row(i).transpose();
+      ++count;
+    }
+    return sum / count;
+  }
+  [[nodiscard]] Vector3d mean_of_pins(const Vertices& x) const {
+    if (motion.cloth.pins.empty()) throw UsageError("the case's scene has no pins");
+    Vector3d sum = Vector3d::Zero();
+    for (const int pin : motion.cloth.pins) sum += x.row(pin).transpose();
+    return sum / static_cast<double>(motion.cloth.pins.size());
+  }
+  [[nodiscard]] Vector3d mass_centre(const Vertices& x) const {
+    return (motion.cloth.masses.transpose() * x).transpose() / motion.cloth.masses.sum();
+  }
+};
+
+/// Moments at which a quantity changes its sign, by straight lines between its values.
+std::vector<double> sign_changes(const std::vector<double>& times, const std::vector<double>& values) {
+  std::vector<double> moments;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double before = values[i - 1], after = values[i];
+    if (before == 0 || (before < 0) == (after < 0)) continue;
+    moments.push_back(times[i - 1] + (times[i] - times[i - 1]) * before / (before - after));
+  }
+  return moments;
+}
+
+/// The angular frequency of an oscillation about zero, from its first to its last change of sign [1/s].
+double angular_frequency(const std::vector<double>& times, const std::vector<double>& values) {
+  const std::vector<double> moments = sign_changes(times, values);
+  if (moments.size() < 3) throw UsageError("the motion is too short: expected a whole oscillation");
+  return pi * static_cast<double>(moments.size() - 1) / (moments.back() - moments.front());
+}
+
+/// The part of a shape in every state: Σ m φ u, u the displacement along an axis.
+std::vector<double> part_of_shape(const MotionOfCase& m, int axis, const VectorXd& shape) {
+  const VectorXd weights = m.motion.cloth.masses.cwiseProduct(shape);
+  std::vector<double> parts;
+  const VectorXd start = m.motion.positions.front().col(axis);
+  for (const Vertices& x : m.motion.positions) parts.push_back(weights.dot(x.col(axis) - start));
+  return parts;
+}
+
+Quantities measure_sag(const MotionOfCase& m) {
+  return {{"sag", m.mean_of_pins(m.last()).z() - m.last().col(2).minCoeff()}};
+}
+
+/// A strip that is clamped at the lower end of its rest shape's x: where its tip is, in its free lengths.
+Quantities measure_clamped_strip(const MotionOfCase& m) {
+  double clamp = -HUGE_VAL;
+  for (const int pin : m.motion.cloth.pins) clamp = std::max(clamp, m.rest()(pin, 0));
+  const double length = m.rest().col(0).maxCoeff() - clamp;
+  const Vector3d tip = m.side(m.last(), 0, 1), held = m.mean_of_pins(m.last());
+  const double drop = (held.z() - tip.z()) / length, reach = (tip.x() - clamp) / length;
+  const double sideways = std::abs(tip.y() - held.y()) / length;
+  return {{"drop", drop},
+          {"reach", reach},
+          {"angle", std::atan2(drop, reach) * 180 / pi},
+          {"sideways", sideways},
+          {"buckled", sideways > 0.02 ? 1.0 : 0.0}};
+}
+
+/// Twice the time between the first two passages through the lowest point, over 2π √(L/g).
+Quantities measure_pendulum(const MotionOfCase& m) {
+  const Vector3d pivot = m.mean_of_pins(m.motion.positions.front());
+  std::vector<double> sideways;
+  for (const Vertices& x : m.motion.positions) sideways.push_back(m.side(x, 1, -1).y() - pivot.y());
+  const std::vector<double> moments = sign_changes(m.motion.times, sideways);
+  if (moments.size() < 2) throw UsageError("the motion is too short: expected two passages through the lowest point");
+  const double length = m.rest().col(1).maxCoeff() - m.rest().col(1).minCoeff();
+  return {{"period", 2 * (moments[1] - moments[0]) / (2 * pi * std::sqrt(length / m.number("g")))}};
+}
+
+/// Frequencies of a hanging chain over √(g/L): mode n's part is that of J0(j √(z/L)), z the height above the free end.
+Quantities measure_hanging_chain(const MotionOfCase& m) {
+  const VectorXd along = m.rest().col(0);
+  const double length = along.maxCoeff() - along.minCoeff();
+  const VectorXd height = (along.maxCoeff() - along.array()) / length;
+  Quantities found;
+  for (int mode = 1; mode <= 4; ++mode) {
+    VectorXd shape(height.size());
+    for (Eigen::Index i = 0; i < shape.size(); ++i) {
+      shape[i] = std::cyl_bessel_j(0, bessel_zero(mode) * std::sqrt(std::max(0.0, height[i])));
+    }
+    const double omega = angular_frequency(m.motion.times, part_of_shape(m, 0, shape));
+    found[fmt::format("mode-{}", mode)] = omega / std::sqrt(m.number("g") / length);
+  }
+  return found;
+}
+
+/// Frequencies of a stretched square over π c/a, c² its tension over its mass per area; m and n half waves.
+Quantities measure_membrane(const MotionOfCase& m) {
+  const double width = m.motion.positions.front().col(0).maxCoeff() - m.motion.positions.front().col(0).minCoeff();
+  const double rest_width = m.rest().col(0).maxCoeff() - m.rest().col(0).minCoeff();
+  const double stretch = width / rest_width;
+  // Springs of equal stiffness in all directions hold 3/2 E e² for each area of the rest shape.
+  const double tension = 1.5 * m.number("E") * (stretch - 1) / stretch;
+  const double speed = std::sqrt(tension / (m.number("density") / (stretch * stretch)));
+  Quantities found;
+  for (const auto& [rows, columns] : {std::array{1, 1}, std::array{3, 1}, std::array{3, 3}}) {
+    const Vertices& r = m.rest();
+    const VectorXd shape =
+        (rows * pi / rest_width * r.col(0).array()).cos() * (columns * pi / rest_width * r.col(1).array()).cos();
+    const double omega = angular_frequency(m.motion.times, part_of_shape(m, 2, shape));
+    found[fmt::format("mode-{}-{}", rows, columns)] = omega * width / (pi * speed);
+  }
+  return found;
+}
+
+/// The first frequency of a clamped unit square over √(D/ρ), its shape taken as cos² πx cos² πy.
+Quantities measure_plate(const MotionOfCase& m) {
+  const Vertices& r = m.rest();
+  VectorXd shape(r.rows());
+  for (Eigen::Index i = 0; i < r.rows(); ++i) {
+    const bool inside = std::max(std::abs(r(i, 0)), std::abs(r(i, 1))) < 0.5;
+    shape[i] = inside ? std::pow(std::cos(pi * r(i, 0)) * std::cos(pi * r(i, 1)), 2) : 0;
+  }
+  const double omega = angular_frequency(m.motion.times, part_of_shape(m, 2, shape));
+  return {{"frequency", omega / std::sqrt(m.number("D") / m.number("density"))}};
+}
+
+/// The fall of the centre of mass over v²/g after given times, v the terminal velocity.
+Quantities measure_fall(const MotionOfCase& m) {
+  const double g = m.number("g");
+  const double square = 2 * m.number("density") * g / (m.number("air density") * m.number("drag"));
+  const double unit = std::sqrt(square) / g;
+  const double start = m.mass_centre(m.motion.positions.front()).z();
+  Quantities found;
+  for (const double time : {0.5, 1.0, 2.0, 4.0}) {
+    const auto& times = m.motion.times;
+    const auto after = std::ranges::lower_bound(times, time * unit - 1e-12);
+    if (after == times.end()) throw UsageError(fmt::format("the motion is too short: expected {:.3g} s", time * unit));
+    const auto place = static_cast<std::size_t>(after - times.begin());
+    const auto height = [&](std::size_t at) { return m.mass_centre(m.motion.positions[at]).z(); };
+    double fallen = start - height(place);
+    if (place > 0) {
+      const double part = (times[place] - time * unit) / (times[place] - times[place - 1]);
+      fallen += part * (height(place) - height(place - 1));
+    }
+    found[fmt::format("fallen-{:g}", time)] = fallen * g / square;
+  }
+  return found;
+}
+
+/// The acceleration along x from the way in the first and in the second half of the motion, over g.
+Quantities measure_sliding(const MotionOfCase& m) {
+  const std::size_t last = m.motion.times.size() - 1, middle = last / 2;
+  if (middle == 0) throw UsageError("the motion is too short: expected three states");
+  const auto place = [&](std::size_t at) { return m.mass_centre(m.motion.positions[at]).x(); };
+  const double half = m.motion.times[middle] - m.motion.times.front();
+  const double way = place(2 * middle) - 2 * place(middle) + place(0);
+  return {{"acceleration", way / (half * half) / m.number("g")}};
+}
+
+/// 1 if the centre of mass ends more than 2 % further from the z axis than it began, otherwise 0.
+Quantities measure_turntable(const MotionOfCase& m) {
+  const auto distance = [&](const Vertices& x) { return m.mass_centre(x).head<2>().norm(); };
+  const double share = distance(m.last()) / distance(m.motion.positions.front());
+  return {{"slipped", share > 1.02 ? 1.0 : 0.0}};
+}
+
+/// 1 if the end that hangs lowest at first has fallen by more than 5 cm, otherwise 0.
+Quantities measure_capstan(const MotionOfCase& m) {
+  Eigen::Index lowest = 0;
+  const double start = m.motion.positions.front().col(2).minCoeff(&lowest);
+  return {{"slipped", start - m.last()(lowest, 2) > 0.05 ? 1.0 : 0.0}};
+}
+
+/// The height of the first rebound over the fall, above what the cloth rests on.
+Quantities measure_rebound(const MotionOfCase& m) {
+  const double floor = m.number("floor");
+  std::vector<double> heights;
+  for (const Vertices& x : m.motion.positions) heights.push_back(m.mass_centre(x).z() - floor);
+  std::size_t low = 1;
+  while (low + 1 < heights.size() && heights[low + 1] < heights[low]) ++low;
+  double top = heights[low];
+  for (std::size_t i = low; i + 1 < heights.size() && heights[i + 1] >= heights[i]; ++i) top = heights[i + 1];
+  return {{"rebound", top / heights.front()}};
+}
+
+/// ½ Σ m v² and the springs' energy, from positions and velocities alone.
+double energy_of(const Cloth& cloth, const Vertices& x, const Vertices& v) {
+  double energy = 0.5 * cloth.masses.dot(v.rowwise().squaredNorm());
+  for (const Spring& spring : cloth.springs) {
+    const double longer = (x.row(spring.i) - x.row(spring.j)).norm() - spring.rest_length;
+    energy += spring.stiffness / 2 * longer * longer;
+  }
+  return energy;
+}
+
+/// Without forces: the way of the centre of mass over velocity times duration; the energy at the end over that at the
+/// start; 1 plus the change of the angular momentum over what it would be if all of the mass turned at the given speed.
+Quantities measure_free_flight(const MotionOfCase& m) {
+  if (m.motion.velocities.empty()) throw UsageError("expected velocities beside the positions");
+  const Cloth& cloth = m.motion.cloth;
+  const double seconds = m.motion.times.back() - m.motion.times.front();
+  const Vector3d way = m.mass_centre(m.last()) - m.mass_centre(m.motion.positions.front());
+  const Vector3d velocity = m.mass_centre(m.motion.velocities.front());
+  const auto turning = [&](const Vertices& x, const Vertices& v) {
+    Vector3d sum = Vector3d::Zero();
+    for (Eigen::Index i = 0; i < x.rows(); ++i) {
+      const Vector3d arm = x.row(i).transpose() - m.mass_centre(x);
+      sum += cloth.masses[i] * arm.cross(Vector3d(v.row(i).transpose()));
+    }
+    return sum;
+  };
+  const Vector3d turned =
+      turning(m.last(), m.motion.velocities.back()) - turning(m.motion.positions.front(), m.motion.velocities.front());
+  const double before = energy_of(cloth, m.motion.positions.front(), m.motion.velocities.front());
+  return {{"way", way.norm() / (velocity.norm() * seconds)},
+          {"angular-momentum", 1 + turned.norm() / (cloth.masses.sum() * velocity.norm())},
+          {"energy", energy_of(cloth, m.last(), m.motion.velocities.back()) / before}};
+}
+
+/// Twice the springs' energy for each area of the rest shape over E e².
+Quantities measure_strain_energy(const MotionOfCase& m) {
+  const Cloth& cloth = m.motion.cloth;
+  const double energy = energy_of(cloth, m.last(), Vertices::Zero(m.last().rows(), 3));
+  double area = 0;
+  for (const auto& [a, b, c] : cloth.triangles) {
+    const Vector3d p = (m.rest().row(b) - m.rest().row(a)).transpose(),
+                   q = (m.rest().row(c) - m.rest().row(a)).transpose();
+    area += p.cross(q).norm() / 2;
+  }
+  return {{"modulus", 2 * energy / (area * m.number("E") * std::pow(m.number("strain"), 2))}};
+}
+
+/// The energy of the first state over ½ D A/R².
+Quantities measure_rolled_sheet(const MotionOfCase& m) {
+  if (m.motion.elastic.empty()) throw UsageError("expected the elastic energy of every state: give the answer as CSV");
+  return {{"energy",
+           m.motion.elastic.front() / (0.5 * m.number("D") * m.number("area") / std::pow(m.number("radius"), 2))}};
+}
+
+struct MeasureType {
+  std::string name;
+  std::function<Quantities(const MotionOfCase&)> measure;
+};
+
+const std::vector<MeasureType>& all_measures() {
+  static const std::vector<MeasureType> measures{
+      {"sag", measure_sag},
+      {"clamped-strip", measure_clamped_strip},
+      {"pendulum", measure_pendulum},
+      {"hanging-chain", measure_hanging_chain},
+      {"membrane", measure_membrane},
+      {"plate", measure_plate},
+      {"fall", measure_fall},
+      {"sliding", measure_sliding},
+      {"rebound", measure_rebound},
+      {"capstan", measure_capstan},
+      {"turntable", measure_turntable},
+      {"free-flight", measure_free_flight},
+      {"strain-energy", measure_strain_energy},
+      {"rolled-sheet", measure_rolled_sheet},
+  };
+  return measures;
+}
+
+}  // namespace
+
+std::vector<std::string> measure_names() {
+  std::vector<std::string> names;
+  for (const MeasureType& one : all_measures()) names.push_back(one.name);
+  return names;
+}
+
+std::map<std::string, double> measure_motion(const std::string& measure, const ObservedMotion& motion,
+                                             const std::map<std::string, double>& given) {
+  const auto found = std::ranges::find(all_measures(), measure, &MeasureType::name);
+  if (found == all_measures().end()) {
+    throw UsageError(
+        fmt::format("unknown measure '{}'{}", measure, did_you_mean(measure, measure_names(), "the measures are")));
+  }
+  if (motion.positions.empty() || motion.times.size() != motion.positions.size()) {
+    throw UsageError("expected a time for every state of the motion");
+  }
+  return found->measure({motion, given});
+}
+
+}  // namespace drape

@@ -1,0 +1,134 @@
+// drape's references in time against an integrator that shares nothing with them: CVODE of SUNDIALS (Hindmarsh et al.
+// 2005), Adams' formulas of variable order, to 1e-12.
+
+#include <gtest/gtest.h>
+
+#include "scene/scene.hpp"
+#include "sim/effects/gravity.hpp"
+#include "study/reference.hpp"
+#include "study/step_reference.hpp"
+
+#ifdef DRAPE_HAS_CVODE
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+#endif
+
+namespace drape {
+namespace {
+
+constexpr double gravity = 9.8;     // [m/s²]
+constexpr double agreement = 1e-8;  // [m]
+
+#ifdef DRAPE_HAS_CVODE
+
+/// Springs and gravity, written down once more.
+void accelerate(const Cloth& cloth, const double* x, double* a) {
+  const auto n = cloth.positions.rows();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    a[3 * i] = a[3 * i + 1] = 0;
+    a[3 * i + 2] = -gravity * cloth.masses[i];
+  }
+  for (const Spring& spring : cloth.springs) {
+    const Eigen::Map<const Eigen::Vector3d> from(x + 3 * spring.i), to(x + 3 * spring.j);
+    const Eigen::Vector3d way = to - from;
+    const Eigen::Vector3d pull = spring.stiffness * (1 - spring.rest_length / way.norm()) * way;
+    for (int k = 0; k < 3; ++k) {
+      a[3 * spring.i + k] += pull[k];
+      a[3 * spring.j + k] -= pull[k];
+    }
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (int k = 0; k < 3; ++k) a[3 * i + k] /= cloth.masses[i];
+  }
+  for (const int pin : cloth.pins) a[3 * pin] = a[3 * pin + 1] = a[3 * pin + 2] = 0;
+}
+
+int derivative(realtype, N_Vector y, N_Vector slope, void* data) {
+  const Cloth& cloth = *static_cast<const Cloth*>(data);
+  const auto n = 3 * cloth.positions.rows();
+  const double* const from = N_VGetArrayPointer(y);
+  double* const to = N_VGetArrayPointer(slope);
+  std::copy(from + n, from + 2 * n, to);
+  accelerate(cloth, from, to + n);
+  return 0;
+}
+
+/// Where a cloth is after some seconds.
+Vertices integrate(Cloth cloth, double seconds) {
+  const auto n = cloth.positions.rows();
+  SUNContext context = nullptr;
+  SUNContext_Create(nullptr, &context);
+  N_Vector y = N_VNew_Serial(6 * n, context);
+  double* const values = N_VGetArrayPointer(y);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      values[3 * i + k] = cloth.positions(i, k);
+      values[3 * n + 3 * i + k] = cloth.velocities(i, k);
+    }
+  }
+  void* const solver = CVodeCreate(CV_ADAMS, context);
+  CVodeInit(solver, derivative, 0, y);
+  CVodeSStolerances(solver, 1e-12, 1e-13);
+  CVodeSetUserData(solver, &cloth);
+  CVodeSetMaxNumSteps(solver, 10'000'000);
+  SUNNonlinearSolver iteration = SUNNonlinSol_FixedPoint(y, 0, context);
+  CVodeSetNonlinearSolver(solver, iteration);
+  CVodeSetStopTime(solver, seconds);
+  double reached = 0;
+  EXPECT_GE(CVode(solver, seconds, y, &reached, CV_NORMAL), 0);
+  EXPECT_DOUBLE_EQ(reached, seconds);
+  Vertices x(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (int k = 0; k < 3; ++k) x(i, k) = values[3 * i + k];
+  }
+  SUNNonlinSolFree(iteration);
+  void* freed = solver;
+  CVodeFree(&freed);
+  N_VDestroy(y);
+  SUNContext_Free(&context);
+  return x;
+}
+
+/// How far drape's reference is from CVODE's after so many steps of the settings.
+double apart(const SimulationSettings& settings, std::int64_t steps) {
+  Progress progress;
+  const auto reference = extrapolate_steps(settings, {steps}, 64, 1e-9, {}, progress);
+  EXPECT_TRUE(reference);
+  const Vertices x = integrate(settings.cloth, static_cast<double>(steps) * settings.step);
+  EXPECT_GT((x - settings.cloth.positions).cwiseAbs().maxCoeff(), 0.1) << "nothing moved";
+  return distance(x, reference->x.front()).max;
+}
+
+TEST(Cvode, AgreesWithTheReferenceOfTheHomeworksCloth) {
+  const Scene scene = load_scene(data_folder() / "scenes/homework/3.toml");
+  EXPECT_LT(apart(scene.simulation, 21), agreement);  // 0.42 s
+}
+
+TEST(Cvode, AgreesWithTheReferenceOfAHangingChain) {
+  constexpr int links = 20;
+  SimulationSettings settings;
+  settings.step = 0.02;
+  settings.effects = {Gravity{}};
+  Cloth& chain = settings.cloth;
+  chain.positions = chain.velocities = chain.rest = Vertices::Zero(links + 1, 3);
+  chain.masses.setConstant(links + 1, 0.01);
+  for (int i = 0; i <= links; ++i) chain.rest.row(i) << 0.05 * i, 0, 0;
+  chain.positions = chain.rest;  // level: it swings down
+  for (int i = 0; i < links; ++i) {
+    chain.springs.push_back({.i = i, .j = i + 1, .rest_length = 0.05, .stiffness = 500});
+  }
+  chain.pins = {0};
+  EXPECT_LT(apart(settings, 21), agreement);
+}
+
+#else
+
+TEST(Cvode, AgreesWithDrapesReferences) {
+  GTEST_SKIP() << "built without SUNDIALS: libsundials-dev (" << gravity << ", " << agreement << ")";
+}
+
+#endif
+
+}  // namespace
+}  // namespace drape

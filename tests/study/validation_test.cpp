@@ -1,0 +1,215 @@
+#include "study/validation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "scene/scene.hpp"
+#include "study/validation_answers.hpp"
+#include "study/validation_measures.hpp"
+#include "study/validation_report.hpp"
+#include "study/validation_runs.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/usage_error.hpp"
+
+namespace drape {
+namespace {
+
+template <class Call>
+void expect_usage_error(Call&& call, const std::string& message) {
+  const std::string found = test::usage_error(std::forward<Call>(call));
+  EXPECT_NE(found.find(message), std::string::npos) << found;
+}
+
+std::vector<std::string> names_of_cases() {
+  std::vector<std::string> names;
+  for (const ValidationCase& one : validation_cases()) {
+    if (!one.quick.empty()) names.push_back(one.name);
+  }
+  return names;
+}
+
+ValidationStudy measured(const ValidationOptions& options) {
+  ValidationStudy study = plan_validation(options);
+  Progress progress;
+  EXPECT_TRUE(measure_validation(study, options, {}, progress, [] {}));
+  return study;
+}
+
+class QuickValidation : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(, QuickValidation, testing::ValuesIn(names_of_cases()), [](const auto& tested) {
+  std::string name = tested.param;
+  std::erase(name, '-');
+  return name;
+});
+
+TEST_P(QuickValidation, IsMet) {
+  const ValidationStudy study = measured({.cases = {GetParam()}, .quick = true, .patience = 1000});
+  const ValidationVerdict verdict = verdict_of(study, study.cases.front(), scene_factor);
+  EXPECT_TRUE(verdict.met) << verdict.worst_problem << " " << verdict.worst_answer << ": " << verdict.worst
+                           << " of what is allowed; " << study.runs.front().failure;
+  EXPECT_GT(verdict.answers, 0);
+}
+
+TEST(Validation, AWrongProblemIsNotMet) {
+  ValidationStudy study = plan_validation({.cases = {"catenary"}, .quick = true});
+  study.runs.front().what.overrides.emplace_back("cloth.mesh={grid=[8,1],pattern=\"alternating\",size=[2,0.05]}");
+  Progress progress;
+  ASSERT_TRUE(measure_validation(study, {}, {}, progress, [] {}));
+  EXPECT_FALSE(all_met(study));
+  EXPECT_NE(validation_report(study).headline.find("0 of 1"), std::string::npos);
+}
+
+TEST(Validation, HasFewerThan400RunsAndDefaultsWithoutAKeyAboutHow) {
+  const ValidationStudy study = plan_validation({});
+  EXPECT_LE(study.runs.size(), 400U);
+  EXPECT_GE(study.cases.size(), 12U);
+  const IntegratorSettings otherwise;
+  for (const ValidationRun& run : study.runs) {
+    if (run.factor != default_factor) continue;
+    const SimulationSettings settings = run.what.load().simulation;
+    EXPECT_EQ(settings.step, SimulationSettings{}.step) << run.name;
+    EXPECT_FALSE(settings.accuracy) << run.name;
+    EXPECT_EQ(settings.integrator.scheme, otherwise.scheme) << run.name;
+    EXPECT_FALSE(settings.integrator.tolerance || settings.integrator.stop) << run.name;
+    EXPECT_FALSE(settings.integrator.max_iterations) << run.name;
+  }
+}
+
+TEST(Validation, AMethodAloneIsVaried) {
+  const ValidationStudy study = plan_validation({.cases = {"pendulum"}, .methods = {"semi-implicit"}});
+  int varied = 0;
+  for (const ValidationRun& run : study.runs) {
+    if (run.factor != "method") continue;
+    EXPECT_EQ(run.setting, "semi-implicit");
+    ++varied;
+  }
+  EXPECT_EQ(varied, 1);
+  expect_usage_error([] { plan_validation({.methods = {"verlett"}}); }, "did you mean 'verlet'?");
+  expect_usage_error([] { plan_validation({.cases = {"catenery"}}); }, "did you mean 'catenary'?");
+}
+
+class ValidationRuns : public test::InScratchFolder {};
+
+TEST_F(ValidationRuns, GoOnWhereTheyEnded) {
+  const ValidationOptions options{.cases = {"pattern-stiffness"}, .quick = true};
+  ValidationStudy study = measured(options);
+  study.command = "drape study validation pattern-stiffness --quick";
+  study.runs.back().measured = false;
+  put(path("runs.csv"), validation_runs(study));
+  ValidationStudy again = plan_validation(options);
+  again.command = study.command;
+  read_validation_runs(path("runs.csv"), again);
+  EXPECT_FALSE(again.runs.back().measured);
+  again.runs.back().measured = study.runs.back().measured = true;
+  again.runs.back().seconds = study.runs.back().seconds;
+  again.runs.back().names = study.runs.back().names;
+  again.runs.back().values = study.runs.back().values;
+  again.runs.back().step = study.runs.back().step;
+  again.runs.back().cell = study.runs.back().cell;
+  again.runs.back().vertices = study.runs.back().vertices;
+  again.runs.back().rest_speed = study.runs.back().rest_speed;
+  EXPECT_EQ(validation_runs(again), validation_runs(study));
+  again.command = "drape study validation";
+  expect_usage_error([&] { read_validation_runs(path("runs.csv"), again); }, "is of another command");
+}
+
+TEST_F(ValidationRuns, OfCsvAnswersAreJudged) {
+  const ValidationCase of = validation_cases({"heavy-cantilever"}).front();
+  put(path("a.csv"), "problem,quantity,value\ngamma-10,drop,0.7012\ngamma-10,reach,0.66\r\n");
+  const std::vector<GivenAnswer> given = read_answers(of, path("a.csv"), "");
+  ASSERT_EQ(given.size(), 2U);
+  EXPECT_TRUE(given[0].met());
+  EXPECT_FALSE(given[1].met());
+  const auto expect_error = [&](const std::string& text, const std::string& message) {
+    put(path("b.csv"), text);
+    expect_usage_error([&] { read_answers(of, path("b.csv"), ""); }, message);
+  };
+  expect_error("", "there is no answer in it");
+  expect_error("gamma-10,drop,0.7\n", "b.csv:1: expected the line problem,quantity,value");
+  expect_error("problem,quantity,value\ngama-10,drop,0.7\n", "b.csv:2: heavy-cantilever has no problem 'gama-10'; did");
+  expect_error("problem,quantity,value\ngamma-10,drip,0.7\n",
+               "b.csv:2: problem 'gamma-10' has no quantity 'drip'; did");
+  expect_error("problem,quantity,value\ngamma-10,drop,0.7m\n", "b.csv:2: expected a number, found '0.7m'");
+  put(path("c.csv"), "problem,quantity,value\ngamma-10,drop,nan\n");
+  EXPECT_FALSE(read_answers(of, path("c.csv"), "").front().met());
+}
+
+/// Bytes of a little-endian number.
+std::string bytes_of(std::uint64_t number, int count) {
+  std::string bytes;
+  for (int k = 0; k < count; ++k) bytes += static_cast<char>(number >> (8 * k) & 0xFFU);
+  return bytes;
+}
+
+/// An NPZ file with one array as numpy.savez writes it, without checksums.
+std::string npz(const std::string& name, const std::string& header, const std::vector<double>& values) {
+  std::string array = "\x93NUMPY";
+  array += {1, 0};
+  array += bytes_of(header.size(), 2) + header;
+  for (const double value : values) array += bytes_of(std::bit_cast<std::uint64_t>(value), 8);
+  const std::string file = name + ".npy", size = bytes_of(array.size(), 4), length = bytes_of(file.size(), 2);
+  const std::string same =
+      bytes_of(20, 2) + bytes_of(0, 2) + bytes_of(0, 2) + bytes_of(0, 4) + bytes_of(0, 4) + size + size + length;
+  const std::string local = "PK\x03\x04" + same + bytes_of(0, 2) + file + array;
+  const std::string entry = "PK\x01\x02" + bytes_of(20, 2) + same + bytes_of(0, 2) + bytes_of(0, 2) + bytes_of(0, 2) +
+                            bytes_of(0, 2) + bytes_of(0, 4) + bytes_of(0, 4) + file;
+  return local + entry + "PK\x05\x06" + bytes_of(0, 4) + bytes_of(1, 2) + bytes_of(1, 2) + bytes_of(entry.size(), 4) +
+         bytes_of(local.size(), 4) + bytes_of(0, 2);
+}
+
+TEST_F(ValidationRuns, OfNpzMotionsAreMeasured) {
+  const ValidationCase of = validation_cases({"pattern-stiffness"}).front();
+  StudyCase what;
+  what.scene = of.scene;
+  const Vertices x = what.load().simulation.cloth.positions;
+  std::vector<double> values;
+  for (Eigen::Index i = 0; i < x.rows(); ++i) values.insert(values.end(), {x(i, 0), x(i, 1), x(i, 2)});
+  const std::string shape = "{'descr': '<f8', 'fortran_order': False, 'shape': (81, 3), }";
+  put(path("right.npz"), npz("positions", shape, values));
+  const std::vector<GivenAnswer> right = read_answers(of, path("right.npz"), "diagonal-0");
+  ASSERT_EQ(right.size(), 1U);
+  EXPECT_TRUE(right.front().met()) << right.front().value;
+  for (double& value : values) value *= 1.0001;
+  put(path("wrong.npz"), npz("positions", shape, values));
+  EXPECT_FALSE(read_answers(of, path("wrong.npz"), "diagonal-0").front().met());
+  const auto expect_error = [&](const std::string& bytes, const std::string& problem, const std::string& message) {
+    put(path("bad.npz"), bytes);
+    expect_usage_error([&] { read_answers(of, path("bad.npz"), problem); }, message);
+  };
+  const std::string good = npz("positions", shape, values);
+  expect_error(good, "", "expected --problem with the motion's problem");
+  expect_error(good.substr(0, good.size() / 2), "diagonal-0", "expected an NPZ file");
+  expect_error(npz("x", shape, values), "diagonal-0", "expected an array 'positions'");
+  expect_error(npz("positions", "{'descr': '<f8', 'fortran_order': False, 'shape': (243,), }", values), "diagonal-0",
+               "expected [times ×] 81 × 3 numbers");
+  expect_error(npz("positions", "{'descr': '<f8', 'fortran_order': False, 'shape': (810, 3), }", values), "diagonal-0",
+               "is damaged");
+  expect_error(npz("positions", "{'descr': '<f8', 'fortran_order': True, 'shape': (81, 3), }", values), "diagonal-0",
+               "in C order");
+}
+
+TEST(Measures, ComputeWhatPositionsSay) {
+  // A pendulum of 1 m that swings as cos 3t.
+  ObservedMotion motion;
+  motion.cloth.rest.resize(2, 3);
+  motion.cloth.rest << 0, 0.5, 0, 0, -0.5, 0;
+  motion.cloth.pins = {0};
+  for (int i = 0; i <= 2000; ++i) {
+    const double time = 1e-3 * i, angle = 0.1 * std::cos(3 * time);
+    Vertices x(2, 3);
+    x << 0, 0, 0, 0, std::sin(angle), -std::cos(angle);
+    motion.times.push_back(time);
+    motion.positions.push_back(x);
+  }
+  const double measured = measure_motion("pendulum", motion, {{"g", 9.0}}).at("period");
+  EXPECT_NEAR(measured, 1, 1e-6);
+  expect_usage_error([&] { measure_motion("pendulum", motion, {}); }, "the case gives no number 'g'");
+  expect_usage_error([&] { measure_motion("pendulun", motion, {}); }, "did you mean 'pendulum'?");
+}
+
+}  // namespace
+}  // namespace drape
