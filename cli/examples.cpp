@@ -13,7 +13,7 @@ struct Examples {
   std::string_view lines;    ///< what stands after "drape", with a line feed after each
 };
 
-constexpr std::array<Examples, 22> all_examples{{
+constexpr std::array<Examples, 24> all_examples{{
     {"",
      "new flag\n"
      "render flag.toml\n"
