@@ -110,8 +110,8 @@ struct ContactFilter final : MotionFilter {
     // The push was evaluated where the vertices are, or solved for where they go.
     const bool at_end = law.response == Response::implicit_energy;
     const auto drifts = way_of(surface, time, time + h);
-    const Step step{h, 1 - 1 / (1 + 2 * h * std::sqrt(law.stiffness)), std::min(std::sqrt(law.stiffness), 1 / h),
-                    !at_end && h * std::sqrt(law.stiffness) > 1};
+    const double rate = std::sqrt(law.stiffness);
+    const Step step{h, 1 - 1 / (1 + 2 * h * rate), std::min(rate, 1 / h), !at_end && h * rate > 1, 2 * (1 + h * rate)};
     if (touched && touched->are_those_of(x, time, threads)) {
       halts_.fill_from(threads, touched->all, [&](const auto& list, std::vector<VelocityChange>& halts) {
         if (list.empty()) return;
@@ -142,6 +142,7 @@ struct ContactFilter final : MotionFilter {
   struct Step {
     double h, damping, softest;
     bool halted;
+    double most_taken;  // of the push
   };
 
   template <class Ways>
@@ -154,8 +155,10 @@ struct ContactFilter final : MotionFilter {
     double outward = relative.dot(n);
     const Eigen::Vector3d along = relative - outward * n;
     double push = -step.h * law.stiffness * contact.gap;
-    // No more than the push gave: what else pulls a vertex out does so.
-    const double taken = law.restitution ? std::clamp(outward + step.softest * contact.gap, 0.0, push) : 0;
+    // No more than critical damping takes of a vertex that the push alone has brought to that speed: what else pulls it
+    // out does so. A push that is solved for is less than that of the depth at the start, and has no such bound.
+    const double most = law.response == Response::implicit_energy ? std::max(0.0, outward) : step.most_taken * push;
+    const double taken = law.restitution ? std::clamp(outward + step.softest * contact.gap, 0.0, most) : 0;
     outward -= taken;
     push = std::max(0.0, push - taken);
     if (step.halted && taken > 0) {

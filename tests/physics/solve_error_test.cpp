@@ -138,7 +138,6 @@ TEST(DefaultTolerance, HoldsWhereNoneIsGiven) {
   EXPECT_EQ(accuracy(StoppingRule::error, 1e-5).rule, StoppingRule::error);
   EXPECT_EQ(accuracy(StoppingRule::change, {}).tolerance, 1e-3);
   EXPECT_EQ(accuracy(StoppingRule::gradient, {}).tolerance, 1e-3);
-  EXPECT_EQ(settings.integrator.method, Method::quasi_newton);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ std::string filled(const std::string& scene, const Frame& frame = {}) {
 
 TEST(SceneCaption, NamesAnyKeyBeItGivenOrNot) {
   EXPECT_EQ(filled(with_caption("{integrator.method}, h = {time.step} s, {cloth.stiffness:.1f} N/m")),
-            "quasi-newton, h = 0.01 s, 10.0 N/m");
+            "verlet, h = 0.01 s, 10.0 N/m");
   EXPECT_EQ(filled(with_caption("{scene}: {cloth.mesh}, tolerance {integrator.tolerance:.1e}, {camera.up}")),
             "scene: { grid = [2, 2] }, tolerance default, [0, 0, 1]");
   EXPECT_EQ(filled(with_caption("{effects.damping.factor}") + "[effects.damping]\nfactor = 0.25\n"), "0.25");
