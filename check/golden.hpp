@@ -75,8 +75,8 @@ struct Golden {
   int vertex_count = 0;
   int row = 1;         ///< how far apart the numbers of vertices are that lie side by side, where rows of a grid do
   int body_count = 0;  ///< of GoldenStep::bodies, at most
-  double seconds_per_frame = 0;    ///< of the scene's time
-  std::optional<GoldenFilm> film;  ///< absent where an older drape has recorded it
+  double seconds_per_frame = 0;        ///< of the scene's time
+  std::optional<GoldenFilm> film;      ///< absent where an older drape has recorded it
   std::optional<GoldenMethod> method;  ///< absent where the scene names one
   std::optional<GoldenTime> time;      ///< absent unless the scene's [check] had a `time`
   Quanta quanta;

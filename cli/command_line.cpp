@@ -119,7 +119,7 @@ void print_commands(const CLI::App& app) {
     if (command->get_group().empty()) continue;
     text += fmt::format("  {:<10}{}\n", command->get_name(), command->get_description());
   }
-  text += "\nBegin with: drape new flag. Options and examples of a command: drape help COMMAND\n";
+  text += "\nBegin with: drape new flag. Options and examples: drape help COMMAND\n";
   constexpr std::size_t descriptions_at = 12;
   print_text(stdout, wrapped(text, terminal(stdout, ColorMode::never).width, descriptions_at - 2));
 }

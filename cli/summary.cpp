@@ -60,10 +60,9 @@ std::string describe(const Scene& scene, const RunOptions& options) {
                        shown(scene.file), shown(motion.header().name), motion.header().vertices, motion.last_step(),
                        s.step, static_cast<double>(motion.last_step()) * s.step, motion.states());
   }
-  std::string text =
-      fmt::format("{}: {}, {} vertices, {} springs, {}, {} steps of {:g} s ({:g} s)", shown(scene.file),
-                  method_text(scene), s.cloth.vertex_count(), s.cloth.springs.size(),
-                  shape_of(s.cloth).text(), steps, s.step, static_cast<double>(steps) * s.step);
+  std::string text = fmt::format("{}: {}, {} vertices, {} springs, {}, {} steps of {:g} s ({:g} s)", shown(scene.file),
+                                 method_text(scene), s.cloth.vertex_count(), s.cloth.springs.size(),
+                                 shape_of(s.cloth).text(), steps, s.step, static_cast<double>(steps) * s.step);
   for (const Effect& effect : s.effects) text += ", " + std::string(effect.name());
   return text;
 }

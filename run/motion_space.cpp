@@ -15,7 +15,7 @@ namespace {
 
 // Of the 48 bytes that a vertex has in a state, what is left of them packed. States that are further apart foretell
 // each other less well.
-constexpr double expected_share = 0.6, expected_share_apart = 0.85;
+constexpr double expected_share = 0.6, expected_share_apart = 0.85, undamped = 1.25;
 
 std::string size_text(double bytes) {
   if (bytes < 1e9) return fmt::format("{:.3g} MB", bytes / 1e6);
@@ -47,7 +47,9 @@ MotionSpace motion_space(const Scene& scene, const RunOptions& options) {
   const double colliders = static_cast<double>(scene.simulation.effects.size());
   const double most = states * (64 + 48 * vertices) + (steps + 1) * (72 + 32 * colliders);
 
-  const double share = motion.recorded.every == 1 ? expected_share : expected_share_apart;
+  const double usual = motion.recorded.every == 1 ? expected_share : expected_share_apart;
+  // Motions that numerical damping does not smooth are harder to foretell.
+  const double share = is_explicit(scene.simulation.integrator.method) ? std::min(1.0, undamped * usual) : usual;
   std::error_code error;
   const double there = options.from ? static_cast<double>(options.from->length) : 0;
   const fs::space_info space = fs::space(folder_there(motion.path), error);

@@ -14,8 +14,8 @@
 namespace drape {
 
 /// The methods as scenes write them, in the order of the enumeration.
-inline constexpr std::array<std::string_view, 6> method_names{"semi-implicit", "implicit", "liu13", "quasi-newton",
-                                                              "verlet",        "auto"};
+inline constexpr std::array<std::string_view, 6> method_names{"semi-implicit", "implicit", "liu13",
+                                                              "quasi-newton",  "verlet",   "auto"};
 static_assert(method_names.size() == method_count + 1);
 
 inline std::string method_name(Method method) { return std::string(method_names[static_cast<std::size_t>(method)]); }

@@ -54,9 +54,9 @@ struct Scene {
   /// A hash of what the file and the overrides say, except [check], [caption] and [overlay]: comments, the order of
   /// keys and the way in which a number is written do not change it. 16 hexadecimal digits.
   std::string digest;
-  std::vector<SceneValue> tables;   ///< what the tables say on which the motion depends, see physics_values()
-  PortableScene portable;           ///< all that it was read from
-  std::vector<std::string> doubts;  ///< what may not be meant, though it can be simulated: "scene.toml:2:8: …"
+  std::vector<SceneValue> tables;      ///< what the tables say on which the motion depends, see physics_values()
+  PortableScene portable;              ///< all that it was read from
+  std::vector<std::string> doubts;     ///< what may not be meant, though it can be simulated: "scene.toml:2:8: …"
   std::optional<MethodChoice> choice;  ///< of the method, where none is named
   std::optional<Quality> quality;      ///< that its numbers were changed for
 

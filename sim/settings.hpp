@@ -69,7 +69,7 @@ inline constexpr int order_of(StepMethod how) {
 }
 
 /// The most substeps that an explicit method can cut a step into.
-inline constexpr int most_substeps = 1 << 20;
+inline constexpr int most_substeps = 1 << 10;
 
 /// When an iterative step is accurate enough.
 enum class StoppingRule {

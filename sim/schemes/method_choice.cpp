@@ -61,9 +61,13 @@ MethodChoice choose_method(const SimulationSettings& settings) {
   const double measured = settings.accuracy ? 3 : 1;
   choice.verlet = measured * estimated_step(settings, Method::verlet, choice.substeps, ratio);
   choice.quasi_newton = steps_of_backward_euler * measured * estimated_step(settings, Method::quasi_newton, 1, ratio);
-  const bool stable = ratio <= static_cast<double>(most_substeps);
+  if (!(ratio <= most_substeps)) {
+    choice.only = true;
+    choice.reason = "springs are too stiff for short steps";
+    return choice;
+  }
   const bool pushed = settings.step <= safe_step_of_pushes(system);
-  if (!stable || !system.all_internal() || !allowed(settings, Method::verlet, choice.substeps)) {
+  if (!system.all_internal() || !allowed(settings, Method::verlet, choice.substeps)) {
     choice.only = true;
     choice.reason = "velocity Verlet cannot have all that acts here";
     return choice;

@@ -22,9 +22,9 @@ struct MethodChoice {
 
 /// Chooses between velocity Verlet in the fewest stable substeps of each step, and quasi-Newton. Verlet's error is far
 /// below a hundredth of the cloth's size then (docs/accuracy.md); backward Euler's is about that with half the usual
-/// step, so the cheaper of Verlet's step and twice quasi-Newton's is taken. Where the cloth can touch something, impulses
-/// of an implicit step stretch stiff springs, which short steps avoid: there Verlet may cost ten times as much.
-/// The choice follows from counted work alone, and is the same on every machine.
+/// step, so the cheaper of Verlet's step and twice quasi-Newton's is taken. Where the cloth can touch something,
+/// impulses of an implicit step stretch stiff springs, which short steps avoid: there Verlet may cost ten times as
+/// much. The choice follows from counted work alone, and is the same on every machine.
 /// @param settings valid, but for their method
 MethodChoice choose_method(const SimulationSettings& settings);
 

@@ -104,7 +104,7 @@ TEST(CommandLine, SaysWhatErrorTheStepsLeftAndThatAStandingClothIsNoEquilibrium)
   EXPECT_NE(finished.text.find("its weight out of balance, so this is not an equilibrium"), std::string::npos)
       << finished.text;
   // Left to itself it says so too, and has nothing to warn of.
-  finished = drape(folder, "simulate scene.toml --set integrator={method=\"quasi-newton\"}");
+  finished = drape(folder, "simulate scene.toml --set integrator={} --set integrator.method=quasi-newton");
   EXPECT_EQ(finished.code, 0) << finished.text;
   EXPECT_NE(finished.text.find(", estimated error "), std::string::npos) << finished.text;
   EXPECT_EQ(finished.text.find("equilibrium"), std::string::npos) << finished.text;

@@ -19,7 +19,8 @@ std::vector<Scene> scenes(const test::SceneFolder& folder, const std::vector<std
 
 TEST(Differences, AreTheKeysWithOtherValuesGivenOrNot) {
   const test::SceneFolder folder;
-  const auto all = scenes(folder, {{"integrator.method=quasi-newton"}, {"integrator.method=liu13", "integrator.tolerance=0.001"}});
+  const auto all =
+      scenes(folder, {{"integrator.method=quasi-newton"}, {"integrator.method=liu13", "integrator.tolerance=0.001"}});
   const std::vector<KeyDifference> found = differences(all);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].key, "integrator.method");
