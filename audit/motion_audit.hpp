@@ -24,7 +24,7 @@ enum class Check {
 };
 inline constexpr std::size_t check_count = 5;
 
-/// What is a finding.
+/// Limits beyond which something is a finding.
 struct AuditLimits {
   double stretch = HUGE_VAL;  ///< of an edge's length to that at rest
   double depth = 1e-3;        ///< of a vertex in a solid [m]
@@ -58,7 +58,7 @@ struct WorstState {
   std::vector<Collider> colliders;
 };
 
-/// What a check has found in all states.
+/// Findings of a check in all states.
 struct CheckFindings {
   std::int64_t states = 0;  ///< in which it found something
   std::int64_t first = 0;   ///< step of the first of them

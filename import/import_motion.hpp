@@ -20,7 +20,7 @@ struct ImportOptions {
   std::optional<double> fps = {};  ///< frames per second; absent: the times that the files say, or else 25
 };
 
-/// What has been imported.
+/// A motion that has been imported.
 struct ImportedMotion {
   std::int64_t frames = 0;
   double step = 0;  ///< from a frame to the next [s]

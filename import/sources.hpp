@@ -34,13 +34,13 @@ struct ImportAxes {
   double scale = 1;   ///< metres of its unit
 };
 
-/// What the name of a motion says: opens any of the formats above.
+/// Opens a motion of any of the formats above, which its name says.
 /// @param mesh of a .pc2
 /// @param prim of a .usda
 /// @throws UsageError also for a name that is none of them
 std::unique_ptr<MotionSource> open_motion_source(const std::filesystem::path& file, const std::filesystem::path& mesh,
                                                  const std::string& prim);
-/// Whether a name is that of a motion that can be imported: a film or a sequence, or a single mesh.
+/// Returns true if a name is that of a motion that can be imported: a film or a sequence, or a single mesh.
 bool is_importable(const std::filesystem::path& file);
 
 /// The same motion in metres with z up.

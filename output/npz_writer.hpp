@@ -56,7 +56,7 @@ class NpzWriter final : public MotionWriter {
   struct {
     NpyArray *positions, *velocities, *times, *frames, *energies, *spheres, *grounds;
   } of_ = {};  // of the motion; into arrays_
-  /// Where a body is. One that rests is written once.
+  /// The places of a body. One that rests is written once.
   struct Body {
     NpyArray* positions;
     std::shared_ptr<const std::vector<Triangle>> triangles;

@@ -2,7 +2,7 @@
 
 namespace drape {
 
-/// Where the tip of a heavy elastica is, in its lengths.
+/// The place of the tip of a heavy elastica, in its lengths.
 struct ElasticaTip {
   double drop = 0, reach = 0;  ///< below the clamp, and from it
 

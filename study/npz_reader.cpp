@@ -59,7 +59,7 @@ std::string inflated(const NpzBytes& file, std::string_view packed, std::size_t 
   return result;
 }
 
-/// What follows a key of an NPY header, which is a Python dictionary as text.
+/// The text after a key of an NPY header, which is a Python dictionary as text.
 std::string_view after_key(std::string_view header, std::string_view key) {
   const std::size_t place = header.find(key);
   if (place == std::string_view::npos) return {};
@@ -124,7 +124,7 @@ std::vector<NpyNumbers> numbers_in(const NpzBytes& file, const std::string& npy)
 
 constexpr std::size_t wide_number = 0xFFFFFFFFU;  // a number that is elsewhere, in 64 bits
 
-/// Where the directory begins, and how many entries it has.
+/// The place of the directory, and how many entries it has.
 struct NpzDirectory {
   std::size_t begin = 0, count = 0;
 };

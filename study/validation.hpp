@@ -41,7 +41,7 @@ struct ValidationRun {
   [[nodiscard]] std::optional<double> value(const std::string& quantity) const;
 };
 
-/// What is asked of a study.
+/// The options of a study.
 struct ValidationOptions {
   std::vector<std::string> cases = {};    ///< empty: all
   std::vector<std::string> methods = {};  ///< of the runs that vary the method; empty: all that a case has

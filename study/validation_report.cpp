@@ -106,7 +106,7 @@ void for_answers_on(const ValidationCase& of, const ValidationCurve& curve, Use 
   }
 }
 
-/// What theory says between the first and the last answer of a curve.
+/// The theory between the first and the last answer of a curve.
 html::ChartSeries theory_series(const ValidationCase& of, const ValidationCurve& curve) {
   html::ChartSeries theory{"theory", {}};
   theory.markers = false;
@@ -129,7 +129,7 @@ html::ChartSeries theory_series(const ValidationCase& of, const ValidationCurve&
   return theory;
 }
 
-/// What the runs of a factor found, as points without a line.
+/// The findings of the runs of a factor, as points without a line.
 html::ChartSeries found_series(const ValidationStudy& study, const ValidationCase& of, const ValidationCurve& curve,
                                const std::string& factor) {
   html::ChartSeries found{factor == scene_factor ? "drape" : "drape by default", {}};

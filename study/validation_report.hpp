@@ -5,10 +5,11 @@
 
 namespace drape {
 
-/// Whether each case's answers are met by its scene, beside the error of the defaults and the computing time.
+/// A report that says whether each case's answers are met by its scene, beside the error of the defaults and the
+/// computing time.
 StudyReport validation_report(const ValidationStudy& study);
 
-/// What became of a case.
+/// The outcome of a case.
 struct ValidationVerdict {
   bool met = false;             ///< every answer is within its tolerance
   int answers = 0, missed = 0;  ///< that were measured, and of them those beyond their tolerance or without a value
@@ -20,7 +21,7 @@ struct ValidationVerdict {
 /// @param factor scene_factor or default_factor
 ValidationVerdict verdict_of(const ValidationStudy& study, const ValidationCase& of, const std::string& factor);
 
-/// Whether every case that was measured is met.
+/// Returns true if every case that was measured is met.
 bool all_met(const ValidationStudy& study);
 
 }  // namespace drape

@@ -64,7 +64,7 @@ class Effect {
 
   [[nodiscard]] std::string_view name() const { return held_->name(); }
   [[nodiscard]] EffectCost cost() const { return held_->cost(); }
-  /// Whether it is something that the cloth can touch.
+  /// Returns true if it is something that the cloth can touch.
   [[nodiscard]] bool touches() const { return held_->touches(); }
   /// The keys' targets are in this object.
   void describe(Keys& keys) { held_->describe(keys); }

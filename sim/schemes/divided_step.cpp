@@ -1,7 +1,5 @@
 #include "sim/schemes/divided_step.hpp"
 
-#include <algorithm>
-
 namespace drape {
 
 StepReport DividedStep::advance(State& state, StepForces& forces) {

@@ -19,7 +19,7 @@ constexpr double iterations_per_substep = 2, most_iterations = 60;
 constexpr double steps_of_backward_euler = 2;  // for an error of a hundredth of the cloth's size
 constexpr double worth_of_contact = 10;
 
-/// Whether the effects allow a method, as far as the settings alone tell.
+/// Returns true if the effects allow a method, as far as the settings alone tell.
 bool allowed(SimulationSettings settings, Method method, int substeps) {
   settings.integrator.method = method;
   settings.integrator.substeps = substeps;
@@ -57,10 +57,8 @@ MethodChoice choose_method(const SimulationSettings& settings) {
   const std::int64_t fewest = SubstepGuard::fewest_substeps(settings.step, longest);
   MethodChoice choice;
   choice.substeps = settings.integrator.substeps.value_or(static_cast<int>(fewest));
-  // An accuracy is measured by a second motion, and takes no fewer substeps than two.
-  const double measured = settings.accuracy ? 3 : 1;
-  choice.verlet = measured * estimated_step(settings, Method::verlet, choice.substeps, ratio);
-  choice.quasi_newton = steps_of_backward_euler * measured * estimated_step(settings, Method::quasi_newton, 1, ratio);
+  choice.verlet = estimated_step(settings, Method::verlet, choice.substeps, ratio);
+  choice.quasi_newton = steps_of_backward_euler * estimated_step(settings, Method::quasi_newton, 1, ratio);
   if (!(ratio <= most_substeps)) {
     choice.only = true;
     choice.reason = "springs are too stiff for short steps";
