@@ -1,5 +1,8 @@
 #include "sim/make_system.hpp"
 
+#include <utility>
+
+#include "sim/contact/impulse_contact.hpp"
 #include "sim/field_drag.hpp"
 #include "sim/schemes/sdirk2.hpp"
 #include "sim/timed_effects.hpp"
@@ -27,6 +30,10 @@ void install_effects(const SimulationSettings& settings, std::vector<double>* ef
     if (effect_seconds != nullptr) time_additions(system, before, (*effect_seconds)[i]);
   }
   add_drag(settings.integrator, system);
+  if (system.contacts.empty() || !is_explicit(settings.integrator.method)) return;
+  system.filters.push_back(std::make_unique<ImpulseContact>(std::move(system.contacts), system.cloth, system.gravity));
+  system.filters.back()->heed(stop);
+  system.contacts.clear();
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ using Index = std::size_t;
 
 constexpr double impact_share = 0.5;   // of the distance at the end, down to which features may come on their way
 constexpr double target_slack = 0.25;  // how far a vertex may end from where pairs were searched for, in distances
+constexpr int vertex_kind = -1;        // of contacts of vertices with a body, before those of pairs
 constexpr double resolved = 1e-9;      // of the distance: below, a difference has no direction
 
 Point plane_normal(Feature feature, const FourPoints& p) {
@@ -126,7 +127,8 @@ BodyContacts::BodyContacts(std::shared_ptr<const MovingBody> body, const Contact
       start_(body_->at(0)),
       end_(start_),
       candidates_(body_->topology(), static_cast<int>(end_.mesh->points().size()), cloth, terms.distance, threads),
-      feet_(static_cast<Index>(cloth.vertex_count()), 2 * terms.distance) {
+      feet_(static_cast<Index>(cloth.vertex_count()), 2 * terms.distance),
+      start_feet_(feet_) {
   x_.resize(static_cast<Index>(cloth_count_) + end_.mesh->points().size());
   target_ = x_;
 }
@@ -168,17 +170,19 @@ void BodyContacts::find(const Vertices& target, int source, const std::vector<Co
     found_for_ = target_;
     searched_ = true;
   }
-  const auto first = static_cast<std::ptrdiff_t>(contacts.size());
   find_vertices(target, source, held, contacts);
+  const auto first = static_cast<std::ptrdiff_t>(contacts.size());
   find_pairs(source, held, contacts);
   std::ranges::sort(contacts.begin() + first, contacts.end(), {}, &ContactConstraint::key);
 }
 
 void BodyContacts::find_vertices(const Vertices&, int source, const std::vector<ContactConstraint>& held,
                                  std::vector<ContactConstraint>& contacts) {
+  auto known = held.begin();
   for (int i = 0; i < cloth_count_; ++i) {
-    const ContactKey key{source, 2, {i, -1, -1, -1}};
-    const bool bears = is_held(held, key);
+    const ContactKey key{source, vertex_kind, {i, -1, -1, -1}};
+    while (known != held.end() && known->key < key) ++known;
+    const bool bears = known != held.end() && known->key == key;
     Foot foot;
     if (!feet_.find(*end_.mesh, Index(i), target_[Index(i)], foot)) {
       if (!bears) continue;
@@ -187,12 +191,13 @@ void BodyContacts::find_vertices(const Vertices&, int source, const std::vector<
       foot = *far;
     }
     if (!bears && foot.distance >= 2 * terms_.distance) continue;
-    const auto before = start_.mesh->find(x_[Index(i)], 2 * terms_.distance, foot.triangle);
+    Foot before;
+    const bool was_near = start_feet_.find(*start_.mesh, Index(i), x_[Index(i)], before);
     const Triangle& t = body_->topology().triangles[Index(foot.triangle)];
     ContactConstraint contact = make({i, cloth_count_ + t[0], cloth_count_ + t[1], cloth_count_ + t[2]},
                                      {1, -foot.weights[0], -foot.weights[1], -foot.weights[2]}, foot.normal);
     contact.key = key;
-    contact.distance = before ? distance_at_end(before->distance, terms_.distance, duration_) : terms_.distance;
+    contact.distance = was_near ? distance_at_end(before.distance, terms_.distance, duration_) : terms_.distance;
     contacts.push_back(contact);
   }
 }

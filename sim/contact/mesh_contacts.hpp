@@ -77,7 +77,7 @@ class BodyContacts final : public ContactSource {
   int cloth_count_;
   BodyAt start_, end_;
   BodyCandidates candidates_;
-  FootMemory feet_;
+  FootMemory feet_, start_feet_;
   double duration_ = 0;
   bool searched_ = false;
   const Vertices* world_ = nullptr;            // x at the start of the step

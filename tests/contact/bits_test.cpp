@@ -8,7 +8,7 @@ namespace drape::test {
 namespace {
 
 class Bits : public Solved {};
-INSTANTIATE_TEST_SUITE_P(With, Bits, testing::ValuesIn(solving_methods), method_name);
+INSTANTIATE_TEST_SUITE_P(With, Bits, testing::ValuesIn(contact_methods), method_name);
 
 /// A hem folded over the rest comes down on it, and the sheet on a box and the ground.
 Cloth folded(int cells) {

@@ -16,7 +16,10 @@
 #include "sim/effects/self_collision.hpp"
 #include "sim/effects/sphere.hpp"
 #include "sim/fabrics.hpp"
+#include "sim/make_system.hpp"
+#include "sim/schemes/substep_guard.hpp"
 #include "sim/simulation.hpp"
+#include "sim/stability.hpp"
 #include "tests/support/setups.hpp"
 
 namespace drape::test {
@@ -24,12 +27,38 @@ namespace drape::test {
 inline constexpr double g = 9.8;          // the default gravity [m/s²]
 inline constexpr double distance = 0.01;  // that contact keeps [m]
 
-/// The methods that contact can be solved with.
+/// The methods that solve for contact with the whole step.
 inline constexpr std::array solving_methods{
     NamedMethod{Method::implicit, "Implicit"},
     NamedMethod{Method::liu13, "Liu13"},
     NamedMethod{Method::quasi_newton, "QuasiNewton"},
 };
+
+/// Those and the methods that give impulses.
+inline constexpr std::array contact_methods{
+    solving_methods[0],
+    solving_methods[1],
+    solving_methods[2],
+    NamedMethod{Method::verlet, "Verlet"},
+    NamedMethod{Method::semi_implicit, "SemiImplicit"},
+};
+
+/// Has an explicit method cut its steps into the fewest that are stable.
+inline SimulationSettings divided(SimulationSettings settings) {
+  if (!is_explicit(settings.integrator.method)) return settings;
+  settings.integrator.substeps.reset();
+  const double longest = safe_step(make_system(settings));
+  settings.integrator.substeps = static_cast<int>(SubstepGuard::fewest_substeps(settings.step, longest));
+  return settings;
+}
+
+/// The same motion with each of its substeps as a step.
+inline SimulationSettings in_substeps(SimulationSettings settings) {
+  settings = divided(settings);
+  settings.step /= settings.integrator.substep_count();
+  settings.integrator.substeps.reset();
+  return settings;
+}
 
 /// Tests of each of them.
 class Solved : public testing::TestWithParam<NamedMethod> {
@@ -41,7 +70,7 @@ class Solved : public testing::TestWithParam<NamedMethod> {
     result.step = step;
     result.integrator.method = GetParam().method;
     result.effects = {Gravity{}};
-    return result;
+    return divided(result);
   }
 };
 

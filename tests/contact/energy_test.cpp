@@ -40,10 +40,12 @@ const std::vector<Fabric>& measured_fabrics() {
 /// One run of the set: all that it is made from follows from its number.
 struct Trial {
   int number;
+  bool impulses = false;  ///< by a method that solves for nothing
 
   [[nodiscard]] Obstacle obstacle() const { return static_cast<Obstacle>(number % 5); }
   [[nodiscard]] double step() const { return steps[static_cast<std::size_t>((number / 5 + number) % 5)]; }
   [[nodiscard]] const NamedMethod& method() const {
+    if (impulses) return contact_methods[solving_methods.size() + static_cast<std::size_t>((number + number / 5) % 2)];
     return solving_methods[static_cast<std::size_t>((number + number / 15) % 3)];
   }
   [[nodiscard]] std::size_t material() const { return static_cast<std::size_t>(number) % 14; }
@@ -131,6 +133,10 @@ SimulationSettings make(const Trial& run) {
   }
   settings.cloth.velocities = velocities(run, settings.cloth, random);
   add_obstacle(run.obstacle(), settings.effects);
+  // What is strained at the start swings: the energy of an explicit method swings with it, by a part (hω)².
+  settings = in_substeps(settings);
+  // The energy of an explicit method swings by a part of (hω)², and in a cloth that is strained at the start more.
+  if (run.impulses) settings.step /= run.obstacle() == Obstacle::itself ? 4 : 2;
   return settings;
 }
 
@@ -155,6 +161,7 @@ std::vector<Trial> all_runs() {
     if (std::ranges::find(left_out, i) == left_out.end()) all.push_back({i});
   }
   for (const int i : later) all.push_back({i});
+  for (int i = 0; i < 42; ++i) all.push_back({.number = i, .impulses = true});
   return all;
 }
 
@@ -168,7 +175,8 @@ TEST_P(ObstaclesAtRest, GiveNoEnergyAndLetNothingPass) {
   const Trial& run = GetParam();
   const SimulationSettings settings = make(run);
   const double all = to_give(run, settings);
-  const AuditedRun audited = audit_run(settings, run.step() > 0.005 ? 60 : 100);
+  const AuditedRun audited =
+      audit_run(settings, std::lround((run.step() > 0.005 ? 60 : 100) * run.step() / settings.step));
   EXPECT_LE(audited.rise.rise, stable * all) << run.title() << ": " << 100 * audited.rise.rise / all << " % from step "
                                              << audited.rise.from << " to " << audited.rise.to;
   EXPECT_EQ(audited.with_passages, 0) << run.title() << "\n" << lines(audited.first);

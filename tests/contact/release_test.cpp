@@ -15,7 +15,7 @@ using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
 class Release : public Solved {};
-INSTANTIATE_TEST_SUITE_P(With, Release, testing::ValuesIn(solving_methods), method_name);
+INSTANTIATE_TEST_SUITE_P(With, Release, testing::ValuesIn(contact_methods), method_name);
 
 constexpr double net = 10;    // the acceleration that lifts [m/s²]
 constexpr double lies = 0.1;  // the time before [s]

@@ -13,7 +13,7 @@ namespace drape::test {
 namespace {
 
 class Symmetry : public Solved {};
-INSTANTIATE_TEST_SUITE_P(With, Symmetry, testing::ValuesIn(solving_methods), method_name);
+INSTANTIATE_TEST_SUITE_P(With, Symmetry, testing::ValuesIn(contact_methods), method_name);
 
 /// The vertex on the other side of the plane y = 0, of each.
 std::vector<int> mirrored(const Mesh& mesh) {

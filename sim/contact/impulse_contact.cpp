@@ -1,0 +1,257 @@
+#include "sim/contact/impulse_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace drape {
+namespace {
+
+using Index = std::size_t;
+
+constexpr int most_contact_rounds = 10;    // of contacts found anew, before what collides is held
+constexpr int most_impulse_passes = 60;    // over the contacts in a round
+constexpr int most_held_rounds = 60;       // after which all zones are joined
+constexpr double settled_share = 1e-3;     // of the distance that a contact keeps: what a pass may still move
+constexpr double near_share = 0.1;         // of the least distance: how far a solve may move what was found
+constexpr double least_correction = 1e-9;  // or this [m]
+
+}  // namespace
+
+ImpulseContact::ImpulseContact(std::vector<std::unique_ptr<ContactSource>> sources, const Cloth& cloth,
+                               const Eigen::Vector3d& gravity)
+    : sources_(std::move(sources)), gravity_(gravity) {
+  for (const double mass : cloth.masses) inverse_masses_.push_back(1 / mass);
+  for (const int pin : cloth.pins) inverse_masses_[Index(pin)] = 0;
+}
+
+void ImpulseContact::begin(const State& state, double) { start_v_ = state.v; }
+
+void ImpulseContact::apply(const Vertices& x, double time, double h, Vertices& v) {
+  converged_ = true;
+  impulses_.clear();
+  x_ = &x;
+  h_ = h;
+  unhindered_ = x + h * v;
+  if (!unhindered_.allFinite()) return;
+  for (const auto& source : sources_) source->begin(x, time, time + h);
+  target_ = unhindered_;
+  mean_ = v;
+  find();
+  if (impulses_.empty()) return;
+  bool found = false;
+  for (int round = 0; round < most_contact_rounds; ++round) {
+    look_at_stop();
+    const bool collided = any_collides();
+    before_target_ = target_;
+    apply_known();
+    solve();
+    found = !collided && stays_as_found();
+    if (found) break;
+    find();
+    found = !any_collides();
+    if (found) break;
+  }
+  if (!found) hold();
+  for (Eigen::Index i = 0; i < v.rows(); ++i) {
+    if (target_.row(i) != unhindered_.row(i)) v.row(i) = (target_.row(i) - x.row(i)) / h;
+  }
+}
+
+void ImpulseContact::find() {
+  before_.swap(impulses_);
+  impulses_.clear();
+  found_.clear();
+  auto from = before_.begin();
+  for (int source = 0; source < static_cast<int>(sources_.size()); ++source) {
+    held_.clear();
+    for (; from != before_.end() && from->contact.key.source == source; ++from) {
+      if (!from->contact.force.isZero(0)) held_.push_back(from->contact);
+    }
+    sources_[Index(source)]->find(target_, source, held_, found_);
+  }
+  auto known = before_.begin();
+  for (const ContactConstraint& contact : found_) {
+    double compliance = 0;
+    for (Index i = 0; i < Index(contact.count); ++i) {
+      compliance += contact.weights[i] * contact.weights[i] * inverse_masses_[Index(contact.vertices[i])];
+    }
+    if (!(compliance > 0)) continue;
+    Impulse impulse{.contact = contact, .compliance = compliance, .gap_at_end = 0, .turned = 0};
+    while (known != before_.end() && known->contact.key < contact.key) ++known;
+    if (known != before_.end() && known->contact.key == contact.key) {
+      // The same push along the normal that it has now.
+      const Eigen::Vector3d &n = contact.normal, &force = known->contact.force;
+      const double normal = force.dot(known->contact.normal);
+      Eigen::Vector3d across = force - force.dot(n) * n;
+      const double most = contact.friction * normal, size = across.norm();
+      if (size > most) across *= most / size;
+      impulse.contact.force = normal * n + across;
+    }
+    if (contact.restitution > 0) plan_bounce(impulse);
+    impulses_.push_back(impulse);
+  }
+}
+
+void ImpulseContact::plan_bounce(Impulse& impulse) const {
+  const ContactConstraint& contact = impulse.contact;
+  const Eigen::Vector3d& n = contact.normal;
+  double weight = 0;
+  for (Index i = 0; i < Index(contact.count); ++i) weight += contact.weights[i];
+  const double fall = weight * gravity_.dot(n);
+  const double c = std::max(0.0, contact.start.dot(n) - contact.distance);
+  const double end = contact.place(unhindered_).dot(n) - contact.distance;
+  if (!(end < 0) || !(c > 0)) return;
+  const double mean = (end - c) / h_, b = mean - 0.5 * fall * h_;
+  const double steepness = std::sqrt(std::max(0.0, b * b - 2 * fall * c)) - b;
+  const double hit = steepness > 0 ? std::min(h_, 2 * c / steepness) : h_;
+  const double speed = -(b + fall * hit), left = h_ - hit;
+  const Eigen::Vector3d before = contact.gather(start_v_) - contact.gather(mean_);
+  const double pressed = std::max(0.0, before.dot(n)), back = contact.restitution * speed;
+  if (!(back > pressed)) return;
+  impulse.gap_at_end = std::max(0.0, left * (back + 0.5 * fall * left));
+  impulse.turned = back + (left - 0.5 * h_) * fall - (impulse.gap_at_end - c) / h_;
+}
+
+void ImpulseContact::push(const ContactConstraint& contact, const Eigen::Vector3d& change, Vertices& to) const {
+  for (Index i = 0; i < Index(contact.count); ++i) {
+    const double share = contact.weights[i] * inverse_masses_[Index(contact.vertices[i])];
+    if (share != 0) to.row(contact.vertices[i]) += share * change.transpose();
+  }
+}
+
+void ImpulseContact::apply_known() {
+  target_ = unhindered_;
+  for (const Impulse& impulse : impulses_) {
+    if (!impulse.contact.force.isZero(0)) push(impulse.contact, impulse.contact.force, target_);
+  }
+}
+
+Eigen::Vector3d ImpulseContact::change_of(const Impulse& impulse, double missing, const Eigen::Vector3d& slip) {
+  const ContactConstraint& contact = impulse.contact;
+  const Eigen::Vector3d& n = contact.normal;
+  const double before = contact.force.dot(n);
+  if (before == 0 && missing <= 0) return Eigen::Vector3d::Zero();
+  const double normal = std::max(0.0, before + missing / impulse.compliance);
+  Eigen::Vector3d across = Eigen::Vector3d::Zero();
+  if (contact.friction > 0 && normal > 0) {
+    across = contact.force - before * n - (slip - slip.dot(n) * n) / impulse.compliance;
+    const double most = contact.friction * normal, size = across.norm();
+    if (size > most) across *= most / size;
+  }
+  return normal * n + across - contact.force;
+}
+
+void ImpulseContact::solve() {
+  for (int pass = 0; pass < most_impulse_passes; ++pass) {
+    bool moved = false;
+    for (Impulse& impulse : impulses_) {
+      ContactConstraint& contact = impulse.contact;
+      const Eigen::Vector3d place = contact.place(target_);
+      const double missing = contact.distance + impulse.gap_at_end - place.dot(contact.normal);
+      const Eigen::Vector3d change = change_of(impulse, missing, place - contact.start);
+      if (change.isZero(0)) continue;
+      contact.force += change;
+      push(contact, change, target_);
+      if (impulse.compliance * change.norm() > settled_share * contact.distance + least_correction) moved = true;
+    }
+    if (!moved) return;
+  }
+}
+
+bool ImpulseContact::stays_as_found() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Impulse& impulse : impulses_) least = std::min(least, impulse.contact.distance);
+  return (target_ - before_target_).rowwise().squaredNorm().maxCoeff() <= near_share * near_share * least * least;
+}
+
+bool ImpulseContact::any_collides() const {
+  return std::ranges::any_of(impulses_, [](const Impulse& impulse) { return impulse.contact.collides; });
+}
+
+void ImpulseContact::hold() {
+  const Index count = inverse_masses_.size();
+  std::vector<std::array<int, 4>> joined;
+  std::vector<Point> velocities(count);
+  places_.resize(count);
+  for (Index i = 0; i < count; ++i) {
+    places_[i] = x_->row(static_cast<Eigen::Index>(i)).transpose();
+    velocities[i] = (target_.row(static_cast<Eigen::Index>(i)).transpose() - places_[i]) / h_;
+  }
+  moving_.inverse_masses = inverse_masses_;
+  converged_ = false;
+  for (int round = 0; any_collides(); ++round) {
+    look_at_stop();
+    bool more = false;
+    for (const Impulse& impulse : impulses_) {
+      if (!impulse.contact.collides) continue;
+      if (impulse.contact.count == 4) {
+        more = more || !(std::ranges::find(joined, impulse.contact.vertices) != joined.end());
+        joined.push_back(impulse.contact.vertices);
+      } else {
+        more = hold_with_obstacle(impulse.contact, velocities) || more;
+      }
+    }
+    if (!more) return;
+    moving_.velocities = velocities;
+    zones_.begin(velocities);
+    for (const auto& vertices : joined) zones_.join(vertices);
+    if (round >= most_held_rounds) zones_.join_all();
+    zones_.apply(places_, moving_);
+    for (Index i = 0; i < count; ++i) {
+      if (inverse_masses_[i] > 0) {
+        target_.row(static_cast<Eigen::Index>(i)) = (places_[i] + h_ * moving_.velocities[i]).transpose();
+      }
+    }
+    find();
+  }
+}
+
+bool ImpulseContact::hold_with_obstacle(const ContactConstraint& contact, std::vector<Point>& velocities) {
+  double weight = 0;
+  for (Index i = 0; i < Index(contact.count); ++i) weight += contact.weights[i];
+  bool more = false;
+  for (Index i = 0; i < Index(contact.count); ++i) {
+    const auto vertex = Index(contact.vertices[i]);
+    if (moving_.inverse_masses[vertex] == 0) continue;
+    moving_.inverse_masses[vertex] = 0;
+    velocities[vertex] = -contact.carried / (h_ * weight);
+    more = true;
+  }
+  return more;
+}
+
+void ImpulseContact::finish(Vertices& v) {
+  for (const Impulse& impulse : impulses_) {
+    const ContactConstraint& contact = impulse.contact;
+    if (contact.force.isZero(0)) continue;
+    const Eigen::Vector3d& n = contact.normal;
+    if (impulse.turned != 0) {
+      push(contact, impulse.turned / impulse.compliance * n, v);
+      continue;
+    }
+    const Eigen::Vector3d drift = contact.carried / h_;
+    const double unhindered = (contact.gather(mean_) + drift).dot(n), now = (contact.gather(v) + drift).dot(n);
+    const double most = std::max(0.0, unhindered);
+    if (now > most) push(contact, (most - now) / impulse.compliance * n, v);
+  }
+  std::erase_if(impulses_,
+                [](const Impulse& impulse) { return impulse.contact.force.isZero(0) || impulse.turned != 0; });
+  for (Impulse& impulse : impulses_) impulse.contact.force.setZero();
+  for (int pass = 0; pass < most_impulse_passes; ++pass) {
+    bool moved = false;
+    for (Impulse& impulse : impulses_) {
+      ContactConstraint& contact = impulse.contact;
+      const Eigen::Vector3d speed = contact.gather(v) + contact.carried / h_;
+      const Eigen::Vector3d change = change_of(impulse, -speed.dot(contact.normal), speed);
+      if (change.isZero(0)) continue;
+      contact.force += change;
+      push(contact, change, v);
+      if (h_ * impulse.compliance * change.norm() > settled_share * contact.distance + least_correction) moved = true;
+    }
+    if (!moved) return;
+  }
+}
+
+}  // namespace drape
