@@ -23,6 +23,7 @@ void add_drag(const IntegratorSettings& integrator, System& system) {
 void install_effects(const SimulationSettings& settings, std::vector<double>* effect_seconds, const Stop& stop,
                      System& system) {
   system.stop = stop;
+  system.impulses = is_explicit(settings.integrator.method);
   for (std::size_t i = 0; i < settings.effects.size(); ++i) {
     const SystemSizes before(system);
     settings.effects[i].install(system);
@@ -30,7 +31,7 @@ void install_effects(const SimulationSettings& settings, std::vector<double>* ef
     if (effect_seconds != nullptr) time_additions(system, before, (*effect_seconds)[i]);
   }
   add_drag(settings.integrator, system);
-  if (system.contacts.empty() || !is_explicit(settings.integrator.method)) return;
+  if (system.contacts.empty() || !system.impulses) return;
   system.filters.push_back(std::make_unique<ImpulseContact>(std::move(system.contacts), system.cloth, system.gravity));
   system.filters.back()->heed(stop);
   system.contacts.clear();

@@ -152,6 +152,7 @@ struct System {
   double step;                                        ///< h [s]
   double whole_step;                                  ///< that h is a part of [s]…
   std::int64_t substeps = 1;                          ///< …which has so many of them
+  bool impulses = false;                              ///< whether contact that is solved for is by ImpulseContact
   Stop stop = {};                                     ///< of everything that computes with it
   const Threads& threads;                             ///< that share what is worth dividing
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²], for the log's gravity column only

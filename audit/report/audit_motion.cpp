@@ -121,7 +121,7 @@ void audit_recording(MotionReader& motion, const System& system, std::int64_t st
     if (state.step > steps) break;
     report.gaps = report.gaps || state.step > before + 1;
     before = state.step;
-    const double time = static_cast<double>(state.step) * system.step;
+    const double time = static_cast<double>(state.step) * system.whole_step;
     const std::vector<Collider> colliders = system.colliders_at(time);
     report.findings.add({state.step, time, state.x, colliders});
     report.duration = time;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <compare>
 #include <vector>
 
@@ -52,6 +53,16 @@ struct ContactConstraint {
       if (free[static_cast<std::size_t>(vertices[i])] != 0) sum += weights[i] * x.row(vertices[i]).transpose();
     }
     return sum;
+  }
+  /// Whether enough of its weights is on vertices that can move: a feature that hardly can would have to be pushed far.
+  [[nodiscard]] bool can_move(const std::vector<char>& free) const {
+    constexpr double least_free = 0.25;
+    double moved = 0, all = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      all += std::abs(weights[i]);
+      if (free[static_cast<std::size_t>(vertices[i])] != 0) moved += std::abs(weights[i]);
+    }
+    return moved > 0 && moved >= least_free * all;
   }
   /// d(x) [m].
   [[nodiscard]] Eigen::Vector3d place(const Vertices& x) const { return gather(x) + offset; }

@@ -20,7 +20,6 @@ constexpr double contact_share = 0.1;  // of the tolerance, that gaps and slips 
 constexpr double linear_tolerance = 0.05;  // of conjugate gradients, in the norm of their preconditioner
 constexpr int most_linear_iterations = 300;
 constexpr double least_held = 0.1;       // of κ, from which on a direction counts as held
-constexpr double least_free = 0.25;      // of a contact's weights, that has to be on vertices that can move
 constexpr double worth_an_update = 0.5;  // largest move of an iteration, of the slack, at which multipliers change
 constexpr double fast = 0.5;             // what an iteration leaves of the gradient at most, unless it creeps
 constexpr double least_damping = 1.0 / 256, damping_growth = 4;
@@ -69,15 +68,6 @@ bool ContactSolver::any_collides() const {
   return std::ranges::any_of(contacts_, [](const ContactConstraint& contact) { return contact.collides; });
 }
 
-bool ContactSolver::can_move(const ContactConstraint& contact) const {
-  double moved = 0, all = 0;
-  for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
-    all += std::abs(contact.weights[i]);
-    if (free_[static_cast<Index>(contact.vertices[i])] != 0) moved += std::abs(contact.weights[i]);
-  }
-  return moved > 0 && moved >= least_free * all;
-}
-
 void ContactSolver::find(const Vertices& target, bool turn) {
   if (!target.allFinite()) return;
   before_.swap(contacts_);
@@ -90,7 +80,7 @@ void ContactSolver::find(const Vertices& target, bool turn) {
     }
     system_.contacts[static_cast<Index>(source)]->find(target, source, held_, contacts_);
   }
-  std::erase_if(contacts_, [&](const ContactConstraint& contact) { return !can_move(contact); });
+  std::erase_if(contacts_, [&](const ContactConstraint& contact) { return !contact.can_move(free_); });
   auto known = before_.begin();
   for (ContactConstraint& contact : contacts_) {
     while (known != before_.end() && known->key < contact.key) ++known;

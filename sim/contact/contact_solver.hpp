@@ -80,7 +80,6 @@ class ContactSolver {
   };
   /// Returns true if any contact, as found last, is a collision.
   [[nodiscard]] bool any_collides() const;
-  [[nodiscard]] bool can_move(const ContactConstraint& contact) const;
   /// Finds the contacts of a cloth that goes straight to `target`.
   /// @param turn known ones to how their features touch now, too
   void find(const Vertices& target, bool turn);

@@ -23,7 +23,8 @@ ImpulseContact::ImpulseContact(std::vector<std::unique_ptr<ContactSource>> sourc
                                const Eigen::Vector3d& gravity)
     : sources_(std::move(sources)), gravity_(gravity) {
   for (const double mass : cloth.masses) inverse_masses_.push_back(1 / mass);
-  for (const int pin : cloth.pins) inverse_masses_[Index(pin)] = 0;
+  free_.assign(inverse_masses_.size(), 1);
+  for (const int pin : cloth.pins) inverse_masses_[Index(pin)] = free_[Index(pin)] = 0;
 }
 
 void ImpulseContact::begin(const State& state, double) { start_v_ = state.v; }
@@ -77,7 +78,7 @@ void ImpulseContact::find() {
     for (Index i = 0; i < Index(contact.count); ++i) {
       compliance += contact.weights[i] * contact.weights[i] * inverse_masses_[Index(contact.vertices[i])];
     }
-    if (!(compliance > 0)) continue;
+    if (!contact.can_move(free_)) continue;
     Impulse impulse{.contact = contact, .compliance = compliance, .gap_at_end = 0, .turned = 0};
     while (known != before_.end() && known->contact.key < contact.key) ++known;
     if (known != before_.end() && known->contact.key == contact.key) {
@@ -145,6 +146,7 @@ Eigen::Vector3d ImpulseContact::change_of(const Impulse& impulse, double missing
 
 void ImpulseContact::solve() {
   for (int pass = 0; pass < most_impulse_passes; ++pass) {
+    look_at_stop();
     bool moved = false;
     for (Impulse& impulse : impulses_) {
       ContactConstraint& contact = impulse.contact;

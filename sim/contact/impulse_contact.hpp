@@ -64,6 +64,7 @@ class ImpulseContact final : public MotionFilter {
   std::vector<std::unique_ptr<ContactSource>> sources_;
   Eigen::Vector3d gravity_;
   std::vector<double> inverse_masses_;  // 0 on pins [1/kg]
+  std::vector<char> free_;              // whether each vertex can move
   std::vector<Impulse> impulses_, before_;
   std::vector<ContactConstraint> found_, held_;
   RigidZones zones_;

@@ -15,6 +15,8 @@ using Index = std::size_t;
 constexpr double impact_share = 0.5;   // of the distance at the end, down to which features may come on their way
 constexpr double target_slack = 0.25;  // how far a vertex may end from where pairs were searched for, in distances
 constexpr int vertex_kind = -1;        // of contacts of vertices with a body, before those of pairs
+constexpr double touch_reach = 1.25;   // features further apart than so many distances do not touch
+constexpr int most_steps_ahead = 8;    // for which one search does
 constexpr double resolved = 1e-9;      // of the distance: below, a difference has no direction
 
 Point plane_normal(Feature feature, const FourPoints& p) {
@@ -27,6 +29,10 @@ Point plane_normal(Feature feature, const FourPoints& p) {
 bool inside(const std::array<double, 4>& weights, Feature feature) {
   const auto first = feature == Feature::vertex_triangle ? weights.begin() + 1 : weights.begin();
   return std::none_of(first, weights.end(), [](double w) { return w == 0; });
+}
+
+ContactKey key_of(const FeaturePair& pair, int source) {
+  return {source, static_cast<int>(pair.feature), pair.vertices};
 }
 
 bool is_held(const std::vector<ContactConstraint>& held, const ContactKey& key) {
@@ -66,13 +72,39 @@ std::optional<Touch> find_touch(const FeatureWays& ways, double distance, bool h
 SelfContacts::SelfContacts(const ContactTerms& terms, const Cloth& cloth, const Threads& threads)
     : terms_(terms), cloth_(cloth), candidates_(cloth, threads) {
   x_.resize(static_cast<Index>(cloth.vertex_count()));
-  target_ = x_;
+  target_ = way_ = ahead_ = x_;
 }
 
 void SelfContacts::begin(const Vertices& x, double start, double end) {
   duration_ = end - start;
-  searched_ = false;
+  ++steps_since_;
   for (Index i = 0; i < x_.size(); ++i) x_[i] = x.row(static_cast<Eigen::Index>(i)).transpose();
+}
+
+bool SelfContacts::go_as_expected() const {
+  if (steps_since_ >= steps_ahead_) return false;
+  const double before = steps_since_, after = before + 1, most = target_slack * terms_.distance;
+  for (Index i = 0; i < x_.size(); ++i) {
+    const Point from = found_at_[i] + before * way_[i], to = found_at_[i] + after * way_[i];
+    if (!((x_[i] - from).squaredNorm() <= most * most && (target_[i] - to).squaredNorm() <= most * most)) return false;
+  }
+  return true;
+}
+
+void SelfContacts::find_candidates() {
+  Point together = Point::Zero();
+  for (Index i = 0; i < x_.size(); ++i) {
+    way_[i] = target_[i] - x_[i];
+    together += way_[i] / static_cast<double>(x_.size());
+  }
+  double longest = 0;
+  for (const Point& way : way_) longest = std::max(longest, (way - together).norm());
+  found_at_ = x_;
+  steps_since_ = 0;
+  steps_ahead_ = 1;
+  while (steps_ahead_ < most_steps_ahead && (steps_ahead_ + 1) * longest <= terms_.distance) ++steps_ahead_;
+  for (Index i = 0; i < x_.size(); ++i) ahead_[i] = x_[i] + steps_ahead_ * way_[i];
+  candidates_.find(x_, ahead_, (touch_reach + 2 * target_slack) * terms_.distance);
 }
 
 double SelfContacts::rest_distance(const FeaturePair& pair) const {
@@ -83,40 +115,41 @@ double SelfContacts::rest_distance(const FeaturePair& pair) const {
 
 void SelfContacts::find(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
                         std::vector<ContactConstraint>& contacts) {
-  bool astray = !searched_;
-  for (Index i = 0; i < x_.size(); ++i) {
-    target_[i] = target.row(static_cast<Eigen::Index>(i)).transpose();
-    if (!astray) astray = (target_[i] - found_for_[i]).norm() > target_slack * terms_.distance;
-  }
-  if (astray) {
-    candidates_.find(x_, target_, (1 + 2 * target_slack) * terms_.distance);
-    found_for_ = target_;
-    searched_ = true;
-  }
+  for (Index i = 0; i < x_.size(); ++i) target_[i] = target.row(static_cast<Eigen::Index>(i)).transpose();
+  if (!go_as_expected()) find_candidates();
+  const auto first = static_cast<std::ptrdiff_t>(contacts.size());
   for (const FeaturePair& pair : candidates_.pairs()) {
-    const ContactKey key{source, static_cast<int>(pair.feature), pair.vertices};
-    const FourPoints from = gather(x_, pair.vertices), to = gather(target_, pair.vertices);
-    const bool bears = is_held(held, key);
-    if (!bears && kept_apart(pair.feature, from, to, terms_.distance)) continue;
-    const double before = std::sqrt(nearest(pair.feature, from).squared);
-    const double kept = std::min(terms_.distance, rest_distance(pair));
-    const double distance = distance_at_end(before, kept, duration_);
-    const auto touch = find_touch({pair.feature, from, to, before}, distance, bears);
-    if (!touch) continue;
-    ContactConstraint contact;
-    contact.key = key;
-    contact.count = 4;
-    contact.vertices = pair.vertices;
-    contact.weights = touch->weights;
-    contact.normal = touch->normal;
-    contact.offset = contact.carried = Eigen::Vector3d::Zero();
-    contact.start = Eigen::Vector3d::Zero();
-    for (Index i = 0; i < 4; ++i) contact.start += touch->weights[i] * from[i];
-    contact.distance = distance;
-    contact.friction = terms_.friction;
-    contact.collides = touch->collides;
-    contacts.push_back(contact);
+    add(pair, source, is_held(held, key_of(pair, source)), contacts);
   }
+  // What bears a force may have gone beyond the pairs that are near.
+  for (const ContactConstraint& contact : held) {
+    const FeaturePair pair{static_cast<Feature>(contact.key.kind), contact.key.features};
+    if (!std::ranges::binary_search(candidates_.pairs(), pair)) add(pair, source, true, contacts);
+  }
+  std::ranges::sort(contacts.begin() + first, contacts.end(), {}, &ContactConstraint::key);
+}
+
+void SelfContacts::add(const FeaturePair& pair, int source, bool held, std::vector<ContactConstraint>& contacts) const {
+  const FourPoints from = gather(x_, pair.vertices), to = gather(target_, pair.vertices);
+  if (!held && kept_apart(pair.feature, from, to, terms_.distance)) return;
+  const double before = std::sqrt(nearest(pair.feature, from).squared);
+  const double kept = std::min(terms_.distance, rest_distance(pair));
+  const double distance = distance_at_end(before, kept, duration_);
+  const auto touch = find_touch({pair.feature, from, to, before}, distance, held);
+  if (!touch) return;
+  ContactConstraint contact;
+  contact.key = key_of(pair, source);
+  contact.count = 4;
+  contact.vertices = pair.vertices;
+  contact.weights = touch->weights;
+  contact.normal = touch->normal;
+  contact.offset = contact.carried = Eigen::Vector3d::Zero();
+  contact.start = Eigen::Vector3d::Zero();
+  for (Index i = 0; i < 4; ++i) contact.start += touch->weights[i] * from[i];
+  contact.distance = distance;
+  contact.friction = terms_.friction;
+  contact.collides = touch->collides;
+  contacts.push_back(contact);
 }
 
 BodyContacts::BodyContacts(std::shared_ptr<const MovingBody> body, const ContactTerms& terms, const Cloth& cloth,

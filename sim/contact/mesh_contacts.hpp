@@ -39,15 +39,20 @@ class SelfContacts final : public ContactSource {
             std::vector<ContactConstraint>& contacts) override;
 
  private:
+  /// Whether the candidates hold for this step: whether the vertices go as it was expected when they were found.
+  [[nodiscard]] bool go_as_expected() const;
+  void find_candidates();
+  /// Appends the contact of a pair, if it has one.
+  void add(const FeaturePair& pair, int source, bool held, std::vector<ContactConstraint>& contacts) const;
   /// Distance of two features in the rest shape [m].
   [[nodiscard]] double rest_distance(const FeaturePair& pair) const;
 
   ContactTerms terms_;
   const Cloth& cloth_;
-  CollisionCandidates candidates_;
+  CollisionCandidates candidates_;  // of some steps as the one in which they were found
   double duration_ = 0;
-  bool searched_ = false;  // in this step
-  std::vector<Point> x_, target_, found_for_;
+  int steps_since_ = 0, steps_ahead_ = 0;
+  std::vector<Point> x_, target_, found_at_, way_, ahead_;
 };
 
 /// Contacts of a cloth with a body: vertices of the cloth keep the whole distance from its surface; its edges and

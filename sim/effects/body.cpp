@@ -141,25 +141,28 @@ void Body::check(const SimulationSettings& settings, const ProblemSink& problem)
   if (center && !keyframes.empty()) problem("center", "'keyframes' already says where its centre is");
   if (orbit_period && !turns.empty()) problem("rotations", "omit them on an orbit: the body turns with it");
   check_orbit(orbit_period, orbit_axis, problem);
-  law().check(settings, problem);
+  law(has_impulses(settings)).check(settings, problem);
 }
 
 void Body::install(System& system) const {
   const std::shared_ptr<const MovingBody> moving = body();
   const bool rests = !velocity && !orbit_period && keyframes.empty() && turns.empty() && !moving->deforms();
   system.colliders.push_back(std::make_unique<DrawnBody>(moving, thickness, rests));
-  if (response == Response::solved) {
+  const ContactLaw contact = law(system.impulses);
+  if (contact.response == Response::solved) {
     const ContactTerms terms{thickness, friction, restitution.value_or(0)};
     system.contacts.push_back(std::make_unique<BodyContacts>(moving, terms, system.cloth, system.threads));
     return;
   }
   const auto feet = std::make_shared<FootMemory>(static_cast<std::size_t>(system.cloth.vertex_count()), thickness);
-  install_contact(BodySurface{moving, thickness, feet}, law(), system);
-  const BodyLaw limits{thickness, friction, std::sqrt(stiffness)};
+  install_contact(BodySurface{moving, thickness, feet}, contact, system);
+  const BodyLaw limits{thickness, friction, std::sqrt(contact.stiffness)};
   system.filters.push_back(std::make_unique<BodyContact>(moving, limits, system.cloth, system.threads));
 }
 
-ContactLaw Body::law() const { return {stiffness, response, friction, restitution}; }
+ContactLaw Body::law(bool impulses) const {
+  return {stiffness, response_or_usual(response, impulses && !stiffness), friction, restitution};
+}
 
 std::shared_ptr<const MovingBody> Body::body() const {
   std::shared_ptr<const MeshMotion> form = mesh;

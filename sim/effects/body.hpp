@@ -40,8 +40,8 @@ struct Body {
   Eigen::Vector3d rotate = Eigen::Vector3d::Zero();  ///< about the fixed x axis, then y, then z [degrees]
   double thickness = 0.01;                           ///< of the layer around it in which it pushes [m]
 
-  double stiffness = 8000;  ///< of the push [1/s²]
-  Response response = Response::explicit_force;
+  std::optional<double> stiffness = {};   ///< of the push [1/s²]; absent: usual_stiffness, if anything pushes
+  std::optional<Response> response = {};  ///< absent: an explicit push with `stiffness`, else see response_or_usual()
   double friction = 0.5;                  ///< Coulomb's coefficient
   std::optional<double> restitution = 0;  ///< of impacts, 0 to 1; without one the push gives back what it takes
 
@@ -59,7 +59,8 @@ struct Body {
   void install(System& system) const;
 
  private:
-  [[nodiscard]] ContactLaw law() const;
+  /// @param impulses whether the method is explicit, see response_or_usual()
+  [[nodiscard]] ContactLaw law(bool impulses) const;
   [[nodiscard]] std::shared_ptr<const MovingBody> body() const;
   [[nodiscard]] std::shared_ptr<const SphereTrack> path(const std::optional<Orbit>& orbit) const;
 };

@@ -7,13 +7,17 @@
 
 namespace drape {
 
-void describe_contact(Keys& keys, double& stiffness, Response& response, double& friction,
+void describe_contact(Keys& keys, std::optional<double>& stiffness, std::optional<Response>& response, double& friction,
                       std::optional<double>& restitution, const std::string& without_restitution) {
-  keys.add("stiffness", &stiffness, "1/s²", "Outward acceleration per metre of depth within that reach.").at_least(0);
+  keys.add("stiffness", &stiffness, "1/s²",
+           "Outward acceleration per metre of depth within that reach: a push, and by explicit methods instead of "
+           "contact that is solved for. Default of a push: 8000.")
+      .at_least(0);
   keys.choice(
       "response", response, {"explicit", "implicit", "solved"},
-      "A push that is evaluated once per step, or is solved for together with the springs; or contact without a "
-      "push, solved for with the whole step: its total energy never rises. `stiffness` does not act then.");
+      "Contact without a push, \"solved\" for with the whole step: its total energy never rises, and `stiffness` does "
+      "not act. Or a push that is evaluated once per step, or is solved for together with the springs. Default: "
+      "\"solved\" by explicit methods unless a `stiffness` is given, \"explicit\" by the others.");
   keys.add("friction", &friction, "",
            "Coulomb's coefficient µ: a vertex at rest on a slope of tan θ ≤ µ stays there; 0 is frictionless.")
       .at_least(0);
@@ -21,6 +25,10 @@ void describe_contact(Keys& keys, double& stiffness, Response& response, double&
            "Fraction of its impact speed with which a vertex rebounds: 1 all of it, 0 none" + without_restitution + ".")
       .at_least(0)
       .at_most(1);
+}
+
+bool has_impulses(const SimulationSettings& settings) {
+  return is_explicit(settings.integrator.method) || settings.integrator.method == Method::automatic;
 }
 
 std::optional<std::string> solved_problem(const SimulationSettings& settings) {

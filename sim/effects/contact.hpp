@@ -21,21 +21,29 @@ namespace drape {
 
 /// How a surface answers a vertex inside it: it pushes outwards with an acceleration of stiffness·(−gap).
 struct ContactLaw {
+  static constexpr double usual_stiffness = 8000;  ///< [1/s²]
+
   double stiffness;  ///< [1/s²]
   Response response;
   double friction;                    ///< Coulomb's coefficient
   std::optional<double> restitution;  ///< of impacts, see ReboundFilter; without, the push is a spring and nothing else
 
+  ContactLaw(const std::optional<double>& k, Response r, double mu, const std::optional<double>& e)
+      : stiffness(k.value_or(usual_stiffness)), response(r), friction(mu), restitution(e) {}
+
   /// Says what is wrong with it in these settings.
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;
 };
+
+/// Whether the method of these settings is explicit, or will be chosen.
+bool has_impulses(const SimulationSettings& settings);
 
 /// What keeps contact from being Response::solved in these settings.
 std::optional<std::string> solved_problem(const SimulationSettings& settings);
 
 /// Adds the keys of an effect that has these members.
 /// @param without_restitution ends the sentence about restitution: what happens without
-void describe_contact(Keys& keys, double& stiffness, Response& response, double& friction,
+void describe_contact(Keys& keys, std::optional<double>& stiffness, std::optional<Response>& response, double& friction,
                       std::optional<double>& restitution, const std::string& without_restitution);
 
 /// The push as a force, a = stiffness·(−gap) outwards; where no direction leads outwards there is none.

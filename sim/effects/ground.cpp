@@ -47,20 +47,23 @@ void Ground::describe(Keys& keys) {
 
 void Ground::check(const SimulationSettings& settings, const ProblemSink& problem) const {
   if (normal.isZero(0)) problem("normal", "expected a direction, found [0, 0, 0]");
-  law().check(settings, problem);
+  law(has_impulses(settings)).check(settings, problem);
 }
 
 void Ground::install(System& system) const {
   const Eigen::Vector3d up = normal.stableNormalized();
   system.colliders.push_back(std::make_unique<RestingGround>(GroundShape{up, height, thickness}));
-  if (response == Response::solved) {
+  const ContactLaw contact = law(system.impulses);
+  if (contact.response == Response::solved) {
     const ContactTerms terms{thickness, friction, restitution.value_or(0)};
     system.contacts.push_back(std::make_unique<SurfaceContacts<PlaneObstacle>>(PlaneObstacle{up, height}, terms));
     return;
   }
-  install_contact(GroundSurface{up, height + thickness}, law(), system);
+  install_contact(GroundSurface{up, height + thickness}, contact, system);
 }
 
-ContactLaw Ground::law() const { return {stiffness, response, friction, restitution}; }
+ContactLaw Ground::law(bool impulses) const {
+  return {stiffness, response_or_usual(response, impulses && !stiffness), friction, restitution};
+}
 
 }  // namespace drape

@@ -24,8 +24,8 @@ struct Ground {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< out of it, of any length but 0
   double thickness = 0.02;                            ///< of the layer above it in which it pushes [m]
 
-  double stiffness = 8000;  ///< of the push [1/s²]
-  Response response = Response::explicit_force;
+  std::optional<double> stiffness = {};   ///< of the push [1/s²]; absent: usual_stiffness, if anything pushes
+  std::optional<Response> response = {};  ///< absent: an explicit push with `stiffness`, else see response_or_usual()
   double friction = 0.5;                  ///< Coulomb's coefficient
   std::optional<double> restitution = 0;  ///< of impacts, 0 to 1; without one the push gives back what it takes
 
@@ -34,7 +34,8 @@ struct Ground {
   void install(System& system) const;
 
  private:
-  [[nodiscard]] ContactLaw law() const;
+  /// @param impulses whether the method is explicit, see response_or_usual()
+  [[nodiscard]] ContactLaw law(bool impulses) const;
 };
 
 }  // namespace drape

@@ -19,7 +19,8 @@ void SelfCollision::describe(Keys& keys) {
       .at_least(0);
   keys.add("friction", &friction, "", "Coefficient of Coulomb friction between layers.").at_least(0);
   keys.choice("response", response, {"explicit", "implicit", "solved"},
-              "Impulses after the step; or \"solved\": contact is solved for with the whole step, see `ground`.");
+              "Contact is \"solved\" for with the whole step, see `ground`; or impulses after the step. Default: "
+              "\"solved\" by explicit methods, \"explicit\" by the others.");
   keys.add("iterations", &iterations, "",
            "Passes over the contacts in a step, and over the collisions before the rest becomes rigid for that step.")
       .at_least(1);
@@ -47,7 +48,7 @@ void SelfCollision::check(const SimulationSettings& settings, const ProblemSink&
 }
 
 void SelfCollision::install(System& system) const {
-  if (response == Response::solved) {
+  if (response_or_usual(response, system.impulses) == Response::solved) {
     const ContactTerms terms{.distance = thickness, .friction = friction};
     system.contacts.push_back(std::make_unique<SelfContacts>(terms, system.cloth, system.threads));
     return;

@@ -18,7 +18,8 @@ struct SelfCollision {
   double repulsion = 20;    ///< the part of the missing distance by which they separate per second, at first [1/s]
   double friction = 0.3;    ///< Coulomb's coefficient between layers
   int iterations = 10;      ///< passes over the contacts of a step, and over its collisions before they become rigid
-  Response response = Response::explicit_force;  ///< impulses after the step, or solved for with it
+  std::optional<Response> response =
+      {};  ///< impulses after the step, or solved for with it, the usual in an explicit one
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;

@@ -96,7 +96,7 @@ void Sphere::check(const SimulationSettings& settings, const ProblemSink& proble
     problem("track", "the moving object in this file has no size: also give the 'radius'");
   }
   check_orbit(orbit_period, orbit_axis, problem);
-  law().check(settings, problem);
+  law(has_impulses(settings)).check(settings, problem);
 }
 
 void Sphere::install(System& system) const {
@@ -104,16 +104,21 @@ void Sphere::install(System& system) const {
   const Reach reach = thickness ? Reach{1, *thickness} : Reach{scale.value_or(usual_scale), 0};
   const bool rests = !velocity && !orbit_period && keyframes.empty() && track == nullptr;
   system.colliders.push_back(std::make_unique<TrackedSphere>(moving, reach, rests));
-  if (response == Response::solved) {
+  const ContactLaw contact = law(system.impulses);
+  if (contact.response == Response::solved) {
     const ContactTerms terms{reach.thickness, friction, restitution.value_or(0)};
     system.contacts.push_back(
         std::make_unique<SurfaceContacts<BallObstacle>>(BallObstacle{moving, reach.scale}, terms));
     return;
   }
-  install_contact(SphereSurface{moving, reach}, law(), system);
+  install_contact(SphereSurface{moving, reach}, contact, system);
 }
 
-ContactLaw Sphere::law() const { return {stiffness, response, friction, restitution}; }
+ContactLaw Sphere::law(bool impulses) const {
+  // The homework's penalty is a push and nothing else.
+  const bool pushes = stiffness || (friction == 0 && !restitution && !thickness);
+  return {stiffness, response_or_usual(response, impulses && !pushes), friction, restitution};
+}
 
 std::shared_ptr<const SphereTrack> Sphere::motion() const {
   if (track) return radius ? with_radius(track, *radius) : track;

@@ -31,8 +31,9 @@ struct Sphere {
   std::optional<double> scale = {};      ///< it pushes within scale·radius of the centre; at least 1, usually 1.1
   std::optional<double> thickness = {};  ///< or this far beyond its radius [m]
 
-  double stiffness = 8000;  ///< of the push [1/s²]
-  Response response = Response::explicit_force;
+  std::optional<double> stiffness = {};  ///< of the push [1/s²]; absent: usual_stiffness, if anything pushes
+  std::optional<Response> response =
+      {};  ///< absent: an explicit push with `stiffness` or where it neither rubs nor bounces nor has a `thickness`
   double friction = 0;                     ///< Coulomb's coefficient
   std::optional<double> restitution = {};  ///< of impacts, 0 to 1; without one the push gives back what it takes
 
@@ -51,7 +52,8 @@ struct Sphere {
   static constexpr double usual_scale = 1.1;  ///< where neither scale nor thickness says how far it pushes
 
  private:
-  [[nodiscard]] ContactLaw law() const;
+  /// @param impulses whether the method is explicit, see response_or_usual()
+  [[nodiscard]] ContactLaw law(bool impulses) const;
   [[nodiscard]] std::shared_ptr<const SphereTrack> motion() const;
 };
 
