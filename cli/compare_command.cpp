@@ -122,6 +122,7 @@ ExitCode conclude(const CompareResult& result) {
   for (const std::string& problem : result.problems) spdlog::error(problem);
   ExitCode code = result.problems.empty() ? ExitCode::ok : ExitCode::output;
   for (const ComparedMotion& motion : result.motions) {
+    if (!motion.matched.empty()) spdlog::info("{}: {}", motion.label, motion.matched);
     if (motion.divergence.empty()) continue;
     spdlog::error("{}: {}", motion.label, motion.divergence);
     code = std::max(code, ExitCode::diverged);

@@ -147,6 +147,10 @@ std::vector<SceneToRun> load_all(const RunArguments& arguments) {
     }
     try {
       all.push_back(open_scene(file, arguments.overrides, arguments.look));
+      if (all.back().recorded && !arguments.drawing) {
+        problems.add(file,
+                     fmt::format("{}: its motion is read, so there is nothing to simulate: use drape render", file));
+      }
     } catch (const UsageError& error) {
       problems.add(file, error.what());
     }

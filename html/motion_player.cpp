@@ -47,6 +47,12 @@ Markup data(const std::string& style, std::string text) {
   return element("script", {{"type", "text/plain"}, {"class", style}}, Markup::trusted(std::move(text)));
 }
 
+/// JSON that cannot end the element that it stands in.
+std::string harmless(std::string json) {
+  for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) json.replace(at, 1, "\\u003c");
+  return json;
+}
+
 }  // namespace
 
 std::string describe(const PlayedMotion& motion) {
@@ -69,7 +75,7 @@ Markup motion_player(const std::string& id, const PlayedMotion& motion, const st
               "Drag to turn; with Shift, or two fingers, to move; the wheel or two fingers enlarge. Keys: arrows turn, "
               "+ and − enlarge, 0 resets, the space bar plays, comma and full stop go by a frame, c colours, m shows "
               "the mesh.") +
-          data("motion-description", motion.description) + data("motion-numbers", base64(motion.data)));
+          data("motion-description", harmless(motion.description)) + data("motion-numbers", base64(motion.data)));
 }
 
 }  // namespace drape::html
