@@ -14,7 +14,7 @@ const MotionPainter = (() => {
     uniform vec4 ball, plane;  // what is drawn is moved by ball.xyz and enlarged by ball.w; its shadow falls on a plane
     uniform vec3 sun;
     uniform bool flat_;
-    uniform float lift;  // towards the eye, of lines on a surface
+    uniform float lift;  // towards the eye, of lines on a surface and of shadows on a ground
     in vec3 position, normal;
     in float strain;
     out vec3 at, up;
@@ -136,7 +136,6 @@ const MotionPainter = (() => {
       gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
       gl.stencilFunc(gl.EQUAL, 0, 255);
       gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR);
-      gl.polygonOffset(1, 1);
     }
 
     link() {
@@ -283,15 +282,14 @@ const MotionPainter = (() => {
       this.square.positions.set([corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)].flat());
       this.update(this.square);
       gl.enable(gl.BLEND);
-      gl.enable(gl.POLYGON_OFFSET_FILL);
       const shade = look.dark ? 0.32 : 1;
       this.fill(this.square, { color: motion.ground.map((x) => shade * x), reach, grid: motion.grid, middle, across, along });
       if (dot(normal, look.eye) > plane[3]) {
-        gl.disable(gl.POLYGON_OFFSET_FILL);
         gl.enable(gl.STENCIL_TEST);
         gl.depthMask(false);
         gl.clear(gl.STENCIL_BUFFER_BIT);
-        this.things(look, { flat_: true, plane, paint: [0, 0, 0, look.dark ? 0.5 : 0.28], middle, reach });
+        this.things(look, { flat_: true, plane, lift: 2e-4, paint: [0, 0, 0, look.dark ? 0.5 : 0.28],
+                            middle, reach });
         gl.depthMask(true);
         gl.disable(gl.STENCIL_TEST);
       }
@@ -305,9 +303,7 @@ const MotionPainter = (() => {
       gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
       this.set({ projection: look.projection, eye: look.eye, sun: look.sun });
       for (let i = 0; i < this.planes.length; i += 4) this.ground(this.plane(i), look);
-      gl.enable(gl.POLYGON_OFFSET_FILL);
       this.things(look);
-      gl.disable(gl.POLYGON_OFFSET_FILL);
     }
   };
 })();
