@@ -81,6 +81,28 @@ TEST_F(Strangers, HaveTimesOfTheirOwn) {
   EXPECT_NEAR(reader.state(1).v(0, 2), 10, 1e-9);  // (4 − 0)/0.4 s
 }
 
+/// The samples of a USD file are read when they are needed; what is wrong with one is said with its place.
+TEST_F(Strangers, AreToldWhatIsWrongWithASample) {
+  const std::string first = "  0: [(0, 0, 0), (1, 0, 0), (0, 1, 0)],\n";
+  const auto motion = [](const std::string& samples) {
+    return "#usda 1.0\n(\n upAxis = \"Z\"\n metersPerUnit = 1\n)\ndef Mesh \"m\"\n{\n int[] faceVertexCounts = [3]\n"
+           " int[] faceVertexIndices = [0, 1, 2]\n point3f[] points.timeSamples = {\n" +
+           samples + " }\n}\n";
+  };
+  const std::string second = "  24: [(0, 0, 1), (1, 0, 1), (0, 1, 1)],\n",
+                    third = "  48: [(0, 0, 3), (1, 0, 3), (0, 1, 3)],\n";
+  for (const std::string& samples : {first + second + third, third + second + first}) {
+    put("good.usda", motion(samples));
+    EXPECT_EQ(read("good.usda").frames, 3);
+    MotionReader reader(path("out.drape"));
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(reader.state(k).x(2, 2), k == 2 ? 3 : k);
+  }
+  put("more.usda", motion(first + second + "  48: [(0, 0, 1), (1, 0, 1), (0, 1, 1), (1, 1, 1)],\n"));
+  expect_refused("more.usda", "more.usda:13:7: points: expected 3 as in the first sample, found 4");
+  put("word.usda", motion(first + "  24: [(0, 0, 1), (1, x, 1), (0, 1, 1)],\n"));
+  expect_refused("word.usda", "word.usda:12:23: expected a finite number");
+}
+
 TEST_F(Strangers, AreToldWhatIsWrongWithASequence) {
   put("gap/0.obj", triangle_obj);
   put("gap/2.obj", triangle_obj);
