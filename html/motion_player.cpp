@@ -17,14 +17,15 @@ Markup button(const std::string& style, const std::string& label) {
   return element("button", {{"type", "button"}, {"class", style}}, label);
 }
 
-Markup speeds() {
+Markup speeds(bool hidden) {
   Markup options;
   for (const auto& [factor, name] : {std::pair("0.1", "1/10"), std::pair("0.25", "1/4"), std::pair("0.5", "1/2"),
                                      std::pair("1", "1"), std::pair("2", "2")}) {
     options +=
         element("option", {{"value", factor}, {"selected?", std::string(factor) == "1" ? "selected" : ""}}, name);
   }
-  return element("label", Markup("Speed ") + element("select", {{"class", "speed"}, {"autocomplete", "off"}}, options));
+  return element("label", {{"hidden?", hidden ? "hidden" : ""}},
+                 Markup("Speed ") + element("select", {{"class", "speed"}, {"autocomplete", "off"}}, options));
 }
 
 Markup controls(const std::string& id, const PlayedMotion& motion) {
@@ -36,10 +37,10 @@ Markup controls(const std::string& id, const PlayedMotion& motion) {
                                           {"value", "0"},
                                           {"autocomplete", "off"},
                                           {"aria-label", "Moment"}});
-  return element("div", {{"class", "film-controls"}},
+  return element("div", {{"class", "film-controls"}, {"hidden?", motion.frames > 1 ? "" : "hidden"}},
                  button("play", "Play") + slider + element("output", {{"for", id}}, "t = 0 s")) +
          element("div", {{"class", "film-controls"}},
-                 box("by-stretch", "Colour by stretch") + box("mesh-lines", "Mesh lines") + speeds() +
+                 box("by-stretch", "Colour by stretch") + box("mesh-lines", "Mesh lines") + speeds(motion.frames == 1) +
                      button("reset", "Reset view"));
 }
 
