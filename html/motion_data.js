@@ -1,7 +1,7 @@
 "use strict";
 // Unpacks the motion of a page, which output/motion_packer.cpp has packed. unpackMotion(description, base64) promises
 // the description with
-//   meshes    cloth first: { vertices, triangles, frames: an array of whole numbers for each, x, y, z of each vertex }
+//   meshes    cloth first, with the uvs of its corners where it has a texture: { vertices, triangles, frames: an array of whole numbers for each, x, y, z of each vertex }
 //   strains   for each frame the logarithmic strain of each vertex
 //   balls     for each frame x, y, z and radius of each sphere
 //   planes    for each frame x, y, z of the normal and the height of each ground
@@ -94,6 +94,14 @@ const unpackMotion = (() => {
     return triangles;
   }
 
+  // u and v of each corner of a triangle.
+  function uvsOf(reader, corners) {
+    const uvs = new Float32Array(2 * corners);
+    const last = [0, 0];
+    for (let i = 0; i < uvs.length; ++i) uvs[i] = (last[i % 2] += reader.varint()) / 4096;
+    return uvs;
+  }
+
   async function inflated(base64) {
     const text = atob(base64);
     const packed = new Uint8Array(text.length);
@@ -108,6 +116,7 @@ const unpackMotion = (() => {
     motion.meshes = motion.vertices.map((vertices, k) =>
       ({ vertices, triangles: trianglesOf(reader, motion.triangles[k]), frames: [] }));
     const [cloth] = motion.meshes;
+    if (motion.textured) cloth.uvs = uvsOf(reader, cloth.triangles.length);
     const tracks = motion.meshes.map((mesh) => new Track(mesh.triangles, mesh.vertices, 3));
     const strain = new Track(cloth.triangles, cloth.vertices, 1);
     motion.strains = [];

@@ -17,12 +17,15 @@ const MotionPainter = (() => {
     uniform float lift;  // towards the eye, of lines on a surface and of shadows on a ground
     in vec3 position, normal;
     in float strain;
+    in vec2 place;
     out vec3 at, up;
     out float value;
+    out vec2 uv;
     void main() {
       at = ball.xyz + ball.w * position;
       up = normal;
       value = strain;
+      uv = place;
       vec3 shown = at;
       if (flat_) shown -= sun * max(dot(plane.xyz, at) - plane.w, 0.0) / max(dot(plane.xyz, sun), 0.05);
       gl_Position = projection * vec4(shown, 1);
@@ -34,9 +37,11 @@ const MotionPainter = (() => {
     uniform float limit, grid, reach;  // above 0: of the colours; between the lines of a ground, which fades out
     uniform vec4 paint;                // with an alpha above 0: a colour without light
     uniform vec3 middle, across, along;
-    uniform sampler2D scale;
+    uniform sampler2D scale, picture;
+    uniform bool textured;
     in vec3 at, up;
     in float value;
+    in vec2 uv;
     out vec4 pixel;
     vec3 linear(vec3 srgb) { return pow(srgb, vec3(2.2)); }
     void main() {
@@ -50,7 +55,7 @@ const MotionPainter = (() => {
       if (back) n = -n;
       float size = float(textureSize(scale, 0).x);
       vec3 base = linear(limit > 0.0 ? texture(scale, vec2((clamp(value / limit, 0.0, 1.0) * (size - 1.0) + 0.5) / size,
-                                                           0.5)).rgb : color);
+                                                           0.5)).rgb : textured ? texture(picture, uv).rgb : color);
       float light = 0.62 * max(dot(n, sun), 0.0) + 0.2 * max(dot(n, view), 0.0) + 0.2 + 0.1 * n.z;
       if (back) light *= 0.85;
       float alpha = 1.0;
@@ -113,6 +118,32 @@ const MotionPainter = (() => {
     }
   }
 
+  /// The vertices of a mesh with one texture coordinate each: one that has several is repeated.
+  /// @returns for each of them the vertex of the mesh and u, v; and the triangles of them
+  function unfolded(triangles, uvs) {
+    const known = new Map(), sources = [], places = [];
+    const corners = triangles.map((vertex, corner) => {
+      const u = uvs[2 * corner], v = uvs[2 * corner + 1], key = `${vertex} ${u} ${v}`;
+      if (!known.has(key)) {
+        known.set(key, sources.length);
+        sources.push(vertex);
+        places.push(u, v);
+      }
+      return known.get(key);
+    });
+    return { sources, places: new Float32Array(places), corners };
+  }
+
+  /// Numbers of a mesh's vertices as its surface shows them.
+  function spread(surface, numbers, columns) {
+    if (!surface.unfolded) return numbers;
+    const { sources } = surface.unfolded, all = new Float32Array(columns * sources.length);
+    for (let i = 0; i < sources.length; ++i) {
+      for (let c = 0; c < columns; ++c) all[columns * i + c] = numbers[columns * sources[i] + c];
+    }
+    return all;
+  }
+
   /// Coordinates are relative to the motion's origin.
   return class {
     constructor(gl, motion) {
@@ -126,10 +157,12 @@ const MotionPainter = (() => {
         const { name } = gl.getActiveUniform(this.program, i);
         this.places[name] = gl.getUniformLocation(this.program, name);
       }
-      this.surfaces = motion.meshes.map((mesh) => this.surface(new Float32Array(3 * mesh.vertices), mesh.triangles, true));
+      this.surfaces = motion.meshes.map((mesh) =>
+        this.surface(new Float32Array(3 * mesh.vertices), mesh.triangles, true, motion.picture ? mesh.uvs : undefined));
       const [positions, triangles] = sphere();
       this.ball = this.surface(positions, triangles, false);
       this.square = this.surface(new Float32Array(12), new Uint32Array([0, 1, 2, 0, 2, 3]), false);
+      if (motion.picture) this.makePicture(motion.picture);
       this.makeScale();
       gl.enable(gl.DEPTH_TEST);
       gl.depthFunc(gl.LEQUAL);
@@ -148,7 +181,7 @@ const MotionPainter = (() => {
         if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
         gl.attachShader(program, shader);
       }
-      ["position", "normal", "strain"].forEach((name, i) => gl.bindAttribLocation(program, i, name));
+      ["position", "normal", "strain", "place"].forEach((name, i) => gl.bindAttribLocation(program, i, name));
       gl.linkProgram(program);
       return program;
     }
@@ -161,21 +194,29 @@ const MotionPainter = (() => {
       return buffer;
     }
 
-    surface(positions, triangles, moves) {
+    /// @param uvs of the triangles' corners; none without a texture
+    surface(positions, triangles, moves, uvs) {
       const { gl } = this;
-      const s = { positions, triangles, normals: new Float32Array(positions.length), array: gl.createVertexArray() };
+      const s = { positions, triangles, normals: new Float32Array(positions.length), array: gl.createVertexArray(),
+                  unfolded: uvs && unfolded(triangles, uvs) };
       gl.bindVertexArray(s.array);
-      s.positionBuffer = this.buffer(gl.ARRAY_BUFFER, positions);
+      s.positionBuffer = this.buffer(gl.ARRAY_BUFFER, spread(s, positions, 3));
       gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
       gl.enableVertexAttribArray(0);
       if (!moves) normalsOf(positions, triangles, s.normals);
-      s.normalBuffer = this.buffer(gl.ARRAY_BUFFER, s.normals);
+      s.normalBuffer = this.buffer(gl.ARRAY_BUFFER, spread(s, s.normals, 3));
       gl.vertexAttribPointer(1, 3, gl.FLOAT, false, 0, 0);
       gl.enableVertexAttribArray(1);
-      const edges = moves ? edgesOf(triangles, positions.length / 3) : new Uint32Array();
+      if (s.unfolded) {
+        this.buffer(gl.ARRAY_BUFFER, s.unfolded.places);
+        gl.vertexAttribPointer(3, 2, gl.FLOAT, false, 0, 0);
+        gl.enableVertexAttribArray(3);
+      }
+      const shown = s.unfolded ? s.unfolded.corners : triangles;
+      const edges = moves ? edgesOf(shown, s.unfolded ? s.unfolded.sources.length : positions.length / 3) : new Uint32Array();
       s.edges = edges.length;
       const indices = new Uint32Array(triangles.length + edges.length);
-      indices.set(triangles);
+      indices.set(shown);
       indices.set(edges, triangles.length);
       this.buffer(gl.ELEMENT_ARRAY_BUFFER, indices);
       return s;
@@ -186,8 +227,21 @@ const MotionPainter = (() => {
       normalsOf(s.positions, s.triangles, s.normals);
       for (const [buffer, data] of [[s.positionBuffer, s.positions], [s.normalBuffer, s.normals]]) {
         gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-        gl.bufferSubData(gl.ARRAY_BUFFER, 0, data);
+        gl.bufferSubData(gl.ARRAY_BUFFER, 0, spread(s, data, 3));
       }
+    }
+
+    /// The cloth's texture, an image that is loaded.
+    makePicture(image) {
+      const { gl } = this;
+      gl.activeTexture(gl.TEXTURE1);
+      gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+      gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, true);
+      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB, gl.RGB, gl.UNSIGNED_BYTE, image);
+      gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, false);
+      gl.generateMipmap(gl.TEXTURE_2D);
+      gl.uniform1i(this.places.picture, 1);
+      gl.activeTexture(gl.TEXTURE0);
     }
 
     makeScale() {
@@ -202,7 +256,7 @@ const MotionPainter = (() => {
       }
       [this.strains] = [new Float32Array(motion.vertices[0])];
       gl.bindVertexArray(this.surfaces[0].array);
-      this.strainBuffer = this.buffer(gl.ARRAY_BUFFER, this.strains);
+      this.strainBuffer = this.buffer(gl.ARRAY_BUFFER, spread(this.surfaces[0], this.strains, 1));
       gl.vertexAttribPointer(2, 1, gl.FLOAT, false, 0, 0);
       gl.enableVertexAttribArray(2);
     }
@@ -222,7 +276,7 @@ const MotionPainter = (() => {
         this.strains[i] = motion.leastStrain * (2 ** ((a[i] + part * (b[i] - a[i])) / motion.strainSteps) - 1);
       }
       gl.bindBuffer(gl.ARRAY_BUFFER, this.strainBuffer);
-      gl.bufferSubData(gl.ARRAY_BUFFER, 0, this.strains);
+      gl.bufferSubData(gl.ARRAY_BUFFER, 0, spread(this.surfaces[0], this.strains, 1));
       const mixed = (list) => list[frame].map((x, i) => x + part * (list[next][i] - x));
       this.balls = mixed(motion.balls);
       this.planes = mixed(motion.planes);
@@ -242,7 +296,8 @@ const MotionPainter = (() => {
 
     fill(s, values) {
       const { gl } = this;
-      this.set({ ball: [0, 0, 0, 1], paint: [0, 0, 0, 0], reach: 0, limit: 0, grid: 0, lift: 0, flat_: false, ...values });
+      this.set({ ball: [0, 0, 0, 1], paint: [0, 0, 0, 0], reach: 0, limit: 0, grid: 0, lift: 0, flat_: false, textured: false,
+                 ...values });
       gl.bindVertexArray(s.array);
       gl.drawElements(gl.TRIANGLES, s.triangles.length, gl.UNSIGNED_INT, 0);
     }
@@ -251,7 +306,8 @@ const MotionPainter = (() => {
     things(look, more = {}) {
       const { motion, gl } = this;
       this.surfaces.forEach((s, k) => {
-        this.fill(s, { color: k === 0 ? motion.cloth : motion.body, limit: k === 0 && look.stretch ? motion.limit : 0, ...more });
+        this.fill(s, { color: k === 0 ? motion.cloth : motion.body, limit: k === 0 && look.stretch ? motion.limit : 0,
+                       textured: Boolean(s.unfolded), ...more });
         if (k > 0 || !look.lines || more.flat_) return;
         this.set({ paint: [0.08, 0.07, 0.05, 0.55], lift: 4e-4 });
         gl.enable(gl.BLEND);

@@ -66,6 +66,11 @@ std::string describe(const PlayedMotion& motion) {
 
 Markup motion_player(const std::string& id, const PlayedMotion& motion, const std::string& label) {
   const Markup canvas = element("canvas", {{"tabindex", "0"}, {"role", "img"}, {"aria-label", label}});
+  const Markup texture = motion.texture.empty() ? Markup()
+                                                : element("img", {{"class", "motion-texture"},
+                                                                  {"src", data_uri("image/png", motion.texture)},
+                                                                  {"alt", "The cloth's texture"},
+                                                                  {"hidden?", "hidden"}});
   const Markup scale = element("div", {{"class", "stretch-scale"}, {"hidden?", "hidden"}}, Markup());
   return element(
       "div", {{"class", "turn"}, {"id", id}, {"data-frame", "0"}},
@@ -76,7 +81,8 @@ Markup motion_player(const std::string& id, const PlayedMotion& motion, const st
               "Drag to turn; with Shift, or two fingers, to move; the wheel or two fingers enlarge. Keys: arrows turn, "
               "+ and − enlarge, 0 resets, the space bar plays, comma and full stop go by a frame, c colours, m shows "
               "the mesh.") +
-          data("motion-description", harmless(motion.description)) + data("motion-numbers", base64(motion.data)));
+          texture + data("motion-description", harmless(motion.description)) +
+          data("motion-numbers", base64(motion.data)));
 }
 
 }  // namespace drape::html

@@ -11,6 +11,7 @@ namespace drape::html {
 struct PlayedMotion {
   std::string description;  ///< JSON: sizes, times, colours
   std::string data;         ///< its numbers, a zlib stream
+  std::string texture;      ///< of the cloth, a PNG file; empty: it has none
   int frames = 0;
   double precision = 0;  ///< coordinates are whole multiples of it [m]
   double size = 0;       ///< diagonal of the box around the motion [m]

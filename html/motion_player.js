@@ -237,6 +237,9 @@
     try {
       const motion = await unpackMotion(root.querySelector(".motion-description").textContent,
                                         root.querySelector(".motion-numbers").textContent);
+      const picture = root.querySelector(".motion-texture");
+      if (picture) await picture.decode();
+      motion.picture = picture;
       root.player = new Player(root, motion);
     } catch (error) {
       root.dataset.state = "failed";

@@ -9,13 +9,18 @@
 
 #include "core/error.hpp"
 #include "output/bytes.hpp"
+#include "output/png_encoder.hpp"
 #include "overlay/color_map.hpp"
+#include "render/color.hpp"
+#include "render/texture_image.hpp"
 
 namespace drape {
 namespace {
 
 constexpr double cloth_parts = 6000, edge_parts = 100;  // of the precision in the cloth's size and in an edge
 constexpr double farthest = 1e8;                        // in precisions: differences of three fit into 32 bits
+constexpr int most_texture_pixels = 256;
+constexpr double texture_parts = 4096;  // of a texture coordinate
 constexpr double least_strain = 0.0005, strain_steps = 48;
 
 double mean_edge(const Vertices& x, const std::vector<Triangle>& triangles) {
@@ -42,6 +47,28 @@ void append_triangles(const std::vector<Triangle>& triangles, std::string& bytes
 
 /// "[0.85, 0.65, 0.13]"
 std::string list(const Rgb& color) { return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", color.r, color.g, color.b); }
+
+/// A texture as a PNG file of at most so many pixels a side.
+/// @throws OutputError if it cannot be read
+std::string small_texture(const std::filesystem::path& file) {
+  try {
+    const std::vector<TextureLevel> levels = load_texture_image(file);
+    const auto level = std::ranges::find_if(
+        levels, [](const TextureLevel& one) { return std::max(one.width, one.height) <= most_texture_pixels; });
+    Image image(level->width, level->height);
+    for (int y = 0; y < image.height; ++y) {
+      for (int i = 0; i < 3 * image.width; ++i) {
+        const std::size_t at =
+            static_cast<std::size_t>(image.height - 1 - y) * 3 * static_cast<std::size_t>(image.width);
+        const double light = level->pixels[at + static_cast<std::size_t>(i)] / 65535.0;
+        image.at(0, y)[i] = static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(light)));
+      }
+    }
+    return encode_png(image);
+  } catch (const UsageError& error) {
+    throw OutputError(error.what());
+  }
+}
 
 void append_floats(std::initializer_list<double> numbers, std::string& bytes) {
   for (const double number : numbers) append_number<float>(bytes, static_cast<float>(number));
@@ -108,6 +135,7 @@ void MotionPacker::add_first(const Frame& frame) {
   if (!(precision_ > 0)) precision_ = 1e-6;
   std::string bytes;
   add_mesh(film_.triangles(), x.rows(), bytes);
+  add_texture(bytes);
   stretch_.emplace(rest, film_.triangles());
   strain_.emplace(film_.triangles(), x.rows(), 1);
   for (const Collider& collider : frame.colliders) {
@@ -116,6 +144,20 @@ void MotionPacker::add_first(const Frame& frame) {
     if (const auto* body = std::get_if<MeshShape>(&collider)) add_mesh(*body->triangles, body->positions.rows(), bytes);
   }
   compressor_->append(bytes);
+}
+
+void MotionPacker::add_texture(std::string& bytes) {
+  const auto& uvs = film_.texture_coordinates();
+  if (film_.look == nullptr || film_.look->texture.empty() || uvs.empty()) return;
+  texture_ = small_texture(film_.look->texture);
+  std::array<std::int64_t, 2> before{};
+  for (const std::array<float, 2>& uv : uvs) {
+    for (std::size_t c = 0; c < 2; ++c) {
+      const auto now = static_cast<std::int64_t>(std::llround(texture_parts * static_cast<double>(uv[c])));
+      append_varint(now - before[c], bytes);
+      before[c] = now;
+    }
+  }
 }
 
 VertexIntegers MotionPacker::whole(const Vertices& x) const {
@@ -189,18 +231,19 @@ std::string MotionPacker::description() const {
       "\"spheres\": {}, \"grounds\": {}, \"origin\": [{}], \"precision\": {}, \"lowest\": [{}], \"highest\": [{}], "
       "\"side\": {}, \"leastStrain\": {}, \"strainSteps\": {}, \"limit\": {}, \"scale\": [{}], \"marks\": [{}], "
       "\"cloth\": {}, \"sphere\": {}, \"body\": {}, \"ground\": {}, \"grid\": {}, \"azimuth\": {}, "
-      "\"elevation\": {}, \"lines\": {}}}",
+      "\"elevation\": {}, \"lines\": {}, \"textured\": {}}}",
       frames_, film_.fps, time_, film_.seconds_per_frame, fmt::join(vertices, ", "), fmt::join(triangles, ", "),
       spheres_, grounds_, fmt::join(origin_, ", "), precision_, fmt::join(lowest_, ", "), fmt::join(highest_, ", "),
       patch_.side, least_strain, strain_steps, scale_.limit(), fmt::join(colors, ", "), fmt::join(marks, ", "),
       list(look.color), list(look.sphere_color), list(look.body_color), list(look.ground_color), look.ground_grid,
       camera.azimuth.value_or(Camera::usual_azimuth), camera.elevation.value_or(Camera::usual_elevation),
-      look.mesh_lines);
+      look.mesh_lines, !texture_.empty());
 }
 
 html::PlayedMotion MotionPacker::finish() {
   return {.description = description(),
           .data = compressor_->finish(),
+          .texture = texture_,
           .frames = frames_,
           .precision = precision_,
           .size = (highest_ - lowest_).norm(),

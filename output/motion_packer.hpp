@@ -28,8 +28,8 @@ class MotionPacker {
   explicit MotionPacker(const FilmInfo& film);
   ~MotionPacker();
 
-  /// @throws OutputError if the motion is larger than `most_positions`, which the first frame tells already, or a
-  /// position
+  /// @throws OutputError if the texture cannot be read, if the motion is larger than `most_positions`, which the first
+  /// frame tells already, or a position
   ///                     is beyond 10⁸ times the precision
   void add(const Frame& frame);
 
@@ -47,6 +47,7 @@ class MotionPacker {
   };
 
   void add_first(const Frame& frame);
+  void add_texture(std::string& bytes);
   void add_mesh(const std::vector<Triangle>& triangles, Eigen::Index vertices, std::string& bytes);
   void pack_colliders(const Frame& frame, std::string& bytes);
   [[nodiscard]] VertexIntegers whole(const Vertices& x) const;
@@ -58,6 +59,7 @@ class MotionPacker {
   std::optional<IntegerTrack> strain_;
   std::vector<Mesh> meshes_;  // the cloth and the bodies
   GroundPatch patch_;
+  std::string texture_;  // a PNG file; empty: none
   std::unique_ptr<Compressor> compressor_;
   Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
   Eigen::RowVector3d lowest_, highest_;  // of the cloth and all things in all frames

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "output/html_writer.hpp"
+#include "output/png_encoder.hpp"
 #include "tests/html/html_page.hpp"
 #include "tests/support/random.hpp"
 
@@ -215,6 +216,31 @@ TEST_F(MotionPage, ColoursByStretch) {
   EXPECT_TRUE(browser_->run("return document.querySelector('.stretch-scale').checkVisibility()").get<bool>());
   browser_->press("m.......");
   keep_screenshots("motion-stretch");
+}
+
+/// A texture whose upper half is green and whose lower half is blue, on a cloth that has it turned at one corner.
+TEST_F(MotionPage, ShowsATexture) {
+  Image picture(300, 300);
+  for (int y = 0; y < 300; ++y) {
+    for (int x = 0; x < 300; ++x) picture.at(x, y)[y < 150 ? 1 : 2] = 255;
+  }
+  put(path("picture.png"), encode_png(picture));
+  look.texture = path("picture.png");
+  std::vector<std::array<float, 2>> uvs = grid.uvs;
+  film.uvs = &uvs;
+  uvs[0] = {0.5F, 0.5F};  // so that its vertex has two
+  write([this](int k) { return Frame{.index = k, .time = 0.1 * k, .positions = cloth.positions}; });
+  expect_sound();
+  browser_->set_width(1200);
+  const int green = pixels_of(1), blue = pixels_of(2);
+  EXPECT_GT(green, 3000);
+  EXPECT_GT(blue, 3000);
+  EXPECT_EQ(pixels_of(0), 0) << "the plain colour is covered";
+  // v upwards, along +y, which is away from the viewer at −60°: the upper half is behind, and looks smaller.
+  EXPECT_LT(green, blue);
+  browser_->run("document.querySelector('.turn canvas').focus()");
+  browser_->press("c");
+  EXPECT_LT(pixels_of(1), green / 10);
 }
 
 TEST_F(MotionPage, RefusesWhatABrowserCannotHold) {
