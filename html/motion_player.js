@@ -11,13 +11,45 @@
       this.motion = motion;
       this.box = [motion.lowest, motion.highest].map((corner) => corner.map((x, c) => x - motion.origin[c]));
       this.size = Math.max(Math.hypot(...this.box[1].map((x, c) => x - this.box[0][c])), 1e-6);
+      this.points = this.sample();
+      this.fits = new Map(); // distances, by aspect
       this.reset();
     }
     reset() {
       this.azimuth = this.motion.azimuth;
       this.elevation = this.motion.elevation;
       this.zoom = 1;
-      this.target = this.box[0].map((x, c) => (x + this.box[1][c]) / 2);
+      this.target = this.middle;
+    }
+    /// Points that stand for the whole motion, some 20 000, along the right, the top and the back of the first view, from
+    /// their middle: x, y, z and the radius of a ball each.
+    sample() {
+      const { motion } = this, points = [];
+      const axes = this.axes(motion.azimuth, motion.elevation);
+      const add = (x, radius) => points.push(...axes.map((axis) => dot(axis, x)), radius);
+      const count = motion.frames * motion.vertices.reduce((sum, n) => sum + n, 0), stride = Math.ceil(count / 20000);
+      let at = 0;
+      for (const mesh of motion.meshes) {
+        for (const frame of mesh.frames) {
+          for (; at < mesh.vertices; at += stride) {
+            add([0, 1, 2].map((c) => motion.precision * frame[3 * at + c]), 0);
+          }
+          at -= mesh.vertices;
+        }
+      }
+      for (const balls of motion.balls) {
+        for (let i = 0; i < balls.length; i += 4) add([0, 1, 2].map((c) => balls[i + c] - motion.origin[c]), balls[i + 3]);
+      }
+      const low = [0, 1, 2].map(() => Infinity), high = low.map(() => -Infinity);
+      points.forEach((x, i) => {
+        if (i % 4 === 3) return;
+        const radius = points[i - (i % 4) + 3];
+        low[i % 4] = Math.min(low[i % 4], x - radius);
+        high[i % 4] = Math.max(high[i % 4], x + radius);
+      });
+      const centre = low.map((x, c) => (x + high[c]) / 2);
+      this.middle = [0, 1, 2].map((c) => axes.reduce((sum, axis, k) => sum + centre[k] * axis[c], 0));
+      return points.map((x, i) => (i % 4 === 3 ? x : x - centre[i % 4]));
     }
     turn(azimuth, elevation) {
       this.azimuth = (this.azimuth + azimuth + 540) % 360 - 180;
@@ -33,17 +65,19 @@
       const right = [-Math.sin(a), Math.cos(a), 0];
       return [right, cross(back, right), back];
     }
-    /// The distance from which the whole box is in view.
+    /// The distance from which the whole motion is in the first view.
     distance(aspect) {
-      const [right, up, back] = this.axes(this.motion.azimuth, this.motion.elevation);
-      const middle = this.box[0].map((x, c) => (x + this.box[1][c]) / 2);
-      let most = 0;
-      for (let k = 0; k < 8; ++k) {
-        const corner = middle.map((x, c) => this.box[(k >> c) & 1][c] - x);
-        const wide = Math.max(Math.abs(dot(corner, right)) / aspect, Math.abs(dot(corner, up))) / half;
-        most = Math.max(most, wide + dot(corner, back));
+      if (!this.fits.has(aspect)) {
+        let most = 0;
+        const { points } = this;
+        for (let i = 0; i < points.length; i += 4) {
+          const radius = points[i + 3];
+          const wide = Math.max((Math.abs(points[i]) + radius) / aspect, Math.abs(points[i + 1]) + radius) / half;
+          most = Math.max(most, wide + points[i + 2] + radius);
+        }
+        this.fits.set(aspect, 1.08 * Math.max(most, 1e-6));
       }
-      return (1.06 * Math.max(most, 1e-6)) / this.zoom;
+      return this.fits.get(aspect) / this.zoom;
     }
     pan(dx, dy, height, aspect) {
       const [right, up] = this.axes();
