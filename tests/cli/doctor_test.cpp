@@ -44,7 +44,7 @@ TEST(Doctor, TriesEveryFormatWhateverTheFolderForTemporaryFilesIsCalled) {
     formats.push_back(output.at("name"));
   }
   EXPECT_EQ(formats, (std::vector<std::string>{".gif", ".webp", ".apng", ".png", ".mp4", ".webm", ".avi", ".obj",
-                                               ".ply", ".npz", ".usda", ".pvd", ".vtp", ".pc2", ".glb", ".drape"}));
+                                               ".ply", ".npz", ".usda", ".pvd", ".vtp", ".pc2", ".glb", ".html", ".drape"}));
 }
 
 TEST(Doctor, ObeysTheCapOnInstructionSets) {
