@@ -45,7 +45,8 @@ struct adl_serializer<Eigen::Vector2i> {
 namespace drape {
 
 namespace html {
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlayedMotion, description, data, texture, frames, precision, size, vertices, triangles)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlayedMotion, description, data, texture, frames, precision, size, vertices,
+                                   triangles)
 }  // namespace html
 
 // Every member, in both directions: one that is left out here is lost when shards are merged.

@@ -178,7 +178,7 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
   CompareOptions& options = arguments->options;
   CLI::App* sub = app.add_subcommand("compare", "Draw motions side by side");
   const auto one_each = [](CLI::Option* option) { option->allow_extra_args(false); };
-  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML), or motions (.drape) recorded by drape simulate")
+  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML), or motions: .drape, or what drape import reads")
       ->required();
   one_each(sub->add_option(
                   "-o,--output", options.outputs,
