@@ -15,12 +15,16 @@
 #include "check/compare_motion.hpp"
 #include "check/draw_frames.hpp"
 #include "check/picture.hpp"
+#include "check/played_motion.hpp"
 #include "codecs/codecs.hpp"
+#include "core/error.hpp"
 #include "core/read_file.hpp"
 #include "html/film.hpp"
 #include "output/gif_encoder.hpp"
+#include "output/motion_packer.hpp"
 #include "output/png_encoder.hpp"
 #include "render/montage.hpp"
+#include "sim/make_system.hpp"
 
 namespace drape {
 namespace {
@@ -63,19 +67,62 @@ const View& view_near(const Golden& golden, double time) {
   return std::min_element(golden.frames.begin(), golden.frames.end(), nearer)->view;
 }
 
+/// Two motions to turn, as far as a browser can hold them.
+class Players {
+ public:
+  explicit Players(const Scene& scene, const Golden& golden) : film_(film(scene, golden)) {}
+
+  void add(double time, const WindowPositions& at, std::vector<Collider> colliders) {
+    try {
+      expected_.add({.time = time, .positions = at.golden, .colliders = colliders});
+      actual_.add({.time = time, .positions = at.actual, .colliders = std::move(colliders)});
+    } catch (const OutputError&) {
+      whole_ = false;
+    }
+  }
+  void finish(DifferenceAnimation& made) {
+    if (!whole_ || actual_.frames() == 0) return;
+    made.expected = expected_.finish();
+    made.actual = actual_.finish();
+  }
+
+ private:
+  static FilmInfo film(const Scene& scene, const Golden& golden) {
+    FilmInfo film;
+    film.scene = scene.name;
+    film.fps = motion_rate;
+    film.seconds_per_frame = golden.step * static_cast<double>(golden.window_steps) / 2;  // middles and ends
+    film.cloth = &scene.simulation.cloth;
+    film.look = &scene.look;
+    film.camera = &scene.camera;
+    return film;
+  }
+
+  FilmInfo film_;
+  MotionPacker expected_{film_}, actual_{film_};
+  bool whole_ = true;
+};
+
 /// @param first the first window that is shown
+/// @param made  gets the motions to turn
 std::vector<Pair> motion_pairs(const Scene& scene, const Golden& golden, std::size_t first, const Eigen::Vector2i& size,
-                               GlBackend backend) {
+                               PlayedMotion* recorded, GlBackend backend, DifferenceAnimation& made) {
   DrawFrames drawing(scene, size, backend);
+  const System system = make_system(scene.simulation);
+  Players players(scene, golden);
   std::vector<Pair> pairs;
   for (std::size_t i = first; i < std::min(first + most_windows, golden.windows.size() - 1); ++i) {
-    for (const WindowPositions& at : rerun_window(scene.simulation, golden, i)) {
+    const auto window =
+        recorded != nullptr ? played_window(*recorded, golden, i) : rerun_window(scene.simulation, golden, i);
+    for (const WindowPositions& at : window) {
       if (i > 0 && at.step == golden.windows[i].start.step) continue;  // where nothing differs
       const double time = static_cast<double>(at.step) * golden.step;
       const View& view = view_near(golden, time);
       pairs.push_back({drawing.draw(view, 0, time, at.golden), drawing.draw(view, 0, time, at.actual)});
+      players.add(time, at, system.colliders_at(time));
     }
   }
+  players.finish(made);
   return pairs;
 }
 
@@ -99,7 +146,8 @@ Image side_by_side(const Pair& pair, double factor) {
 }  // namespace
 
 DifferenceAnimation difference_animation(const Scene& scene, const Golden& golden, const SceneResult& result,
-                                         GlBackend backend, const std::filesystem::path& folder) {
+                                         PlayedMotion* recorded, GlBackend backend,
+                                         const std::filesystem::path& folder) {
   const Comparison& shown = result.windows.first_bad_frame || !result.end_to_end ? result.windows : *result.end_to_end;
   if (!shown.first_bad_frame) return {};
   const auto changed = std::find_if(shown.windows.begin(), shown.windows.end(), [](const WindowResult& window) {
@@ -108,8 +156,9 @@ DifferenceAnimation difference_animation(const Scene& scene, const Golden& golde
   const bool moved = changed != shown.windows.end();
   const Eigen::Vector2i size(result.size[0], result.size[1]);
   const auto at = static_cast<std::size_t>(changed - shown.windows.begin());
-  const std::vector<Pair> pairs =
-      moved ? motion_pairs(scene, golden, at, size, backend) : picture_pairs(shown.frames, *shown.first_bad_frame);
+  DifferenceAnimation made;
+  const std::vector<Pair> pairs = moved ? motion_pairs(scene, golden, at, size, recorded, backend, made)
+                                        : picture_pairs(shown.frames, *shown.first_bad_frame);
   if (pairs.empty()) return {};
 
   const std::filesystem::path file = folder / result.name / "difference.gif";
@@ -126,7 +175,9 @@ DifferenceAnimation difference_animation(const Scene& scene, const Golden& golde
   encoder->finish();
   std::vector<const Image*> moments;
   for (const Image& still : stills) moments.push_back(&still);
-  return {read_file(file, std::filesystem::file_size(file)), encode_png(montage(moments, 1, gap, gap_gray))};
+  made.gif = read_file(file, std::filesystem::file_size(file));
+  made.stills = encode_png(montage(moments, 1, gap, gap_gray));
+  return made;
 }
 
 }  // namespace drape

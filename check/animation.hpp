@@ -4,7 +4,9 @@
 #include <string>
 
 #include "check/golden.hpp"
+#include "check/played_motion.hpp"
 #include "check/report.hpp"
+#include "html/motion_player.hpp"
 #include "render/backend.hpp"
 #include "scene/scene.hpp"
 
@@ -13,6 +15,7 @@ namespace drape {
 /// The bytes of a GIF, and of a PNG that shows some of its moments below one another; both empty: there is nothing.
 struct DifferenceAnimation {
   std::string gif, stills;
+  html::PlayedMotion expected, actual;  ///< of a changed motion, to turn
 };
 
 /// A GIF that shows expected, actual and difference side by side and repeats: of a changed motion the steps of the
@@ -21,6 +24,7 @@ struct DifferenceAnimation {
 /// @param folder  where it is written, as NAME/difference.gif
 /// @throws OutputError
 DifferenceAnimation difference_animation(const Scene& scene, const Golden& golden, const SceneResult& result,
-                                         GlBackend backend, const std::filesystem::path& folder);
+                                         PlayedMotion* recorded, GlBackend backend,
+                                         const std::filesystem::path& folder);
 
 }  // namespace drape

@@ -44,6 +44,11 @@ struct adl_serializer<Eigen::Vector2i> {
 
 namespace drape {
 
+namespace html {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlayedMotion, description, data, texture, frames, precision, size, vertices,
+                                   triangles)
+}  // namespace html
+
 // Every member, in both directions: one that is left out here is lost when shards are merged.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PictureLimits, channel, pixels, flip)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckSettings, frames, size, window_time, motion_tolerance, limits, time, ignore,
@@ -59,7 +64,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Comparison, motion, picture, windows, frames,
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Machine, drape, compiler, system, processor, cpu_flags, kernels, renderer)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SceneResult, name, file, golden, verdict, error, findings, windows, end_to_end,
                                    settings, film, time, ignored, elsewhere, scene_changed, recorded_at, recorded_on,
-                                   renderer, size, animation, stills, candidate, rerun_command, accept_command, seconds)
+                                   renderer, size, animation, stills, expected, actual, candidate, rerun_command,
+                                   accept_command, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckReport, command, run_options, accept_command, date, machine, scenes, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckShard, report, places, scenes, whole)
 

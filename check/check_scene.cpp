@@ -17,12 +17,14 @@
 #include "check/machine.hpp"
 #include "check/name_difference.hpp"
 #include "check/picture.hpp"
+#include "check/played_motion.hpp"
 #include "check/record_motion.hpp"
 #include "check/step_time.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "run/outputs.hpp"
 #include "scene/method_names.hpp"
+#include "scene/motion_scene.hpp"
 #include "sim/instruction_set.hpp"
 
 namespace drape {
@@ -49,10 +51,11 @@ SceneResult unchecked(const Scene& scene, const std::string& name, const CheckSe
 /// One check of one scene, from its golden to its verdict.
 class SceneCheck {
  public:
-  SceneCheck(const Scene& scene, const std::string& name, const CheckSettings& settings, const CheckOptions& options,
-             const std::stop_token& stop, Progress& progress)
+  SceneCheck(const Scene& scene, const std::string& name, const CheckSettings& settings, PlayedMotion* recorded,
+             const CheckOptions& options, const std::stop_token& stop, Progress& progress)
       : scene_(scene),
         settings_(settings),
+        recorded_(recorded),
         options_(options),
         stop_(stop),
         progress_(progress),
@@ -76,7 +79,7 @@ class SceneCheck {
     if (options_.update == UpdateMode::none || overridden()) {
       result_.findings.push_back("there is no golden to compare with");
     } else if (options_.update == UpdateMode::missing) {
-      bless_scene(scene_, settings_, options_.backend, stop_, progress_);
+      bless_scene(scene_, settings_, options_.backend, stop_, progress_, recorded_);
       result_.findings.push_back("there was no golden to compare with; it has now been recorded: look at it");
     } else {
       update("recorded");
@@ -84,7 +87,7 @@ class SceneCheck {
   }
 
   void update(const char* what) {
-    const auto blessing = bless_scene(scene_, settings_, options_.backend, stop_, progress_);
+    const auto blessing = bless_scene(scene_, settings_, options_.backend, stop_, progress_, recorded_);
     if (!blessing) return;
     result_.verdict = SceneVerdict::updated;
     result_.findings.insert(result_.findings.begin(), fmt::format("the golden was {}", what));
@@ -93,13 +96,14 @@ class SceneCheck {
   void compare() {
     golden_ = read_golden(result_.golden);
     if (scene_.choice) use_recorded_method();
+    if (recorded_ != nullptr) match_vertices_of_golden();
     check_precision();
     check_time_is_there();
     frames_ = chosen_frames(golden_, options_.frames, result_.golden);
     result_.recorded_at = golden_.date;
     result_.recorded_on = golden_.machine;
     result_.ignored = covered_part(settings_.ignore, golden_.size);
-    result_.scene_changed = golden_.scene_digest != digest_of_file();
+    result_.scene_changed = golden_.scene_digest != digest_without_overrides();
 
     const std::string another_motion = motion_mismatch(scene_, golden_);
     const std::string other_pictures = picture_mismatch(scene_, settings_, golden_, !options_.frames.empty());
@@ -118,7 +122,8 @@ class SceneCheck {
     result_.film = fmt::format("{}", fmt::join(film_mismatch(scene_, settings_, golden_), "; "));
     if (!result_.film.empty()) result_.findings.push_back(result_.film);
     if (another_motion.empty()) compare_time();
-    if (options_.end_to_end && another_motion.empty() && other_pictures.empty() && !stop_.stop_requested()) {
+    if (options_.end_to_end && recorded_ == nullptr && another_motion.empty() && other_pictures.empty() &&
+        !stop_.stop_requested()) {
       compare_end_to_end();
     }
     conclude();
@@ -141,14 +146,30 @@ class SceneCheck {
     integrator.scheme = solved ? TimeScheme::sdirk2 : TimeScheme::backward_euler;
   }
 
+  /// Has a motion that begins where the golden one does, but with its vertices in another order, in that order.
+  void match_vertices_of_golden() {
+    Cloth& cloth = scene_.simulation.cloth;
+    const Vertices &golden = golden_.windows.front().start.x, actual = recorded_->state(0).x;
+    if (golden.rows() != actual.rows()) return;
+    constexpr double same_place = 1e-3;  // edges
+    const double tolerance = std::max(settings_.motion_tolerance, same_place * mean_edge(actual, cloth.triangles));
+    if ((golden - actual).rowwise().norm().maxCoeff() <= tolerance) return;
+    const std::optional<VertexOrder> order = match_vertices(golden, actual, tolerance);
+    if (!order) return;
+    recorded_->set_order(*order);
+    cloth = in_order(std::move(cloth), *order);
+    result_.findings.emplace_back(
+        "the vertices are in another order than the golden's, and are matched by the first frame");
+  }
+
   [[nodiscard]] bool overridden() const { return !options_.overrides.empty(); }
 
   /// Digest of what the scene file gives without overrides. Where that alone is no scene, the file cannot be told from
   /// the one that was recorded.
-  [[nodiscard]] std::string digest_of_file() const {
-    if (!overridden()) return scene_.digest;
+  [[nodiscard]] std::string digest_without_overrides() const {
+    if (!overridden() || scene_.digest == no_scene_digest) return scene_.digest;
     try {
-      return load_scene(scene_.file).digest;
+      return digest_of_file(scene_.file);
     } catch (const UsageError&) {
       return golden_.scene_digest;
     }
@@ -164,7 +185,7 @@ class SceneCheck {
   }
 
   void check_time_is_there() const {
-    if (!settings_.time || golden_.time || golden_.step_count == 0) return;
+    if (!settings_.time || golden_.time || golden_.step_count == 0 || recorded_ != nullptr) return;
     throw UsageError(
         fmt::format("{} holds no time to compare with, as [check] had no 'time' when it was recorded; record it again "
                     "with drape bless",
@@ -173,7 +194,7 @@ class SceneCheck {
 
   /// Compares times of the same instruction set alone: one that is half as wide may take twice as long.
   void compare_time() {
-    if (!settings_.time || !golden_.time || stop_.stop_requested()) return;
+    if (!settings_.time || !golden_.time || stop_.stop_requested() || recorded_ != nullptr) return;
     if (golden_.machine.kernels != instruction_set()) {
       result_.findings.push_back(
           fmt::format("time was not compared: the golden was recorded with {}, and {} is used here",
@@ -189,9 +210,15 @@ class SceneCheck {
   }
 
   void compare_window_motion() {
-    progress_.begin("checking", "windows", static_cast<std::int64_t>(golden_.windows.size() - 1));
-    result_.windows.windows = compare_windows(scene_.simulation, golden_, settings_.motion_tolerance,
-                                              thread_count(options_), stop_, [this] { ++progress_.done; });
+    if (recorded_ != nullptr) {
+      const auto read = record_motion(scene_, settings_, plan_of(golden_), stop_, progress_, recorded_);
+      if (!read) return;
+      result_.windows.windows = compare_whole(scene_.simulation, golden_, *read, settings_.motion_tolerance);
+    } else {
+      progress_.begin("checking", "windows", static_cast<std::int64_t>(golden_.windows.size() - 1));
+      result_.windows.windows = compare_windows(scene_.simulation, golden_, settings_.motion_tolerance,
+                                                thread_count(options_), stop_, [this] { ++progress_.done; });
+    }
     for (const WindowResult& window : result_.windows.windows) {
       result_.windows.motion = std::max(result_.windows.motion, window.verdict);
     }
@@ -206,7 +233,7 @@ class SceneCheck {
         same_but_for_rounding(views_of_frames(scene_, golden_.size, golden_.frames), golden_.frames_views)) {
       return;
     }
-    const auto recorded = record_motion(scene_, settings_, plan_of(golden_), stop_, progress_);
+    const auto recorded = record_motion(scene_, settings_, plan_of(golden_), stop_, progress_, recorded_);
     if (!recorded) return;
     for (GoldenFrame& frame : frames_) {
       const auto same = [&frame](const GoldenFrame& other) { return other.frame == frame.frame; };
@@ -310,9 +337,12 @@ class SceneCheck {
     }
     if (!changed || options_.artefacts.empty()) return;
     if (!stop_.stop_requested()) {
-      DifferenceAnimation made = difference_animation(scene_, golden_, result_, options_.backend, options_.artefacts);
+      DifferenceAnimation made =
+          difference_animation(scene_, golden_, result_, recorded_, options_.backend, options_.artefacts);
       result_.animation = std::move(made.gif);
       result_.stills = std::move(made.stills);
+      result_.expected = std::move(made.expected);
+      result_.actual = std::move(made.actual);
     }
     if (!stop_.stop_requested() && !overridden()) keep_candidate();
   }
@@ -321,7 +351,7 @@ class SceneCheck {
   void keep_candidate() {
     std::optional<Recording> recording;
     try {
-      recording = record_scene(scene_, settings_, options_.backend, stop_, progress_);
+      recording = record_scene(scene_, settings_, options_.backend, stop_, progress_, recorded_);
     } catch (const DivergedError& diverged) {
       result_.findings.push_back(fmt::format("there is nothing to accept: {}", diverged.what()));
     }
@@ -332,6 +362,7 @@ class SceneCheck {
 
   Scene scene_;
   const CheckSettings& settings_;
+  PlayedMotion* recorded_;  // null: the scene is simulated
   const CheckOptions& options_;
   const std::stop_token& stop_;
   Progress& progress_;
@@ -343,10 +374,12 @@ class SceneCheck {
 }  // namespace
 
 SceneResult check_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
-                        const CheckOptions& options, const std::stop_token& stop, Progress& progress) {
+                        const CheckOptions& options, const std::stop_token& stop, Progress& progress,
+                        PlayedMotion* recorded) {
   const auto begin = std::chrono::steady_clock::now();
   require_texture(scene);
-  SceneResult result = SceneCheck(scene, name, settings, options, stop, progress).run();
+  if (recorded != nullptr) recorded->require_every_step(scene);
+  SceneResult result = SceneCheck(scene, name, settings, recorded, options, stop, progress).run();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "check/golden.hpp"
+#include "check/played_motion.hpp"
 #include "check/report.hpp"
 #include "core/error.hpp"
 #include "render/backend.hpp"
@@ -47,25 +48,30 @@ struct Recording {
   std::vector<Png> pictures;  ///< of its frames
 };
 
-/// Runs a scene and draws the compared frames.
+/// Runs a scene, or reads its motion, and draws the compared frames.
+/// @param recorded the motion; null: the scene is simulated
 /// @returns nothing if it was stopped
 /// @throws DivergedError, UsageError, OutputError
 std::optional<Recording> record_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
-                                      const std::stop_token& stop, Progress& progress);
+                                      const std::stop_token& stop, Progress& progress,
+                                      PlayedMotion* recorded = nullptr);
 
 /// Records a scene's golden in the place of an older one.
 /// @param settings  Scene::check with what the command line says
+/// @param recorded  as of record_scene()
 /// @returns nothing if it was stopped; then nothing has been written
 /// @throws UsageError before anything is computed if something else stands in that place, see has_golden()
 /// @throws DivergedError, UsageError, OutputError
 std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
-                                    const std::stop_token& stop, Progress& progress);
+                                    const std::stop_token& stop, Progress& progress, PlayedMotion* recorded = nullptr);
 
 /// Compares a scene with its golden.
-/// @param name of the scene in the report
+/// @param name     of the scene in the report
+/// @param recorded as of record_scene(); its motion is compared as a whole, and its time is not
 /// @throws UsageError if the golden is damaged or has no such frames; DivergedError, OutputError
 SceneResult check_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
-                        const CheckOptions& options, const std::stop_token& stop, Progress& progress);
+                        const CheckOptions& options, const std::stop_token& stop, Progress& progress,
+                        PlayedMotion* recorded = nullptr);
 
 /// The result of a scene that check_scene() throws for.
 SceneResult unjudged_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,

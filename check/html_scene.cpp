@@ -197,6 +197,14 @@ Markup scene_content(const SceneResult& scene, const std::string& id) {
         html::animation(scene.animation, scene.stills, "Animation of expected, actual and difference side by side"),
         "Expected, actual and difference around the first frame that changed.");
   }
+  if (scene.actual.frames > 0) {
+    const auto player = [&](const std::string& what, const html::PlayedMotion& motion) {
+      return html::details("Turn the " + what + " motion",
+                           html::motion_player(id + "-" + what, motion, "The " + what + " motion of " + scene.name) +
+                               html::note(describe(motion)));
+    };
+    content += player("expected", scene.expected) + player("actual", scene.actual);
+  }
   content += figures(scene, scene.windows);
   if (scene.end_to_end) {
     content += html::section(3, id + "-end-to-end", "The whole motion, run from the start",

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "check/chained_motion.hpp"
+#include "check/played_motion.hpp"
 #include "check/survey_motion.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -27,12 +28,14 @@ FilmExtent whole_film(const Scene& scene) {
 /// Keeps the windows of a motion while it passes by.
 class Recorder final : public StepObserver {
  public:
-  Recorder(const std::vector<std::int64_t>& starts, const Quanta& quanta) : starts_(starts), quanta_(quanta) {}
+  /// @param recorded says the energies, if it is not null
+  Recorder(const std::vector<std::int64_t>& starts, const Quanta& quanta, PlayedMotion* recorded)
+      : starts_(starts), quanta_(quanta), recorded_(recorded) {}
 
   void begin(const Simulation& simulation) override {
     GoldenWindow& window = windows.emplace_back();
     window.start = simulation.state();
-    window.energies = simulation.energies();
+    window.energies = energies(simulation);
   }
 
   void after_step(const Simulation& simulation, const StepReport&, double) override {
@@ -45,15 +48,20 @@ class Recorder final : public StepObserver {
     if (now == window.start.step + (end - window.start.step) / 2) {
       window.middle = rounded(simulation.state().x, quanta_.compared);
     }
-    if (now == end) window.energies = simulation.energies();
+    if (now == end) window.energies = energies(simulation);
   }
 
   std::vector<GoldenWindow> windows;
   int body_count = 0;
 
  private:
+  [[nodiscard]] Energies energies(const Simulation& simulation) const {
+    return recorded_ != nullptr ? recorded_->energies(simulation.state().step) : simulation.energies();
+  }
+
   const std::vector<std::int64_t>& starts_;
   Quanta quanta_;
+  PlayedMotion* recorded_;
 };
 
 /// The distance of vertices in the row beside, of a mesh that is a grid: the commonest one that is not 1.
@@ -102,7 +110,7 @@ Eigen::Vector2i picture_size(const Scene& scene, const CheckSettings& settings) 
 }
 
 std::optional<RecordPlan> plan_recording(const Scene& scene, const CheckSettings& settings, const std::stop_token& stop,
-                                         Progress& progress) {
+                                         Progress& progress, PlayedMotion* recorded) {
   const FilmExtent film = whole_film(scene);
   RecordPlan plan;
   plan.window_steps = std::max<std::int64_t>(1, std::llround(std::min(settings.window_time / film.step, 1e9)));
@@ -115,7 +123,7 @@ std::optional<RecordPlan> plan_recording(const Scene& scene, const CheckSettings
     plan.frames.push_back({frame, "named by the scene"});
   }
   if (!plan.frames.empty()) return plan;
-  const std::optional<FilmFacts> facts = survey_motion(scene, plan.window_steps, plan.quanta, stop, progress);
+  const std::optional<FilmFacts> facts = survey_motion(scene, plan.window_steps, plan.quanta, stop, progress, recorded);
   if (!facts) return std::nullopt;
   plan.frames = choose_frames(*facts);
   return plan;
@@ -147,7 +155,7 @@ std::vector<View> views_of_frames(const Scene& scene, const Eigen::Vector2i& siz
 }
 
 std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& settings, const RecordPlan& plan,
-                                    const std::stop_token& stop, Progress& progress) {
+                                    const std::stop_token& stop, Progress& progress, PlayedMotion* recorded) {
   Golden golden = described(scene, settings, plan);
   const FilmExtent film = whole_film(scene);
   FrameTape tape;
@@ -159,12 +167,16 @@ std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& set
     tape.add(std::move(frame));
   });
   const std::vector<std::int64_t> starts = window_starts(film.steps, plan.window_steps);
-  Recorder recorder(starts, plan.quanta);
+  Recorder recorder(starts, plan.quanta, recorded);
   StepCounter counter(progress);
-  progress.begin("simulating", "steps", film.steps);
+  progress.begin(recorded != nullptr ? "reading" : "simulating", "steps", film.steps);
   const std::array<StepObserver*, 3> observers{&recorder, &counter, &sampler};
   Simulation simulation(scene.simulation);
-  run_chained(simulation, starts, plan.quanta, observers, stop);
+  if (recorded != nullptr) {
+    play_chained(*recorded, simulation, starts, plan.quanta, observers, stop);
+  } else {
+    run_chained(simulation, starts, plan.quanta, observers, stop);
+  }
   if (stop.stop_requested()) return std::nullopt;
 
   const auto pass = [&tape](const auto& visit) { tape.for_each(visit); };

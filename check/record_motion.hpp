@@ -6,6 +6,7 @@
 
 #include "check/choose_frames.hpp"
 #include "check/golden.hpp"
+#include "check/played_motion.hpp"
 #include "run/progress.hpp"
 #include "scene/scene.hpp"
 
@@ -20,19 +21,20 @@ struct RecordPlan {
 
 /// As the scene's table [check] says. Without frames in it, those in which something happens are chosen, for which the
 /// motion is run.
+/// @param recorded the motion, which is read then; null: the scene is simulated
 /// @throws UsageError if the film has no such frame; DivergedError
 /// @returns nothing if it was stopped
 std::optional<RecordPlan> plan_recording(const Scene& scene, const CheckSettings& settings, const std::stop_token& stop,
-                                         Progress& progress);
+                                         Progress& progress, PlayedMotion* recorded = nullptr);
 
 /// The plan by which a golden was recorded.
 RecordPlan plan_of(const Golden& golden);
 
-/// Runs a scene's motion, and places the camera.
+/// Runs a scene's motion, or reads the one that was recorded, and places the camera.
 /// @returns all of a golden but its pictures, its date and its machine; nothing if it was stopped
 /// @throws DivergedError
 std::optional<Golden> record_motion(const Scene& scene, const CheckSettings& settings, const RecordPlan& plan,
-                                    const std::stop_token& stop, Progress& progress);
+                                    const std::stop_token& stop, Progress& progress, PlayedMotion* recorded = nullptr);
 
 /// Settings of a scene's film that its golden keeps.
 GoldenFilm film_of(const Scene& scene);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "html/motion_player.hpp"
 #include "scene/check_settings.hpp"
 
 // What a check found, as plain data: the terminal's lines, the JSON, the JUnit XML and the HTML page are all made from
@@ -125,7 +126,9 @@ struct SceneResult {
   std::string animation;      ///< a GIF's bytes: expected, actual and difference side by side, looping around the
                               ///< first bad frame; empty if there is none
   std::string stills;         ///< some of its moments for paper: a PNG's bytes
-  std::string candidate;      ///< hash of the candidate that is kept beside the report; empty: there is none
+  html::PlayedMotion expected,
+      actual;             ///< compared states of a changed motion, to turn; without frames: there are none
+  std::string candidate;  ///< hash of the candidate that is kept beside the report; empty: there is none
   std::string rerun_command;
   std::string accept_command;  ///< makes what it is now the golden: drape accept, or drape bless without a candidate;
                                ///< empty: no command does, because the check was given other values than the file's

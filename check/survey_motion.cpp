@@ -8,6 +8,7 @@
 
 #include "check/chained_motion.hpp"
 #include "check/golden.hpp"
+#include "check/played_motion.hpp"
 #include "check/record_motion.hpp"
 #include "render/view.hpp"
 #include "run/frame_sampler.hpp"
@@ -99,7 +100,7 @@ class Surveyor {
 }  // namespace
 
 std::optional<FilmFacts> survey_motion(const Scene& scene, std::int64_t window_steps, const Quanta& quanta,
-                                       const std::stop_token& stop, Progress& progress) {
+                                       const std::stop_token& stop, Progress& progress, PlayedMotion* recorded) {
   Simulation simulation(scene.simulation);
   Surveyor surveyor(scene, simulation);
   surveyor.film.bodies = names_of(simulation.colliders(0));
@@ -108,7 +109,12 @@ std::optional<FilmFacts> survey_motion(const Scene& scene, std::int64_t window_s
   StepCounter counter(progress);
   progress.begin("choosing frames", "steps", film.steps);
   const std::array<StepObserver*, 2> observers{&sampler, &counter};
-  run_chained(simulation, window_starts(film.steps, window_steps), quanta, observers, stop);
+  const std::vector<std::int64_t> starts = window_starts(film.steps, window_steps);
+  if (recorded != nullptr) {
+    play_chained(*recorded, simulation, starts, quanta, observers, stop);
+  } else {
+    run_chained(simulation, starts, quanta, observers, stop);
+  }
   if (stop.stop_requested()) return std::nullopt;
   return std::move(surveyor.film);
 }

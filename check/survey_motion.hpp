@@ -4,6 +4,7 @@
 #include <stop_token>
 
 #include "check/choose_frames.hpp"
+#include "check/played_motion.hpp"
 #include "check/rounding.hpp"
 #include "run/progress.hpp"
 #include "scene/scene.hpp"
@@ -11,9 +12,11 @@
 namespace drape {
 
 /// Runs a scene's golden motion, see run_chained(), to see what happens in its film.
+/// @param recorded the motion, which is read then; null: the scene is simulated
 /// @returns nothing if it was stopped
 /// @throws DivergedError
 std::optional<FilmFacts> survey_motion(const Scene& scene, std::int64_t window_steps, const Quanta& quanta,
-                                       const std::stop_token& stop, Progress& progress);
+                                       const std::stop_token& stop, Progress& progress,
+                                       PlayedMotion* recorded = nullptr);
 
 }  // namespace drape

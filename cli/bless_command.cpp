@@ -7,7 +7,7 @@
 #include "check/golden_folder.hpp"
 #include "cli/command_line.hpp"
 #include "cli/frame_list.hpp"
-#include "cli/scene_files.hpp"
+#include "cli/motion_runs.hpp"
 #include "cli/watched.hpp"
 #include "core/console.hpp"
 #include "core/text.hpp"
@@ -23,14 +23,17 @@ struct BlessArguments {
 
 ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
   const std::vector<int> frames = parse_frame_list(arguments.frames);
-  const std::vector<Scene> scenes = load_scenes(arguments.scenes, {});
-  for (const Scene& scene : scenes) has_golden(golden_folder(scene.file));  // or it throws, before any is recorded
-  for (const Scene& scene : scenes) {
+  const std::vector<SceneToRun> scenes = open_scenes(arguments.scenes, {});
+  for (const auto& [scene, recorded] : scenes) has_golden(golden_folder(scene.file));  // or it throws, before any is
+  for (const SceneToRun& opened : scenes) {
+    const Scene& scene = opened.scene;
     CheckSettings settings = scene.check;
     if (!frames.empty()) settings.frames = frames;
     std::optional<Blessing> blessing;
     run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) {
-      blessing = bless_scene(scene, settings, arguments.backend, stop, progress);
+      std::optional<PlayedMotion> played;
+      if (opened.recorded) played.emplace(*opened.recorded);
+      blessing = bless_scene(scene, settings, arguments.backend, stop, progress, played ? &*played : nullptr);
     });
     if (!blessing) {
       spdlog::error("interrupted: {} is unchanged", shown(golden_folder(scene.file)));
@@ -49,7 +52,8 @@ ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
 void add_bless_command(CLI::App& app, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<BlessArguments>();
   CLI::App* sub = app.add_subcommand("bless", "Record the golden frames and motion that drape check compares to");
-  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
+  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML), or motions: .drape, or what drape import reads")
+      ->required();
   sub->add_option("--frames", arguments->frames, "Frames of the film to compare: A,B,C; see [check] in the scene");
   add_backend_option(*sub, arguments->backend);
   sub->callback(

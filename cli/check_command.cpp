@@ -13,6 +13,7 @@
 #include "cli/check_results.hpp"
 #include "cli/frame_list.hpp"
 #include "cli/line_option.hpp"
+#include "cli/motion_runs.hpp"
 #include "cli/number_option.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/watched.hpp"
@@ -102,8 +103,10 @@ std::string run_options(const CheckArguments& arguments) {
 /// Judges the scenes of this place among all.
 class Judge {
  public:
-  Judge(const std::vector<Scene>& scenes, const CheckArguments& arguments, const CheckOptions& options)
+  Judge(const std::vector<Scene>& scenes, const std::vector<std::shared_ptr<MotionReader>>& recorded,
+        const CheckArguments& arguments, const CheckOptions& options)
       : scenes_(scenes),
+        recorded_(recorded),
         arguments_(arguments),
         options_(options),
         names_(unique_names(scenes, {check_report_files.begin(), check_report_files.end()})) {}
@@ -114,7 +117,9 @@ class Judge {
     const CheckSettings settings = settings_of(scene, arguments_);
     SceneResult result;
     try {
-      result = check_scene(scene, names_[place], settings, options_, stop, progress);
+      std::optional<PlayedMotion> played;
+      if (recorded_[place]) played.emplace(*recorded_[place]);
+      result = check_scene(scene, names_[place], settings, options_, stop, progress, played ? &*played : nullptr);
     } catch (const Error& error) {
       result = unjudged_scene(scene, names_[place], settings, error);
     } catch (const std::bad_alloc&) {
@@ -135,6 +140,7 @@ class Judge {
 
  private:
   const std::vector<Scene>& scenes_;
+  const std::vector<std::shared_ptr<MotionReader>>& recorded_;  // null where a scene is simulated
   const CheckArguments& arguments_;
   const CheckOptions& options_;
   std::vector<std::string> names_;
@@ -217,7 +223,12 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
                              .overrides = override_options(arguments)};
   require_golden_values(options);
   require_no_golden(arguments.report);
-  const std::vector<Scene> scenes = load_scenes(arguments.scenes, arguments.overrides);
+  std::vector<Scene> scenes;
+  std::vector<std::shared_ptr<MotionReader>> recorded;
+  for (SceneToRun& opened : open_scenes(arguments.scenes, arguments.overrides)) {
+    scenes.push_back(std::move(opened.scene));
+    recorded.push_back(std::move(opened.recorded));
+  }
   for (const char* file : check_report_files) const PartialFile writable(folder / file);  // or it throws
 
   CheckShard part{.report = {}, .places = places_of(scenes, shard), .scenes = scenes.size(), .whole = shard.whole()};
@@ -228,7 +239,7 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   report.command += command_options(arguments);
   report.run_options = run_options(arguments);
   Verdicts verdicts;
-  const Judge judge(scenes, arguments, options);
+  const Judge judge(scenes, recorded, arguments, options);
   if (check_all(judge, part.places, arguments.jobs, common, verdicts, report)) {
     spdlog::error("interrupted: no report was written");
     return ExitCode::interrupted;
@@ -254,7 +265,8 @@ void add_limits(CLI::App& sub, CheckArguments& arguments) {
 void add_check_command(CLI::App& app, const CommonOptions& common, Command& command) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* sub = app.add_subcommand("check", "Compare scenes with their golden frames and motion");
-  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML)")->required();
+  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML), or motions: .drape, or what drape import reads")
+      ->required();
   sub->add_option("--set", arguments->overrides, "Override a value of the scene: key.path=value; repeatable")
       ->allow_extra_args(false);
   sub->add_option("--frames", arguments->frames, "Compare only these golden frames: A,B,C");

@@ -122,6 +122,7 @@ ExitCode conclude(const CompareResult& result) {
   for (const std::string& problem : result.problems) spdlog::error(problem);
   ExitCode code = result.problems.empty() ? ExitCode::ok : ExitCode::output;
   for (const ComparedMotion& motion : result.motions) {
+    if (!motion.matched.empty()) spdlog::info("{}: {}", motion.label, motion.matched);
     if (motion.divergence.empty()) continue;
     spdlog::error("{}: {}", motion.label, motion.divergence);
     code = std::max(code, ExitCode::diverged);
@@ -177,7 +178,7 @@ void add_compare_command(CLI::App& app, const CommonOptions& common, Command& co
   CompareOptions& options = arguments->options;
   CLI::App* sub = app.add_subcommand("compare", "Draw motions side by side");
   const auto one_each = [](CLI::Option* option) { option->allow_extra_args(false); };
-  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML), or motions (.drape) recorded by drape simulate")
+  sub->add_option("SCENE", arguments->scenes, "Scene files (TOML), or motions: .drape, or what drape import reads")
       ->required();
   one_each(sub->add_option(
                   "-o,--output", options.outputs,

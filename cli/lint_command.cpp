@@ -11,6 +11,7 @@
 #include "core/console.hpp"
 #include "core/text.hpp"
 #include "run/outputs.hpp"
+#include "scene/motion_scene.hpp"
 
 namespace drape {
 namespace {
@@ -29,6 +30,7 @@ void lint(const std::string& file, const std::vector<std::string>& overrides, co
     print_unescaped(stdout, wrapped(inked("hint", Ink::yellow, where) + ": " + text + "\n", where.width, 2));
   };
   try {
+    if (const auto of_motion = load_scene_of_motion(file, overrides)) return require_texture(of_motion->look);
     const Scene scene = load_scene(file, overrides);
     require_texture(scene);
     for (const std::string& text : advice_on(scene, read_document(file))) hint(escape_controls(text));

@@ -17,6 +17,7 @@
 #include "core/shell.hpp"
 #include "core/text.hpp"
 #include "study/stability_runs.hpp"
+#include "study/validation_runs.hpp"
 #include "sweep/merge.hpp"
 
 namespace drape {
@@ -101,11 +102,11 @@ ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder
 /// What the shards in a folder are of.
 /// @throws UsageError if there are none
 const char* mark_in(const fs::path& folder) {
-  for (const char* mark : {check_mark, stability_runs_name, sweep_mark}) {
+  for (const char* mark : {check_mark, stability_runs_name, validation_shard_name, sweep_mark}) {
     if (!parts_in(folder, mark).empty()) return mark;
   }
-  throw UsageError(
-      fmt::format("{}: there is no sweep, check or study of stability in it, nor a shard of one", shown(folder)));
+  throw UsageError(fmt::format(
+      "{}: there is no sweep, check or study of stability or validation in it, nor a shard of one", shown(folder)));
 }
 
 ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
@@ -117,15 +118,17 @@ ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
     const std::vector<fs::path> found = parts_in(folder, mark);
     if (found.empty()) {
       throw UsageError(fmt::format("{}: there is neither a {} in it nor a shard of one", folder,
-                                   mark == check_mark   ? "check"
-                                   : mark == sweep_mark ? "sweep"
-                                                        : "study of stability"));
+                                   mark == check_mark            ? "check"
+                                   : mark == sweep_mark          ? "sweep"
+                                   : mark == stability_runs_name ? "study of stability"
+                                                                 : "study of validation"));
     }
     parts.insert(parts.end(), found.begin(), found.end());
   }
   const fs::path folder = arguments.output.empty() ? arguments.folders.front() : arguments.output;
   if (mark == check_mark) return merge_checks(parts, folder, common);
   if (mark == stability_runs_name) return merge_stability_study(parts, folder, common);
+  if (mark == validation_shard_name) return merge_validation_study(parts, folder, common);
   SweepFile whole = merge_sweeps(parts, folder, interruption().get_token());
   if (interrupted()) return ExitCode::interrupted;
   return conclude_sweep(read_results(folder, std::move(whole)), folder, common);

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "cli/film_times.hpp"
+#include "cli/scene_files.hpp"
 #include "cli/watched.hpp"
 #include "core/build_info.hpp"
 #include "core/error.hpp"
@@ -17,6 +18,7 @@
 #include "motion/scene_folder.hpp"
 #include "output/registry.hpp"
 #include "run/motion_frames.hpp"
+#include "scene/motion_scene.hpp"
 #include "scene/quality.hpp"
 #include "sim/stop.hpp"
 
@@ -78,6 +80,7 @@ Scene scene_to_draw(const std::string& file, const MotionHeader& header, const M
   if (header.imported) scene.fields.clear();  // which are not what moves it
   scene.file = file;
   scene.name = scene.file.stem().string();
+  scene.digest = no_scene_digest;
   scene.inputs.emplace_back(file);
   return scene;
 }
@@ -97,28 +100,70 @@ SceneToRun open_motion(const std::string& file, const std::vector<std::string>& 
 
 namespace {
 
-/// A motion in another program's format, as a motion file of its own for as long as it is read.
-SceneToRun open_import(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
-  struct Imported {
-    TemporaryFolder folder{"drape-import"};
-    SceneToRun opened = {};
-  };
-  const auto imported = std::make_shared<Imported>();
-  std::string name = std::filesystem::path(file).stem().string();
-  std::erase_if(name, [](char c) { return c == '{' || c == '}' || c == ':'; });
+/// A motion file in a folder of its own for as long as it is read.
+struct ImportedFile {
+  TemporaryFolder folder{"drape-import"};
+  SceneToRun opened = {};
+};
+
+/// Imports a motion into a motion file.
+/// @param name of that
+std::shared_ptr<ImportedFile> import_for_now(const ImportOptions& options, const std::string& name,
+                                             const std::vector<std::string>& overrides, const std::string& look) {
+  const auto imported = std::make_shared<ImportedFile>();
   const std::filesystem::path motion = imported->folder.path() / (name + ".drape");
   try {
-    run_watched(true, [&](const std::stop_token& stop, Progress& progress) {
-      import_motion({.cloths = {file}}, motion, stop, progress);
-    });
+    run_watched(
+        true, [&](const std::stop_token& stop, Progress& progress) { import_motion(options, motion, stop, progress); });
   } catch (const Interrupted&) {
-    throw UsageError(shown(file) + ": interrupted while it was read");
+    throw UsageError(shown(options.cloths.front()) + ": interrupted while it was read");
   }
   imported->opened = open_motion(motion.string(), overrides, look);
+  return imported;
+}
+
+SceneToRun with_scene(const std::shared_ptr<ImportedFile>& imported, Scene scene) {
+  return {std::move(scene), std::shared_ptr<MotionReader>(imported, imported->opened.recorded.get())};
+}
+
+/// A motion in another program's format.
+SceneToRun open_import(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
+  std::string name = std::filesystem::path(file).stem().string();
+  std::erase_if(name, [](char c) { return c == '{' || c == '}' || c == ':'; });
+  const auto imported = import_for_now({.cloths = {file}}, name, overrides, look);
   Scene scene = imported->opened.scene;
   scene.file = file;
   scene.name = name;
-  return {std::move(scene), std::shared_ptr<MotionReader>(imported, imported->opened.recorded.get())};
+  return with_scene(imported, std::move(scene));
+}
+
+/// A scene that names a motion.
+SceneToRun open_scene_of_motion(const std::string& file, const SceneOfMotion& of_motion) {
+  const NamedMotion& named = of_motion.named;
+  const Scene& look = of_motion.look;
+  const ImportOptions options{.cloths = {named.motion},
+                              .bodies = named.bodies,
+                              .mesh = named.mesh,
+                              .prim = named.prim,
+                              .axes = {.y_up = named.y_up, .scale = named.scale},
+                              .fps = named.fps};
+  std::shared_ptr<ImportedFile> imported;
+  try {
+    imported = import_for_now(options, look.name, {}, {});
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("{}: motion: {}", shown(file), error.what()));
+  }
+  if (!look.look.texture.empty() && imported->opened.scene.uvs.empty()) {
+    throw UsageError(look.texture_place + ": texture: the motion has no texture coordinates");
+  }
+  Scene scene = with_look(imported->opened.scene, look);
+  scene.check = look.check;
+  scene.file = look.file;
+  scene.name = look.name;
+  scene.digest = look.digest;
+  scene.inputs = look.inputs;
+  scene.doubts = look.doubts;
+  return with_scene(imported, std::move(scene));
 }
 
 }  // namespace
@@ -129,7 +174,26 @@ SceneToRun open_scene(const std::string& file, const std::vector<std::string>& o
   }
   if (is_motion_file(file)) return open_motion(file, overrides, look);
   if (is_importable(file)) return open_import(file, overrides, look);
+  if (const auto of_motion = load_scene_of_motion(file, overrides)) {
+    if (!look.empty())
+      throw UsageError(fmt::format("{}: it says itself how its motion looks: omit --scene", shown(file)));
+    return open_scene_of_motion(file, *of_motion);
+  }
   return {load_scene(file, overrides), nullptr};
+}
+
+std::vector<SceneToRun> open_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides) {
+  std::vector<SceneToRun> scenes;
+  SceneProblems problems;
+  for (const std::string& file : files) {
+    try {
+      scenes.push_back(open_scene(file, overrides));
+    } catch (const UsageError& error) {
+      problems.add(file, error.what());
+    }
+  }
+  problems.throw_if_any(files);
+  return scenes;
 }
 
 void warn_of_gaps(const std::string& file, const MotionReader& motion, const FilmExtent& extent) {

@@ -22,10 +22,14 @@ struct SceneToRun {
 /// @throws UsageError if the motion is damaged, or the scene would move otherwise
 SceneToRun open_motion(const std::string& file, const std::vector<std::string>& overrides, const std::string& look);
 
-/// A scene to simulate, or a motion to draw, by the file's extension.
+/// A scene to simulate, or a motion to draw: by the file's extension, or because the scene names a motion.
 /// @param overrides, look as of open_motion()
 /// @throws UsageError also if it is a motion that is not complete
 SceneToRun open_scene(const std::string& file, const std::vector<std::string>& overrides, const std::string& look = {});
+
+/// Each of the files as open_scene() has it.
+/// @throws UsageError with the problems of all of them
+std::vector<SceneToRun> open_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides);
 
 /// Says where a film shows what its motion's file does not hold.
 void warn_of_gaps(const std::string& file, const MotionReader& motion, const FilmExtent& extent);

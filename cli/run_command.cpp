@@ -147,6 +147,10 @@ std::vector<SceneToRun> load_all(const RunArguments& arguments) {
     }
     try {
       all.push_back(open_scene(file, arguments.overrides, arguments.look));
+      if (all.back().recorded && !arguments.drawing) {
+        problems.add(file,
+                     fmt::format("{}: its motion is read, so there is nothing to simulate: use drape render", file));
+      }
     } catch (const UsageError& error) {
       problems.add(file, error.what());
     }
@@ -224,7 +228,7 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
   render->add_flag("--poster", arguments->poster,
                    "Also write FILM.poster.png beside each film: its most telling frame");
   render->add_flag("--open", arguments->open, "Show the first output when it is complete, with xdg-open");
-  add_shared_options(*render, *arguments, "Scene files (TOML), or motions (.drape) recorded by drape simulate");
+  add_shared_options(*render, *arguments, "Scene files (TOML), or motions: .drape, or what drape import reads");
   render->add_option("--scene", arguments->look, "Render motions with the camera, look and film of this scene");
   render->callback([arguments, &common, &command] {
     if (arguments->outputs.empty())

@@ -32,6 +32,10 @@ ExitCode conclude_study(const StudyReport& report, const std::filesystem::path& 
 ExitCode merge_stability_study(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
                                const CommonOptions& common);
 
+/// The same of a study of validation, whose runs it also writes there.
+ExitCode merge_validation_study(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
+                                const CommonOptions& common);
+
 /// A study's report, if it was not stopped.
 template <class Study>
 std::optional<StudyReport> report_of(const std::optional<Study>& study, StudyReport (*report)(const Study&)) {

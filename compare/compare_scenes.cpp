@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "compare/in_step.hpp"
 #include "compare/page.hpp"
@@ -12,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "output/contact_sheet.hpp"
+#include "output/motion_packer.hpp"
 #include "output/png_encoder.hpp"
 #include "output/registry.hpp"
 #include "render/view.hpp"
@@ -58,18 +60,19 @@ class Comparison {
         progress_(progress),
         first_(scenes.front()),
         frames_(frames_of(scenes, options)),
+        matches_(match_scenes(scenes)),
         colors_(scenes, labels(scenes, differences(scenes)), options.difference),
         layout_(layout_of(pen_, scenes, options, colors_.wanted())),
         motions_(scenes, options, look_ahead()),
         outputs_(outputs_that(false, options), comparison_info(scenes, options)) {
-    for (const Scene& scene : scenes) {
-      comparable_ = comparable_ && scene.simulation.cloth.vertex_count() == first_.simulation.cloth.vertex_count();
-    }
+    for (const VertexMatch& match : matches_) comparable_ = comparable_ && match.comparable;
     result_.differences = differences(scenes);
     result_.frames_wanted = frames_.count();
     for (const std::string& label : labels(scenes, result_.differences)) {
       const IntegratorSettings& integrator = scenes[result_.motions.size()].simulation.integrator;
-      result_.motions.push_back({label, {}, {}, {}, {}, {}, step_method_name({integrator.method, integrator.scheme})});
+      const std::string& matched = matches_[result_.motions.size()].note;
+      result_.motions.push_back(
+          {label, {}, {}, {}, {}, {}, step_method_name({integrator.method, integrator.scheme}), matched, {}});
     }
   }
 
@@ -84,6 +87,7 @@ class Comparison {
     const Ending ending = result_.interrupted ? Ending::early : Ending::complete;
     if (!result_.times.empty()) {
       result_.outputs = outputs_.finish(ending);
+      for (std::size_t i = 0; i < packers_.size(); ++i) result_.motions[i].played = packers_[i].finish();
       for (const std::string& path : outputs_that(true, options_)) write_page(path, ending);
     }
     for (const std::string& problem : outputs_.problems()) result_.problems.push_back(problem);
@@ -123,6 +127,7 @@ class Comparison {
       renderers_.emplace_back(data_folder(), first_.video.size, path.at(0), look, scene.simulation.cloth.vertex_count(),
                               scene.simulation.cloth.triangles, scene.uvs, options_.backend);
     }
+    if (!outputs_that(true, options_).empty()) begin_players();
     if (colors_.wanted()) bar_ = colors_.bar(pen_, layout_.size().x(), layout_.text_size());
     play("drawing", frames_.last, [&](int k, const Moment& moment) {
       if (k < frames_.first) return;
@@ -146,7 +151,32 @@ class Comparison {
       moments_.push_back({time, {}});
       for (const Image& panel : panels) moments_.back().pictures.push_back(encode_png(panel));
     }
+    add_to_players(moment);
     outputs_.add({*moment.front(), layout_.compose(pen_, panels, extra, fmt::format("t = {:.2f} s", time), bar_)});
+  }
+
+  /// Has a page's players take the motions, unless a browser could not hold them.
+  void begin_players() {
+    const FilmInfo film = comparison_info(scenes_, options_);
+    std::size_t vertices = 0;
+    for (const Scene& scene : scenes_) vertices += static_cast<std::size_t>(scene.simulation.cloth.vertex_count());
+    if (vertices * static_cast<std::size_t>(frames_.count()) > MotionPacker::most_positions) return;
+    for (const Scene& scene : scenes_) {
+      FilmInfo own = film;
+      own.cloth = &scene.simulation.cloth;
+      own.look = &scene.look;
+      own.camera = &first_.camera;
+      packers_.emplace_back(own);
+    }
+  }
+
+  void add_to_players(const Moment& moment) {
+    try {
+      for (std::size_t i = 0; i < packers_.size(); ++i) packers_[i].add(*moment[i]);
+    } catch (const OutputError& error) {
+      packers_.clear();
+      result_.missing = fmt::format("the page has no motion to turn: {}", error.what());
+    }
   }
 
   void take_figures(double time, const Moment& moment) {
@@ -157,7 +187,7 @@ class Comparison {
       motion.most.emplace_back();
       motion.mean.emplace_back();
       if (!comparable_) continue;
-      const Eigen::VectorXd away = distances(*moment[i], *moment.front());
+      const Eigen::VectorXd away = distances(*moment[i], *moment.front(), matches_[i].order);
       motion.most.back() = away.maxCoeff();
       motion.mean.back() = away.mean();
     }
@@ -197,12 +227,14 @@ class Comparison {
   const Scene& first_;
   Pen pen_;
   FrameRange frames_;
+  std::vector<VertexMatch> matches_;
   PanelColors colors_;
   PanelLayout layout_;
   MotionsInStep motions_;
   Outputs outputs_;
   bool comparable_ = true;  // vertex by vertex
   std::vector<Renderer> renderers_;
+  std::deque<MotionPacker> packers_;  // by motion, where there is a page
   std::optional<Image> bar_;
   std::vector<PageMoment> moments_;
   CompareResult result_;

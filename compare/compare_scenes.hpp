@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compare/differences.hpp"
+#include "html/motion_player.hpp"
 #include "output/format.hpp"
 #include "render/backend.hpp"
 #include "run/progress.hpp"
@@ -39,6 +40,8 @@ struct ComparedMotion {
   std::vector<double> total_energy;               ///< by frame [J]
   std::vector<std::optional<double>> most, mean;  ///< of the vertices' distances to the first, by frame [m]
   std::string method = {};                        ///< "liu13", "implicit-sdirk2"
+  std::string matched = {};                       ///< how its vertices are compared, see VertexMatch::note
+  html::PlayedMotion played = {};                 ///< to turn on a page; without frames where there is none
 };
 
 struct CompareResult {

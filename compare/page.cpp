@@ -109,6 +109,19 @@ NamedChart lines(const CompareResult& result, const std::string& name, const std
   return {name, std::move(chart)};
 }
 
+/// Each motion to turn, opened one at a time.
+Markup players(const CompareResult& result) {
+  Markup content;
+  for (std::size_t i = 0; i < result.motions.size(); ++i) {
+    const ComparedMotion& motion = result.motions[i];
+    if (motion.played.frames == 0) continue;
+    content +=
+        html::details(motion.label, html::motion_player(fmt::format("motion-{}", i), motion.played, motion.label) +
+                                        html::note(describe(motion.played)));
+  }
+  return content.empty() ? content : html::section(2, "turn", "Turn the cloth", content);
+}
+
 Markup curves(const CompareResult& result) {
   Markup content;
   for (const NamedChart& diagram : comparison_charts(result)) content += html::chart(diagram.chart);
@@ -134,6 +147,7 @@ std::string comparison_page(const CompareResult& result, const std::vector<PageM
   std::vector<html::Finding> found;
   for (const ComparedMotion& motion : result.motions) {
     if (!motion.divergence.empty()) found.push_back({html::Tone::bad, motion.label + ": " + motion.divergence});
+    if (!motion.matched.empty()) found.push_back({html::Tone::neutral, motion.label + ": " + motion.matched});
     const std::optional<double> most = largest(motion.most);
     if (&motion != &result.motions.front() && most) {
       found.push_back(
@@ -146,7 +160,8 @@ std::string comparison_page(const CompareResult& result, const std::vector<PageM
   page.kind = "drape compare";
   page.heading = fmt::format("{} motions side by side", result.motions.size());
   page.introduction = html::findings(found) + html::command("Reproduce this page", command);
-  page.content = films(result, moments, bar) + html::section(2, "figures", "Figures", figures_table(result)) +
+  page.content = films(result, moments, bar) + players(result) +
+                 html::section(2, "figures", "Figures", figures_table(result)) +
                  html::section(2, "differences", "Differences", differences_table(result)) +
                  html::section(2, "curves", "Over time", curves(result));
   for (const auto& [name, value] : html::provenance()) page.foot.emplace_back(name, value);

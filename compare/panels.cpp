@@ -30,8 +30,9 @@ void append_below(Image& upper, const Image& lower) {
 
 }  // namespace
 
-Eigen::VectorXd distances(const Frame& frame, const Frame& other) {
-  return (frame.positions - other.positions).rowwise().norm();
+Eigen::VectorXd distances(const Frame& frame, const Frame& other, const VertexOrder& order) {
+  if (order.empty()) return (frame.positions - other.positions).rowwise().norm();
+  return (frame.positions - in_order(other.positions, order)).rowwise().norm();
 }
 
 PanelColors::PanelColors(const std::vector<Scene>& scenes, const std::vector<std::string>& labels, bool difference)
@@ -39,6 +40,7 @@ PanelColors::PanelColors(const std::vector<Scene>& scenes, const std::vector<std
   const Look& look = scenes.front().look;
   if (difference) {
     scale_.emplace(std::nullopt);
+    matches_ = match_scenes(scenes);
   } else if (look.color_by) {
     for (const Scene& scene : scenes) measures_.emplace_back(*look.color_by, scene.simulation.cloth);
     scale_.emplace(look.color_limit);
@@ -46,7 +48,8 @@ PanelColors::PanelColors(const std::vector<Scene>& scenes, const std::vector<std
 }
 
 Eigen::VectorXd PanelColors::values(const std::vector<const Frame*>& frames, std::size_t panel) const {
-  return difference_ ? distances(*frames[panel], *frames.front()) : measures_[panel](*frames[panel]);
+  return difference_ ? distances(*frames[panel], *frames.front(), matches_[panel].order)
+                     : measures_[panel](*frames[panel]);
 }
 
 void PanelColors::survey(const std::vector<const Frame*>& frames) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compare/differences.hpp"
+#include "compare/vertex_matches.hpp"
 #include "overlay/color_scale.hpp"
 #include "overlay/pen.hpp"
 #include "overlay/vertex_coloring.hpp"
@@ -34,6 +35,7 @@ class PanelColors {
   bool difference_;
   std::string first_;                    // the first scene's label
   std::vector<VertexMeasure> measures_;  // by scene; empty where distances are shown
+  std::vector<VertexMatch> matches_;     // by scene, where distances are shown
   std::optional<ColorScale> scale_;
 };
 
@@ -67,6 +69,7 @@ class PanelLayout {
 };
 
 /// How far vertices are from where another frame has them [m].
-Eigen::VectorXd distances(const Frame& frame, const Frame& other);
+/// @param order the numbers that they have there; empty: the same
+Eigen::VectorXd distances(const Frame& frame, const Frame& other, const VertexOrder& order = {});
 
 }  // namespace drape

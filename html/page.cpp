@@ -23,10 +23,10 @@ Markup meta(const std::string& name, const std::string& content) {
 }  // namespace
 
 std::string render(const Page& page) {
-  const std::string style = fmt::format("{}{}{}{}{}{}{}{}{}", theme_css, diagram_css, page_css, chart_css, copies_css,
-                                        comparison_css, film_css, explore_css, print_css);
-  const std::string script =
-      fmt::format("{}{}{}const latexSigns = {};\n{}", page_js, film_js, explore_js, latex_signs(), copies_js);
+  const std::string style = fmt::format("{}{}{}{}{}{}{}{}{}{}", theme_css, diagram_css, page_css, chart_css, copies_css,
+                                        comparison_css, film_css, explore_css, motion_player_css, print_css);
+  const std::string script = fmt::format("{}{}{}{}{}{}const latexSigns = {};\n{}", page_js, film_js, explore_js,
+                                         motion_data_js, motion_painter_js, motion_player_js, latex_signs(), copies_js);
   const Markup head = element("meta", {{"charset", "utf-8"}}) +
                       element("meta", {{"http-equiv", "Content-Security-Policy"}, {"content", policy}}) +
                       meta("viewport", "width=device-width, initial-scale=1") + meta("color-scheme", "light dark") +

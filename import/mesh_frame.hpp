@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct MeshFrame {
   std::optional<Energies> energies = {};
   std::vector<Eigen::Vector4d> spheres = {}, grounds = {};  ///< centre and radius; normal and height
   std::vector<Mesh> bodies = {};
+  std::optional<std::uint64_t> polygons = {};  ///< a hash of the faces, where the triangles depend on their shape
 };
 
 /// Turns faces of any number of corners into the triangles of a mesh whose positions are known.

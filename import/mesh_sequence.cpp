@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/hash.hpp"
 #include "core/read_file.hpp"
 #include "core/text.hpp"
 #include "import/drape_comment.hpp"
@@ -20,6 +21,24 @@ namespace {
 
 constexpr std::size_t most_bytes_of_frame = 4'000'000'000;
 
+/// A hash of the vertices of all polygons of an OBJ, which a reader divides as their shape suggests.
+std::uint64_t polygons_of(std::string_view text) {
+  Hash hash;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string_view line = text.substr(at, end - at);
+    at = end + 1;
+    if (!line.starts_with("f ") && !line.starts_with("f\t")) continue;
+    bool in_vertex = true;  // before its slashes
+    for (const char c : line) {
+      const bool space = c == ' ' || c == '\t' || c == '\r';
+      in_vertex = space || (in_vertex && c != '/');
+      if (in_vertex && c != '\r') hash.add(&c, 1);
+    }
+  }
+  return hash.value();
+}
+
 /// An OBJ; of one that drape has written, its cloth and, as bodies, its other objects.
 MeshFrame read_obj_frame(const fs::path& file) {
   const SourceText source = SourceText::read(file);
@@ -27,6 +46,7 @@ MeshFrame read_obj_frame(const fs::path& file) {
   std::vector<ObjObject> objects = read_drape_objects(source);
   if (objects.empty()) {
     frame.mesh = read_obj_mesh(source);
+    frame.polygons = polygons_of(source.text());
     return frame;
   }
   for (ObjObject& object : objects) {
@@ -67,6 +87,8 @@ class MeshSequence final : public MotionSource {
 
   [[nodiscard]] ImportedMoment moment(std::size_t i) override {
     MeshFrame frame = i == 0 ? first_ : read_mesh_frame(files_[i]);
+    // A quad that bends may be divided along its other diagonal.
+    if (frame.polygons && frame.polygons == first_.polygons) frame.mesh.triangles = first_.mesh.triangles;
     require_same_mesh(files_[i].string(), first_.mesh, frame.mesh);
     return {.x = std::move(frame.mesh.positions), .v = std::move(frame.velocities), .energies = frame.energies};
   }

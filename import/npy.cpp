@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <regex>
@@ -78,10 +79,11 @@ void NpyStream::read_header() {
     }
   }
   if (header.find("'fortran_order': True") != std::string::npos && shape_.size() > 1) {
-    fail("it is in Fortran's order: save numpy.ascontiguousarray of it");
+    fail("expected numbers in C order, found Fortran's: save numpy.ascontiguousarray of it");
   }
   bytes *= static_cast<double>(type_.size * std::max<std::size_t>(1, fields_.size()));
-  if (bytes > static_cast<double>(stream_.left())) fail("it is cut short");
+  if (bytes > static_cast<double>(stream_.left()))
+    fail("it is damaged or cut short: its header says more than there is");
 }
 
 std::size_t NpyStream::row_size() const {
@@ -102,6 +104,14 @@ std::vector<double> NpyStream::rest() {
     all.insert(all.end(), one.begin(), one.end());
   }
   return all;
+}
+
+std::unique_ptr<NpyStream> array_named(const ZipReader& zip, std::initializer_list<std::string> names) {
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(zip.members(), name + ".npy", &ZipReader::Member::name);
+    if (found != zip.members().end()) return std::make_unique<NpyStream>(zip, *found);
+  }
+  return nullptr;
 }
 
 }  // namespace drape

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,5 +43,9 @@ class NpyStream {
   std::vector<std::size_t> shape_;
   std::size_t next_ = 0;
 };
+
+/// The array of the first of some names that an archive has; null if it has none of them.
+/// @throws UsageError as NpyStream
+std::unique_ptr<NpyStream> array_named(const ZipReader& zip, std::initializer_list<std::string> names);
 
 }  // namespace drape

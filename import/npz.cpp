@@ -10,20 +10,6 @@ namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
-/// The member of the first of some names that there is; null if there is none.
-const ZipReader::Member* member_named(const ZipReader& zip, std::initializer_list<std::string> names) {
-  for (const std::string& name : names) {
-    const auto found = std::ranges::find_if(zip.members(), [&](const auto& m) { return m.name == name + ".npy"; });
-    if (found != zip.members().end()) return &*found;
-  }
-  return nullptr;
-}
-
-std::unique_ptr<NpyStream> array_named(const ZipReader& zip, std::initializer_list<std::string> names) {
-  const ZipReader::Member* const member = member_named(zip, names);
-  return member == nullptr ? nullptr : std::make_unique<NpyStream>(zip, *member);
-}
-
 void require_shape(const NpyStream& array, std::vector<std::size_t> expected, const char* text) {
   bool good = array.shape().size() == expected.size();
   for (std::size_t i = 0; good && i < expected.size(); ++i) good = expected[i] == 0 || expected[i] == array.shape()[i];

@@ -37,7 +37,9 @@ ZipReader::ZipReader(std::filesystem::path file) : file_(std::move(file)) {
   const std::uint64_t size = std::filesystem::file_size(file_, error);
   std::ifstream stream(file_, std::ios::binary);
   if (error || !stream) fail_import(name, "the file cannot be read: " + (error ? error.message() : "no permission"));
-  const auto fail = [&]() { fail_import(name, "it is cut short, or no .npz: its directory was not found"); };
+  const auto fail = [&]() {
+    fail_import(name, "expected an NPZ file, found no directory of one: it is cut short, or something else");
+  };
   const std::uint64_t tail_size = std::min<std::uint64_t>(size, 22 + 65535 + 20);
   const std::string tail = bytes_at(stream, size - tail_size, tail_size);
   const std::size_t end = tail.rfind("PK\x05\x06");
@@ -110,7 +112,7 @@ ZipStream::ZipStream(const ZipReader& zip, const ZipReader::Member& member)
 
 ZipStream::~ZipStream() = default;
 
-void ZipStream::fail_cut() const { fail_import(name_, "it is cut short or damaged"); }
+void ZipStream::fail_cut() const { fail_import(name_, "it is damaged or cut short"); }
 
 std::string ZipStream::read(std::size_t count) {
   if (count > left_) fail_cut();

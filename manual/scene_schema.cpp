@@ -9,6 +9,7 @@
 
 #include "scene/color.hpp"
 #include "scene/mesh_shape.hpp"
+#include "scene/motion_scene.hpp"
 #include "scene/tables.hpp"
 #include "sim/body_shape.hpp"
 #include "sim/mesh_motion.hpp"
@@ -258,6 +259,13 @@ std::string scene_schema() {
   ClothTable cloth;
   Scene scene;
   for (const TableType& table : scene_tables(cloth, scene)) add_table(root, table.name, table_schema(table));
+  // A cloth that is simulated, or a motion that is read.
+  NamedMotion motion;
+  const TomlValue* body = nullptr;
+  Json read = table_schema(named_motion_table(motion, body));
+  read["properties"]["body"] =
+      text_and("What the cloth may touch, in the same formats.", any_of({of_type("string"), list(of_type("string"))}));
+  root["properties"]["cloth"] = any_of({root["properties"]["cloth"], std::move(read)});
   Json effects = Json::object();
   for (const EffectType& type : effect_types()) {
     Effect effect = type.make();

@@ -47,6 +47,7 @@ struct FilmInfo {
   const Cloth* cloth = nullptr;  ///< null: there is none
   const std::vector<std::array<float, 2>>* uvs = nullptr;
   const Look* look = nullptr;
+  const Camera* camera = nullptr;  ///< likewise; null: the usual direction
 
   /// Where one picture is asked for, it is a contact sheet of several moments instead; absent: it is the last.
   std::optional<SheetGrid> sheet = {};

@@ -10,6 +10,7 @@
 #include "output/animation_encoder.hpp"
 #include "output/gif_encoder.hpp"
 #include "output/glb_writer.hpp"
+#include "output/html_writer.hpp"
 #include "output/npz_writer.hpp"
 #include "output/obj_writer.hpp"
 #include "output/pc2_writer.hpp"
@@ -38,6 +39,7 @@ const std::vector<OutputFormat>& output_formats() {
       vtp_format(),   //
       pc2_format(),   //
       glb_format(),   //
+      html_format(),  //
       {.extension = ".drape",
        .help = "the motion itself, to draw later in any way and to resume after Ctrl-C",
        .made_by = {},

@@ -43,6 +43,7 @@ FilmInfo film_info(const Scene& scene, const RunOptions& options, Progress* prog
   film.cloth = &scene.simulation.cloth;
   film.uvs = &scene.uvs;
   film.look = &scene.look;
+  film.camera = &scene.camera;
   film.largest_file = options.largest_file;
   film.sheet = options.sheet;
   if (progress != nullptr) {

@@ -202,6 +202,12 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   std::erase_if(document.as<TomlTable>()->entries, [](const TomlEntry& entry) { return entry.name == "sweep"; });
   Problems problems(file, overrides);
   apply_overrides(document, overrides, problems);
+  if (const TomlValue* motion = find_path(document, "cloth.motion")) {
+    problems.add(motion->place,
+                 "motion: this scene plays a motion that is read, and a scene that is simulated is needed here; drape "
+                 "render, compare, check, bless and audit take it");
+    problems.throw_if_any();
+  }
   const bool draft = cells == Cells::of_quality ? says_draft(document) : cells == Cells::of_draft;
   if (draft) coarsen_grid(document);
 

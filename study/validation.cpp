@@ -42,8 +42,9 @@ void plan_case(const ValidationCase& of, const ValidationOptions& options, std::
   const auto wanted = [&](const ValidationProblem& problem) {
     return !options.quick || std::ranges::find(of.quick, problem.name) != of.quick.end();
   };
+  const std::vector<std::string> none;
   for (const ValidationProblem& problem : of.problems) {
-    if (wanted(problem)) add(problem, scene_factor, scene_factor, {});
+    if (wanted(problem)) add(problem, scene_factor, scene_factor, options.quick ? of.quick_overrides : none);
   }
   if (options.quick) return;
   for (const ValidationProblem& problem : of.problems)
@@ -155,11 +156,32 @@ const ValidationRun* ValidationStudy::run(const std::string& name, const std::st
   return found == runs.end() ? nullptr : &*found;
 }
 
+namespace {
+
+/// Keeps the runs of a shard, each with its place among all.
+void keep_shard(const Shard& shard, std::vector<ValidationRun>& runs) {
+  std::vector<double> costs;
+  for (const ValidationRun& run : runs) {
+    const Scene scene = run.what.load();
+    costs.push_back(static_cast<double>(scene.step_count()) * scene.simulation.cloth.vertex_count());
+  }
+  std::vector<ValidationRun> kept;
+  for (const std::size_t place : runs_of_shard(costs, shard)) {
+    kept.push_back(std::move(runs[place]));
+    kept.back().place = static_cast<std::int64_t>(place);
+  }
+  runs = std::move(kept);
+}
+
+}  // namespace
+
 ValidationStudy plan_validation(const ValidationOptions& options) {
   require_methods(options.methods);
   ValidationStudy study;
   study.cases = validation_cases(options.cases);
   for (const ValidationCase& one : study.cases) plan_case(one, options, study.runs);
+  study.shard = options.shard;
+  if (!options.shard.whole()) keep_shard(options.shard, study.runs);
   return study;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "run/progress.hpp"
+#include "run/shard.hpp"
 #include "study/case.hpp"
 #include "study/validation_case.hpp"
 
@@ -20,11 +21,12 @@ inline constexpr const char* default_factor = "default";
 
 /// One run of one problem, and what became of it.
 struct ValidationRun {
-  std::string name;     ///< of its case
-  std::string problem;  ///< of the case
-  std::string factor;   ///< scene_factor, default_factor, "cell", "step", "method", "mesh"
-  std::string setting;  ///< the variant's name; the factor's where it has none
-  StudyCase what;       ///< the command that runs it
+  std::string name;                        ///< of its case
+  std::string problem;                     ///< of the case
+  std::string factor;                      ///< scene_factor, default_factor, "cell", "step", "method", "mesh"
+  std::string setting;                     ///< the variant's name; the factor's where it has none
+  StudyCase what;                          ///< the command that runs it
+  std::optional<std::int64_t> place = {};  ///< in the plan of all shards; absent where there is one
 
   // What was measured:
   bool measured = false;
@@ -48,6 +50,7 @@ struct ValidationOptions {
   bool quick = false;                     ///< a few problems as their scenes are, without defaults and variants
   int jobs = 1;                           ///< runs at once
   double patience = 30;                   ///< after so much computing time a run is given up [s]
+  Shard shard = {};                       ///< plan these runs alone
 };
 
 /// All that a study has measured.
@@ -57,13 +60,15 @@ struct ValidationStudy {
   std::string command;              ///< that makes it again
   std::vector<std::pair<std::string, std::string>> provenance;
   double seconds = 0;
+  Shard shard = {};  ///< whose runs it has
 
   /// The run of a problem with its scene as it is, or of another factor; null if there is none.
   [[nodiscard]] const ValidationRun* run(const std::string& name, const std::string& problem,
                                          const std::string& factor = scene_factor) const;
 };
 
-/// Plans the runs: every problem as its scene is and by default, and one factor at a time.
+/// Plans the runs: every problem as its scene is and by default, and one factor at a time. Shards take about as long,
+/// as far as steps and vertices tell.
 /// @throws UsageError for an unknown case or method, or a scene that is wrong
 ValidationStudy plan_validation(const ValidationOptions& options);
 

@@ -11,8 +11,8 @@
 #include "core/nearest.hpp"
 #include "core/read_file.hpp"
 #include "core/text.hpp"
+#include "import/npy.hpp"
 #include "study/case.hpp"
-#include "study/npz_reader.hpp"
 #include "study/validation.hpp"
 #include "study/validation_measures.hpp"
 
@@ -80,17 +80,18 @@ std::vector<GivenAnswer> answers_of_csv(const ValidationCase& of, const fs::path
 }
 
 /// The states in an array of positions or velocities.
-std::vector<Vertices> states_in(const NpyNumbers& array, Eigen::Index vertices, const std::string& what) {
-  const std::vector<std::size_t>& shape = array.shape;
+std::vector<Vertices> states_in(NpyStream& array, Eigen::Index vertices) {
+  const std::vector<std::size_t>& shape = array.shape();
   const auto count = static_cast<std::size_t>(vertices);
   const bool one = shape.size() == 2, several = shape.size() == 3;
   if ((!one && !several) || shape.back() != 3 || shape[shape.size() - 2] != count) {
-    throw UsageError(fmt::format("{}: expected [times ×] {} × 3 numbers", what, count));
+    array.fail(fmt::format("expected [times ×] {} × 3 numbers", count));
   }
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
   std::vector<Vertices> states;
-  for (std::size_t begin = 0; begin < array.values.size(); begin += 3 * count) {
-    states.emplace_back(Eigen::Map<const Rows>(array.values.data() + begin, vertices, 3));
+  const std::vector<double> values = array.rest();
+  for (std::size_t begin = 0; begin < values.size(); begin += 3 * count) {
+    states.emplace_back(Eigen::Map<const Rows>(values.data() + begin, vertices, 3));
   }
   return states;
 }
@@ -103,23 +104,19 @@ std::vector<GivenAnswer> answers_of_npz(const ValidationCase& of, const fs::path
         fmt::format("{}: expected --problem with the motion's problem, one of {}", shown(file), quoted_list(names)));
   }
   const ValidationProblem& problem = name.empty() ? of.problems.front() : of.problem(name);
-  const auto arrays = read_npz(file);
-  const auto array = [&](const char* key) {
-    const auto found = arrays.find(key);
-    if (found == arrays.end()) throw UsageError(fmt::format("{}: expected an array '{}'", shown(file), key));
-    return found->second;
-  };
+  const ZipReader zip(file);
+  const auto positions = array_named(zip, {"positions"}), velocities = array_named(zip, {"velocities"}),
+             times = array_named(zip, {"times"});
+  if (!positions) throw UsageError(fmt::format("{}: expected an array 'positions'", shown(file)));
   StudyCase what;
   what.scene = of.scene;
   what.overrides = problem.overrides;
   ObservedMotion motion;
   motion.cloth = what.load().simulation.cloth;
   const Eigen::Index vertices = motion.cloth.positions.rows();
-  motion.positions = states_in(array("positions"), vertices, fmt::format("{}: positions", shown(file)));
-  if (arrays.contains("velocities")) {
-    motion.velocities = states_in(array("velocities"), vertices, fmt::format("{}: velocities", shown(file)));
-  }
-  motion.times = arrays.contains("times") ? array("times").values : std::vector<double>(motion.positions.size(), 0.0);
+  motion.positions = states_in(*positions, vertices);
+  if (velocities) motion.velocities = states_in(*velocities, vertices);
+  motion.times = times ? times->rest() : std::vector<double>(motion.positions.size(), 0.0);
   std::map<std::string, double> values;
   try {
     values = measure_motion(of.measure, motion, problem.given);

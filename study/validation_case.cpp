@@ -159,6 +159,7 @@ ValidationCase read_validation_case(const fs::path& file, const std::string& sce
   if (result.problems.empty()) from.fail("expected at least one problem");
   result.quick = from.texts("quick");
   for (const std::string& name : result.quick) static_cast<void>(result.problem(name));
+  if (from.has("quick_set")) result.quick_overrides = from.texts("quick_set");
   for (const CaseObject& one : from.objects("vary")) result.factors.push_back(read_factor(one, result));
   return result;
 }

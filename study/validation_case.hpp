@@ -61,6 +61,7 @@ struct ValidationCase {
   std::vector<std::string> default_overrides;  ///< take every key about how to compute out of the scene
   std::vector<ValidationProblem> problems;     ///< at least one
   std::vector<std::string> quick;              ///< names of the problems of the quick form
+  std::vector<std::string> quick_overrides;    ///< which it replaces in their scenes, as a rule by a coarser mesh
   std::vector<ValidationFactor> factors;
 
   /// @throws UsageError with the nearest name

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "core/error.hpp"
 #include "core/read_file.hpp"
@@ -18,6 +19,7 @@ constexpr std::size_t most_validation_bytes = std::size_t{1} << 28;
 // What is kept of a run, described once for both ways: Fields is a RunsWriter, and the rest constant, or a RunsRecord.
 template <class Fields, class Run>
 void describe_run(Fields& f, Run& run) {
+  f("place", run.place);
   f("set", run.what.overrides);
   f("steps", run.what.steps);
   f("failure", run.failure);
@@ -47,6 +49,9 @@ class ValidationReader {
     }
     heading("command", study_.command);
     heading("seconds", study_.seconds);
+    std::optional<std::string> shard;
+    heading("shard", shard);
+    if (shard) study_.shard = parse_shard(*shard);
     std::vector<std::string> names, values, cases;
     heading("measured_on", names);
     heading("measured_on_value", values);
@@ -92,6 +97,7 @@ std::string validation_runs(const ValidationStudy& study) {
   f("format", validation_format);
   f("command", study.command);
   f("seconds", study.seconds);
+  if (!study.shard.whole()) f("shard", study.shard.text());
   std::vector<std::string> names, values, cases;
   for (const auto& [name, value] : study.provenance) {
     names.push_back(name);
@@ -110,6 +116,35 @@ std::string validation_runs(const ValidationStudy& study) {
 }
 
 ValidationStudy validation_study(const std::filesystem::path& file) { return ValidationReader(file).finish(); }
+
+MergedValidation merge_validation(const std::vector<std::filesystem::path>& files) {
+  MergedValidation merged;
+  std::map<std::size_t, std::string> found;  // the shards' numbers, and their files
+  std::size_t count = 0;
+  for (const std::filesystem::path& file : files) {
+    ValidationStudy part = validation_study(file);
+    const Shard shard = part.shard;
+    if (found.empty()) {
+      count = shard.count;
+    } else if (shard.count != count || part.command != merged.study.command) {
+      throw UsageError(fmt::format("{} and {} are not of one study", shown(file), shown(found.begin()->second)));
+    }
+    if (!found.try_emplace(shard.number, file.string()).second) continue;
+    std::vector<ValidationRun> runs = std::move(merged.study.runs);
+    runs.insert(runs.end(), part.runs.begin(), part.runs.end());
+    const double seconds = merged.study.seconds + part.seconds;
+    if (found.size() == 1) merged.study = std::move(part);
+    merged.study.runs = std::move(runs);
+    merged.study.seconds = seconds;
+  }
+  std::ranges::stable_sort(merged.study.runs, {}, &ValidationRun::place);
+  for (ValidationRun& run : merged.study.runs) run.place.reset();
+  merged.study.shard = {};
+  for (std::size_t k = 1; k <= count; ++k) {
+    if (!found.contains(k)) merged.missing.push_back({k, count});
+  }
+  return merged;
+}
 
 void read_validation_runs(const std::filesystem::path& file, ValidationStudy& study) {
   const ValidationStudy begun = validation_study(file);

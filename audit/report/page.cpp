@@ -9,9 +9,11 @@
 #include <optional>
 
 #include "audit/report/table.hpp"
+#include "core/error.hpp"
 #include "core/text.hpp"
 #include "html/components.hpp"
 #include "html/page.hpp"
+#include "output/motion_packer.hpp"
 #include "output/png_encoder.hpp"
 #include "render/renderer.hpp"
 #include "render/view.hpp"
@@ -78,16 +80,38 @@ View close_view(const Scene& scene, const WorstState& state, const View& whole, 
   return framing.view();
 }
 
+/// A state to turn.
+html::PlayedMotion turned(const Scene& scene, const Frame& frame) {
+  Look look = scene.look;
+  look.mesh_lines = true;
+  FilmInfo film;
+  film.scene = scene.name;
+  film.cloth = &scene.simulation.cloth;
+  film.look = &look;
+  film.camera = &scene.camera;
+  MotionPacker packer(film);
+  try {
+    packer.add(frame);
+  } catch (const OutputError&) {
+    return {};
+  }
+  return packer.finish();
+}
+
 Markup pictures(const AuditReport& report, const std::vector<DrawnFinding>& drawn) {
   Markup content;
   for (const DrawnFinding& finding : drawn) {
     const std::string name = check_name(finding.check);
     const std::string text = describe_worst(finding.check, report.findings.findings(finding.check));
-    content +=
-        html::section(3, fmt::format("check-{}", static_cast<int>(finding.check)), name,
-                      html::figure(html::row({html::picture("image/png", finding.whole, "The whole motion " + text),
-                                              html::picture("image/png", finding.close, "The place " + text)}),
-                                   text));
+    const std::string id = fmt::format("check-{}", static_cast<int>(finding.check));
+    Markup found = html::figure(html::row({html::picture("image/png", finding.whole, "The whole motion " + text),
+                                           html::picture("image/png", finding.close, "The place " + text)}),
+                                text);
+    if (finding.turned.frames > 0) {
+      found +=
+          html::details("Turn this state", html::motion_player(id + "-turned", finding.turned, "The state " + text));
+    }
+    content += html::section(3, id, name, found);
   }
   return html::section(2, "worst", "The worst states", content);
 }
@@ -111,7 +135,8 @@ std::vector<DrawnFinding> draw_findings(const Scene& scene, const AuditReport& r
     const View whole = whole_view(scene, state, aspect);
     Renderer renderer(data_folder(), size, whole, look, cloth.vertex_count(), cloth.triangles, scene.uvs, backend);
     const Frame frame{.time = state.time, .positions = state.x, .colliders = state.colliders};
-    DrawnFinding pictures{.check = check, .whole = encode_png(renderer.draw(frame, colors)), .close = {}};
+    DrawnFinding pictures{
+        .check = check, .whole = encode_png(renderer.draw(frame, colors)), .close = {}, .turned = turned(scene, frame)};
     renderer.look_from(close_view(scene, state, whole, aspect));
     pictures.close = encode_png(renderer.draw(frame, colors));
     drawn.push_back(std::move(pictures));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "audit/report/audit_motion.hpp"
+#include "html/motion_player.hpp"
 #include "render/backend.hpp"
 
 namespace drape {
@@ -11,7 +12,8 @@ namespace drape {
 /// The worst state of a check, drawn: all of it, and the place where it was found.
 struct DrawnFinding {
   audit::Check check;
-  std::string whole, close;  ///< PNG files
+  std::string whole, close;   ///< PNG files
+  html::PlayedMotion turned;  ///< the state, to turn; without frames if a browser cannot hold it
 };
 
 /// Draws the worst state of each check that has found something, with the vertices concerned in red.

@@ -16,6 +16,7 @@ struct UsdValue {
   SourcePlace place;  ///< where it begins
   std::vector<double> numbers;
   std::vector<std::string> strings;
+  bool located = false;  ///< only its place is known, see UsdReading::located_points
 };
 
 /// A value at a time.
@@ -94,7 +95,9 @@ struct UsdLayer {
 
 /// What to keep of a file, which may be hundreds of megabytes.
 struct UsdReading {
-  bool moving_points = false;  ///< every sample of every attribute; otherwise only transforms have more than the first
+  bool moving_points = false;   ///< every sample of every attribute; otherwise only transforms have more than the first
+  bool located_points = false;  ///< of the samples of points only the first is kept, and of the others the places:
+                                ///< usd_numbers_at() reads one when it is asked for
   /// One to keep beside the texture coordinates and the skin, without "primvars:"; of others that have a number for
   /// each element the names are kept.
   std::string primvar = {};

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "scene/mesh/source.hpp"
 #include "scene/usd/stage.hpp"
@@ -39,5 +41,27 @@ std::vector<int> read_usd_primvar(const UsdStage& stage, const std::string& prim
 /// @throws UsageError also if the number of points changes
 MeshMotion read_usd_mesh_motion(const UsdStage& stage, const std::string& prim = {});
 MeshMotion read_usd_mesh_motion(const SourceText& source, const std::string& prim = {});
+
+/// The same motion, of which one sample at a time is in memory if the stage was read with located points.
+class UsdMovingMesh {
+ public:
+  /// @param stage outlives it @throws UsageError as read_usd_mesh_motion(), but for what is wrong with later samples
+  explicit UsdMovingMesh(const UsdStage& stage, const std::string& prim = {});
+  ~UsdMovingMesh();
+
+  /// At the first sample.
+  [[nodiscard]] const Mesh& mesh() const;
+  /// The times of the samples [s], increasing; of a mesh that rests there are none.
+  [[nodiscard]] const std::vector<double>& times() const;
+  /// The points at the i-th of the times, in the world [m].
+  /// @throws UsageError if their number is not the first sample's, or one is not finite
+  [[nodiscard]] Vertices points(std::size_t i) const;
+  /// All of it at once. @throws UsageError also if it takes more than a gigabyte
+  [[nodiscard]] MeshMotion read() const;
+
+ private:
+  class Reader;
+  std::unique_ptr<Reader> reader_;
+};
 
 }  // namespace drape

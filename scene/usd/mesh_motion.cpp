@@ -19,46 +19,75 @@ constexpr double last_time_code = 1e12;
 /// A gigabyte.
 constexpr double most_motion_numbers = 1 << 27;
 
-/// A mesh whose points, transform or skeleton move it.
-class MovingMesh {
- public:
-  MovingMesh(const UsdStage& stage, UsdPath path)
-      : stage_(stage), path_(std::move(path)), prim_(*path_.back()), skin_(UsdSkin::of(stage, path_)) {}
+}  // namespace
 
-  MeshMotion read() {
+/// A mesh whose points, transform or skeleton move it.
+class UsdMovingMesh::Reader {
+ public:
+  Reader(const UsdStage& stage, UsdPath path)
+      : stage_(stage), path_(std::move(path)), prim_(*path_.back()), skin_(UsdSkin::of(stage, path_)) {
     const double start = stage_.layer().start_time_code;
     const Eigen::Affine3d to_world = skin_ ? skin_->bound_to_world(start) : world_transform(stage_, path_, start);
-    MeshMotion motion{.mesh = read_mesh_prim(prim_, to_world)};
-    check_points(motion.mesh.positions.rows());
-    const std::vector<double> codes = time_codes();
-    if (static_cast<double>(codes.size()) * static_cast<double>(motion.mesh.positions.size()) > most_motion_numbers) {
-      prim_.place.fail(fmt::format("{} samples of {} points take too much memory: export fewer of either", codes.size(),
-                                   motion.mesh.positions.rows()));
+    mesh_ = read_mesh_prim(prim_, to_world);
+    check_points();
+    codes_ = time_codes();
+    for (const double code : codes_) {
+      times_.push_back((code - start) / stage_.layer().time_codes_per_second);
+      if (std::isfinite(times_.back()) && (times_.size() < 2 || times_.back() > times_.end()[-2])) continue;
+      fail_beyond(code);
     }
-    for (const double code : codes) {
-      motion.times.push_back((code - start) / stage_.layer().time_codes_per_second);
-      motion.samples.push_back(points_at(code));
-      const bool increases = motion.times.size() < 2 || motion.times.back() > motion.times.end()[-2];
-      if (!std::isfinite(motion.times.back()) || !increases || !motion.samples.back().allFinite()) {
-        prim_.place.fail(fmt::format("at time code {} its motion is beyond what can be computed", code));
-      }
+    mesh_.positions = codes_.empty() ? points_at(start) : points(0);
+    if (!mesh_.positions.allFinite()) prim_.place.fail("its skeleton takes a point beyond what can be computed");
+    if (codes_.size() < 2) times_.clear();
+  }
+
+  [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+  [[nodiscard]] Vertices points(std::size_t i) const {
+    Vertices x = points_at(codes_[i]);
+    if (!x.allFinite()) fail_beyond(codes_[i]);
+    return x;
+  }
+
+  /// All of the motion.
+  [[nodiscard]] MeshMotion read() const {
+    if (static_cast<double>(times_.size()) * static_cast<double>(mesh_.positions.size()) > most_motion_numbers) {
+      prim_.place.fail(fmt::format("{} samples of {} points take too much memory: export fewer of either",
+                                   times_.size(), mesh_.positions.rows()));
     }
-    motion.mesh.positions = codes.empty() ? points_at(start) : motion.samples.front();
-    if (!motion.mesh.positions.allFinite()) prim_.place.fail("its skeleton takes a point beyond what can be computed");
-    if (codes.size() > 1) return motion;
-    motion.times.clear();
-    motion.samples.clear();
+    MeshMotion motion{.mesh = mesh_, .times = times_};
+    for (std::size_t i = 0; i < times_.size(); ++i) motion.samples.push_back(points(i));
     return motion;
   }
 
  private:
-  void check_points(Eigen::Index expected) const {
+  /// Of those samples that are known.
+  void check_points() const {
     for (const UsdSample& sample : prim_.find("points")->samples) {
-      const auto found = static_cast<Eigen::Index>(sample.value.numbers.size() / 3);
-      if (found == expected) continue;
-      sample.value.place.fail(fmt::format(
-          "points: expected {} as in the first sample, found {}: a mesh that moves keeps its points", expected, found));
+      if (!sample.value.located) check_count(sample, sample.value.numbers.size());
     }
+  }
+
+  void check_count(const UsdSample& sample, std::size_t numbers) const {
+    const auto found = static_cast<Eigen::Index>(numbers / 3);
+    if (found == mesh_.positions.rows()) return;
+    sample.value.place.fail(
+        fmt::format("points: expected {} as in the first sample, found {}: a mesh that moves keeps its points",
+                    mesh_.positions.rows(), found));
+  }
+
+  /// Of a sample that was only located: the last one up to a time.
+  void check_count_at(double code, std::size_t numbers) const {
+    if (static_cast<Eigen::Index>(numbers / 3) == mesh_.positions.rows()) return;
+    const UsdSample* found = nullptr;
+    for (const UsdSample& sample : prim_.find("points")->samples) {
+      if (found == nullptr || sample.time <= code) found = &sample;
+    }
+    if (found != nullptr) check_count(*found, numbers);
+  }
+
+  [[noreturn]] void fail_beyond(double code) const {
+    prim_.place.fail(fmt::format("at time code {} its motion is beyond what can be computed", code));
   }
 
   /// Those of the samples; where joints or transforms move it, every one in between, so that nothing turns far between
@@ -84,6 +113,7 @@ class MovingMesh {
 
   [[nodiscard]] Vertices points_at(double code) const {
     const std::vector<double> points = usd_numbers_at(*prim_.find("points"), code);
+    check_count_at(code, points.size());
     Vertices x;
     if (skin_) {
       skin_->pose(code, points, x);
@@ -101,12 +131,22 @@ class MovingMesh {
   const UsdPath path_;
   const UsdPrim& prim_;
   const std::optional<UsdSkin> skin_;
+  Mesh mesh_;
+  std::vector<double> codes_, times_;  // the samples' times [time codes], [s]
 };
 
-}  // namespace
+UsdMovingMesh::UsdMovingMesh(const UsdStage& stage, const std::string& prim)
+    : reader_(std::make_unique<Reader>(stage, choose_usd_mesh(stage, prim))) {}
+UsdMovingMesh::~UsdMovingMesh() = default;
+
+const Mesh& UsdMovingMesh::mesh() const { return reader_->mesh(); }
+const std::vector<double>& UsdMovingMesh::times() const { return reader_->times(); }
+Vertices UsdMovingMesh::points(std::size_t i) const { return reader_->points(i); }
+
+MeshMotion UsdMovingMesh::read() const { return reader_->read(); }
 
 MeshMotion read_usd_mesh_motion(const UsdStage& stage, const std::string& prim) {
-  return MovingMesh(stage, choose_usd_mesh(stage, prim)).read();
+  return UsdMovingMesh(stage, prim).read();
 }
 
 MeshMotion read_usd_mesh_motion(const SourceText& source, const std::string& prim) {

@@ -72,9 +72,7 @@ SphereShape TransformTrack::sphere_at(double time) const {
   return {transform * center, stretch * radius};
 }
 
-namespace {
-
-TransformTrack track_of(const UsdStage& stage, const UsdPath& path) {
+TransformTrack read_usd_track(const UsdStage& stage, const UsdPath& path) {
   const UsdLayer& layer = stage.layer();
   const UsdPrim& prim = *path.back();
 
@@ -91,6 +89,8 @@ TransformTrack track_of(const UsdStage& stage, const UsdPath& path) {
   return track;
 }
 
+namespace {
+
 /// A Mesh that its skeleton or its points move.
 bool deforms(const UsdPath& path) {
   if (path.back()->type != "Mesh") return false;
@@ -102,7 +102,7 @@ bool deforms(const UsdPath& path) {
 
 TransformTrack read_usd_motion(const SourceText& source) {
   const UsdStage stage(source);
-  return track_of(stage, moving_prim(stage));
+  return read_usd_track(stage, moving_prim(stage));
 }
 
 TransformTrack read_usd_motion(const std::filesystem::path& file) { return read_usd_motion(SourceText::read(file)); }
@@ -120,7 +120,7 @@ std::shared_ptr<const SphereTrack> read_sphere_track(const std::filesystem::path
                     "file and prim = \"{}\"",
                     in_quotes(mesh.name), escape_controls(mesh.path)));
   }
-  TransformTrack track = track_of(stage, path);
+  TransformTrack track = read_usd_track(stage, path);
   if (track.times.size() < 2) {
     source.fail("nothing moves in the file: expected a Mesh, a Sphere or an Xform with time samples of its transform");
   }

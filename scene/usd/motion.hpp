@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/mesh/source.hpp"
+#include "scene/usd/stage.hpp"
 #include "sim/sphere_track.hpp"
 
 namespace drape {
@@ -28,6 +29,10 @@ struct TransformTrack {
   /// longest half-axis.
   [[nodiscard]] SphereShape sphere_at(double time) const;
 };
+
+/// The motion of a prim by its transform and those of its ancestors. One that nothing moves has one sample.
+/// @throws UsageError "file:line:column: message"
+TransformTrack read_usd_track(const UsdStage& stage, const UsdPath& path);
 
 /// The motion of the first Mesh or Sphere of an ASCII USD file that moves; if none moves, the first Mesh or Sphere,
 /// with one sample; if there is none, the first prim of any type that moves. The time of a sample is (time code −

@@ -234,7 +234,7 @@ class Parser {
       const std::optional<double> time = lexer_.accept_number();
       if (!time) lexer_.fail_expected("'}' or a finite time in " + owner);
       lexer_.expect(':', "':' after the time in " + owner);
-      std::optional<UsdValue> sample = parse_usd_value(source_, lexer_, attribute, type);
+      std::optional<UsdValue> sample = read_sample(attribute, type, samples.empty());
       if (sample && (all || samples.empty())) {
         samples.push_back({*time, std::move(*sample)});
       } else if (sample && *time < samples.front().time) {
@@ -247,7 +247,19 @@ class Parser {
       if (samples[i - 1].time < samples[i].time) continue;
       samples[i].value.place.fail(fmt::format("the time {} appears twice in {}", samples[i].time, owner));
     }
+    if (!samples.empty()) samples.front().value = usd_value_of(attribute, samples.front().value);
     attribute.samples = std::move(samples);
+  }
+
+  /// The value at the lexer's token, or only its place.
+  std::optional<UsdValue> read_sample(const UsdAttribute& attribute, const UsdType& type, bool first) {
+    const bool located = reading_.located_points && attribute.name == "points" && !first && !lexer_.at_word("None");
+    if (!located) return parse_usd_value(source_, lexer_, attribute, type);
+    UsdValue value;
+    value.place = {&source_, lexer_.token().offset};
+    value.located = true;
+    lexer_.skip_value();
+    return value;
   }
 
   const SourceText& source_;

@@ -104,6 +104,12 @@ std::optional<UsdValue> parse_usd_value(const SourceText& source, UsdLexer& lexe
   return value;
 }
 
+UsdValue usd_value_of(const UsdAttribute& attribute, const UsdValue& value) {
+  if (!value.located) return value;
+  UsdLexer lexer(*value.place.source, value.place.offset);
+  return parse_usd_value(*value.place.source, lexer, attribute, usd_type(attribute.type)).value_or(UsdValue{});
+}
+
 Eigen::Quaterniond usd_quaternion(const double* wxyz) {
   const Eigen::Quaterniond q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
   // Normalised through the largest component: the squares of huge or tiny ones would leave the range of a double.
@@ -116,13 +122,15 @@ std::vector<double> usd_numbers_at(const UsdAttribute& attribute, double time) {
   if (samples.empty()) return attribute.value ? attribute.value->numbers : std::vector<double>{};
   const auto next = std::upper_bound(samples.begin(), samples.end(), time,
                                      [](double t, const UsdSample& sample) { return t < sample.time; });
-  if (next == samples.begin()) return samples.front().value.numbers;
-  if (next == samples.end()) return samples.back().value.numbers;
+  const auto numbers_of = [&](const UsdSample& sample) { return usd_value_of(attribute, sample.value).numbers; };
+  if (next == samples.begin()) return numbers_of(samples.front());
+  if (next == samples.end()) return numbers_of(samples.back());
   const UsdSample& before = *std::prev(next);
   const double weight = (time - before.time) / (next->time - before.time);
-  std::vector<double> result = before.value.numbers;
-  const std::vector<double>& after = next->value.numbers;
-  if (weight == 0 || after.size() != result.size()) return result;
+  std::vector<double> result = numbers_of(before);
+  if (weight == 0) return result;
+  const std::vector<double> after = numbers_of(*next);
+  if (after.size() != result.size()) return result;
   if (attribute.type.starts_with("quat")) {
     for (std::size_t i = 0; i + 4 <= result.size(); i += 4) {
       const Eigen::Quaterniond q = usd_quaternion(&result[i]).slerp(weight, usd_quaternion(&after[i]));

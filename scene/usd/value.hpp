@@ -30,6 +30,9 @@ UsdType usd_type(std::string_view name);
 std::optional<UsdValue> parse_usd_value(const SourceText& source, UsdLexer& lexer, const UsdAttribute& attribute,
                                         const UsdType& type);
 
+/// A value of an attribute, read from the file if only its place is known. @throws UsageError as parse_usd_value()
+UsdValue usd_value_of(const UsdAttribute& attribute, const UsdValue& value);
+
 /// Real and imaginary parts as a rotation; that of zeros is none.
 Eigen::Quaterniond usd_quaternion(const double* wxyz);
 

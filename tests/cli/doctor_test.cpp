@@ -43,8 +43,9 @@ TEST(Doctor, TriesEveryFormatWhateverTheFolderForTemporaryFilesIsCalled) {
     EXPECT_TRUE(output.at("works")) << output;
     formats.push_back(output.at("name"));
   }
-  EXPECT_EQ(formats, (std::vector<std::string>{".gif", ".webp", ".apng", ".png", ".mp4", ".webm", ".avi", ".obj",
-                                               ".ply", ".npz", ".usda", ".pvd", ".vtp", ".pc2", ".glb", ".drape"}));
+  EXPECT_EQ(formats,
+            (std::vector<std::string>{".gif", ".webp", ".apng", ".png", ".mp4", ".webm", ".avi", ".obj", ".ply", ".npz",
+                                      ".usda", ".pvd", ".vtp", ".pc2", ".glb", ".html", ".drape"}));
 }
 
 TEST(Doctor, ObeysTheCapOnInstructionSets) {

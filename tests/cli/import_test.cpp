@@ -67,7 +67,9 @@ TEST(Import, IsFoundByTheAuditToHaveTheFaultsThatWerePutIntoIt) {
   EXPECT_EQ(crossing.code, 1) << crossing.text;
   EXPECT_NE(crossing.text.find("(step 5): "), std::string::npos) << crossing.text;
   EXPECT_NE(crossing.text.find("cloth edge 0 1 goes through cloth triangle"), std::string::npos) << crossing.text;
-  EXPECT_NE(test::content(folder.path("page.html")).find("data:image/png;base64"), std::string::npos);
+  const std::string page = test::content(folder.path("page.html"));
+  EXPECT_NE(page.find("data:image/png;base64"), std::string::npos);
+  EXPECT_NE(page.find("Turn this state"), std::string::npos);
 
   write_sequence(folder, [](Vertices& x) { x(0, 0) -= 0.05; });  // a side of 0.25 becomes 0.3
   const Finished stretched = drape(folder, "audit " + sequence);

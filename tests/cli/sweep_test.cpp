@@ -109,7 +109,8 @@ TEST(SweepCommand, RefusesInOneMessageWithExitCode2) {
   EXPECT_NE(message("sweep a.toml --vary cloth.mass").find("--vary takes key.path=value"), std::string::npos);
   EXPECT_NE(message("sweep a.toml --shard 3/2").find("as in 2/5"), std::string::npos);
   EXPECT_NE(message("sweep a.toml --film gfi").find("did you mean '.gif'?"), std::string::npos);
-  EXPECT_NE(message("merge .").find(".: there is no sweep, check or study of stability in it"), std::string::npos);
+  EXPECT_NE(message("merge .").find(".: there is no sweep, check or study of stability or validation in it"),
+            std::string::npos);
   EXPECT_NE(message("merge a.toml").find("a.toml: this is a file; expected a folder"), std::string::npos);
   EXPECT_NE(message("merge nowhere").find("nowhere: cannot be read: No such file"), std::string::npos);
   EXPECT_NE(message("sweep --report-only -o none").find("contains no sweep"), std::string::npos);

@@ -75,7 +75,7 @@ class MakeSink : public drape::test::InScratchFolder {
 TEST_F(MakeSink, NamesTheValidExtensions) {
   const std::string valid =
       "the valid ones are '.gif', '.webp', '.apng', '.png', '.mp4', '.webm', '.avi', '.obj', '.ply', '.npz', "
-      "'.usda', '.pvd', '.vtp', '.pc2', '.glb', '.drape'";
+      "'.usda', '.pvd', '.vtp', '.pc2', '.glb', '.html', '.drape'";
   EXPECT_EQ(error("x.gfi"),
             "the output " + path("x.gfi") + " has the unknown extension '.gfi'; did you mean '.gif'? " + valid);
   EXPECT_EQ(error("x"), "the output " + path("x") + " has no extension; " + valid);

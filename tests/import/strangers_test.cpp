@@ -4,6 +4,9 @@
 
 #include "import/import_motion.hpp"
 #include "motion/reader.hpp"
+#include "output/bytes.hpp"
+#include "output/npz_writer.hpp"
+#include "output/zip_writer.hpp"
 #include "tests/import/random_motion.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/usage_error.hpp"
@@ -54,6 +57,16 @@ TEST_F(Strangers, HaveQuadsAndAsciiAndBigEndianNumbers) {
   EXPECT_EQ(read("c.vtk").triangles, 2);
 }
 
+/// A quad that bends is divided along its shorter diagonal, which becomes the other one.
+TEST_F(Strangers, HaveQuadsThatBend) {
+  const std::string face = "f 1//1 2//1 3//1 4//1\n";
+  put("q/0.obj", "v 0 0 0\nv 1 0 0\nv 0.9 0.9 0\nv 0 1 0\nvn 0 0 1\n" + face);
+  put("q/1.obj", "v -0.5 -0.5 0\nv 1 0 0\nv 1.5 1.5 0\nv 0 1 0\nvn 0 0 1\n" + face);
+  EXPECT_EQ(read("q/{frame}.obj").triangles, 2);
+  put("q/1.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 4//1 3//1\n");
+  expect_refused("q/{frame}.obj", "has other vertices");
+}
+
 TEST_F(Strangers, HaveTimesOfTheirOwn) {
   put("a.usda",
       "#usda 1.0\n(\n upAxis = \"Z\"\n metersPerUnit = 1\n timeCodesPerSecond = 10\n)\ndef Mesh \"m\"\n{\n"
@@ -66,6 +79,28 @@ TEST_F(Strangers, HaveTimesOfTheirOwn) {
   MotionReader reader(path("out.drape"));
   EXPECT_EQ(reader.last_step(), 4);
   EXPECT_NEAR(reader.state(1).v(0, 2), 10, 1e-9);  // (4 − 0)/0.4 s
+}
+
+/// The samples of a USD file are read when they are needed; what is wrong with one is said with its place.
+TEST_F(Strangers, AreToldWhatIsWrongWithASample) {
+  const std::string first = "  0: [(0, 0, 0), (1, 0, 0), (0, 1, 0)],\n";
+  const auto motion = [](const std::string& samples) {
+    return "#usda 1.0\n(\n upAxis = \"Z\"\n metersPerUnit = 1\n)\ndef Mesh \"m\"\n{\n int[] faceVertexCounts = [3]\n"
+           " int[] faceVertexIndices = [0, 1, 2]\n point3f[] points.timeSamples = {\n" +
+           samples + " }\n}\n";
+  };
+  const std::string second = "  24: [(0, 0, 1), (1, 0, 1), (0, 1, 1)],\n",
+                    third = "  48: [(0, 0, 3), (1, 0, 3), (0, 1, 3)],\n";
+  for (const std::string& samples : {first + second + third, third + second + first}) {
+    put("good.usda", motion(samples));
+    EXPECT_EQ(read("good.usda").frames, 3);
+    MotionReader reader(path("out.drape"));
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(reader.state(k).x(2, 2), k == 2 ? 3 : k);
+  }
+  put("more.usda", motion(first + second + "  48: [(0, 0, 1), (1, 0, 1), (0, 1, 1), (1, 1, 1)],\n"));
+  expect_refused("more.usda", "more.usda:13:7: points: expected 3 as in the first sample, found 4");
+  put("word.usda", motion(first + "  24: [(0, 0, 1), (1, x, 1), (0, 1, 1)],\n"));
+  expect_refused("word.usda", "word.usda:12:23: expected a finite number");
 }
 
 TEST_F(Strangers, AreToldWhatIsWrongWithASequence) {
@@ -103,7 +138,7 @@ TEST_F(Strangers, AreToldWhatIsWrongWithOneFile) {
   motion.write_film<Pc2Writer>(path("c.pc2"));
   const std::string npz = content(path("a.npz")), pc2 = content(path("c.pc2"));
   put("cut.npz", npz.substr(0, npz.size() / 2));
-  expect_refused("cut.npz", "it is cut short, or no .npz");
+  expect_refused("cut.npz", "expected an NPZ file");
   put("cut.pc2", pc2.substr(0, pc2.size() - 4));
   std::filesystem::copy(path("c.obj"), path("cut.obj"));
   expect_refused("cut.pc2", "it is cut short: ");
@@ -123,6 +158,56 @@ TEST_F(Strangers, AreToldWhatIsWrongWithOneFile) {
   put("b.pvd", "<VTKFile");
   expect_refused("b.pvd", "no whole XML file");
   expect_refused("missing.npz", "cannot be read");
+}
+
+TEST_F(Strangers, AreToldWhatIsWrongWithNumpysArrays) {
+  struct Array {
+    std::string name;
+    std::vector<std::size_t> row;
+    std::vector<double> numbers;
+  };
+  const auto put_npz = [this](const std::string& name, const std::vector<Array>& arrays) {
+    PartialFile file(path(name));
+    ZipWriter zip(file);
+    for (const Array& array : arrays) {
+      NpyArray npy(file, array.name, "'<f8'", array.row);
+      std::size_t size = 1;
+      for (const std::size_t length : array.row) size *= length;
+      npy.append_rows(array.numbers.size() / size, bytes_of(array.numbers));
+      zip.begin(npy.file_name(), npy.header().size() + npy.data_size(), npy.crc32());
+      npy.copy_to(file);
+    }
+    zip.finish();
+    file.commit();
+  };
+  const std::vector<double> corners{0, 0, 0, 1, 0, 0, 0, 1, 0};
+  std::vector<double> twice = corners;
+  twice.insert(twice.end(), corners.begin(), corners.end());
+  const Array positions{"positions", {3, 3}, twice}, faces{"faces", {3}, {0, 1, 2}};
+  put_npz("good.npz", {positions, faces});
+  EXPECT_EQ(read("good.npz").frames, 2);
+  std::vector<double> bad = twice;
+  bad[16] = NAN;
+  put_npz("nan.npz", {{"positions", {3, 3}, bad}, faces});
+  expect_refused("nan.npz", "vertex 2 has the y coordinate nan");
+  put_npz("flat.npz", {{"positions", {9}, twice}, faces});
+  expect_refused("flat.npz", "expected the shape (frames, vertices, 3), found (2, 9)");
+  put_npz("beyond.npz", {positions, {"faces", {3}, {0, 1, 3}}});
+  expect_refused("beyond.npz", "faces");
+  put_npz("rest.npz", {positions, faces, {"rest", {3}, twice}});
+  expect_refused("rest.npz", "expected the shape (vertices, 3), found (6, 3)");
+  put_npz("times.npz", {positions, faces, {"times", {}, {0, 0.1, 0.2}}});
+  expect_refused("times.npz", "expected the shape (frames,), found (3)");
+  put_npz("back.npz", {positions, faces, {"times", {}, {0.1, 0}}});
+  expect_refused("back.npz", "times");
+  put_npz("none.npz", {faces});
+  expect_refused("none.npz", "expected the arrays positions and faces, found faces.npy");
+  std::string many = content(path("good.npz"));  // ten million vertices, of which there are three
+  const std::string shape = "'shape': (2, 3, 3,), }", larger = "'shape': (2, 9999999, 3,), }";
+  ASSERT_NE(many.find(shape), std::string::npos);
+  many.replace(many.find(shape), larger.size(), larger);  // of the spaces behind it
+  put("many.npz", many);
+  expect_refused("many.npz", "damaged or cut short");
 }
 
 /// Cuts and damages of files are a message or a motion, and never anything else.

@@ -192,6 +192,46 @@ TEST_F(ValidationRuns, OfNpzMotionsAreMeasured) {
                "in C order");
 }
 
+/// Shards share the runs of a plan, and merged they are the plan again.
+TEST_F(ValidationRuns, OfShardsAreThoseOfTheWhole) {
+  const auto plan = [](const Shard& shard) {
+    ValidationStudy study =
+        plan_validation({.cases = {"pattern-stiffness", "pendulum"}, .quick = true, .shard = shard});
+    study.command = "drape study validation pattern-stiffness pendulum --quick";
+    for (ValidationRun& run : study.runs) {  // invented: it would take a while to measure them
+      run.measured = true;
+      run.names = {"modulus"};
+      run.values = {static_cast<double>(run.problem.size())};
+      run.seconds = 0.5;
+    }
+    study.seconds = 1;
+    return study;
+  };
+  const ValidationStudy whole = plan({});
+  std::vector<std::filesystem::path> files;
+  for (std::size_t k = 3; k >= 1; --k) {
+    const ValidationStudy part = plan({k, 3});
+    EXPECT_LT(part.runs.size(), whole.runs.size());
+    files.push_back(put(path(std::to_string(k) + ".csv"), validation_runs(part)));
+  }
+  const MergedValidation merged = merge_validation(files);
+  EXPECT_TRUE(merged.missing.empty());
+  EXPECT_EQ(merged.study.seconds, 3);
+  ASSERT_EQ(merged.study.runs.size(), whole.runs.size());
+  for (std::size_t i = 0; i < whole.runs.size(); ++i) {
+    EXPECT_EQ(merged.study.runs[i].problem, whole.runs[i].problem);
+    EXPECT_EQ(merged.study.runs[i].values, whole.runs[i].values);
+  }
+  files.pop_back();
+  const MergedValidation partly = merge_validation(files);
+  ASSERT_EQ(partly.missing.size(), 1U);
+  EXPECT_EQ(partly.missing.front().text(), "1/3");
+  ValidationStudy other = plan({1, 3});
+  other.command = "drape study validation";
+  files.push_back(put(path("other.csv"), validation_runs(other)));
+  expect_usage_error([&] { merge_validation(files); }, "are not of one study");
+}
+
 TEST(Measures, ComputeWhatPositionsSay) {
   // A pendulum of 1 m that swings as cos 3t.
   ObservedMotion motion;

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "output/motion_packer.hpp"
+
+namespace drape {
+
+/// The motion as a page that needs nothing but itself: a player turns the cloth, plays it and colours it by its
+/// stretch. Only the compressed motion is in memory.
+class HtmlWriter final : public MotionWriter {
+ public:
+  HtmlWriter(const std::filesystem::path& file, const FilmInfo& film);
+
+  void add(const Frame& frame) override;
+  std::vector<OutputFile> finish(Ending ending) override;
+
+ private:
+  std::string scene_;
+  PartialFile file_;
+  MotionPacker packer_;
+};
+
+OutputFormat html_format();
+
+}  // namespace drape

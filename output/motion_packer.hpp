@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "html/motion_player.hpp"
+#include "output/collider_mesh.hpp"
+#include "output/format.hpp"
+#include "output/integer_track.hpp"
+#include "overlay/color_scale.hpp"
+#include "sim/vertex_stretch.hpp"
+
+namespace drape {
+
+/// Packs a motion for the player of a page, frame by frame: cloth, its stretch, bodies, spheres and grounds.
+///
+/// Positions become whole multiples of a precision, which is the smaller of 1/6000 of the cloth's size and 1/100 of its
+/// mean edge. Stretch e is kept as the whole number nearest to 48 log₂(1 + e/0.0005), to 1 % of its value. What is kept
+/// is compressed as it comes, so only the compressed bytes are in memory.
+class MotionPacker {
+ public:
+  /// The largest motion that a browser holds [positions of vertices].
+  static constexpr std::size_t most_positions = 16'000'000;
+
+  /// @param film what it refers to outlives it. Without a cloth the first frame is its rest.
+  explicit MotionPacker(const FilmInfo& film);
+  ~MotionPacker();
+
+  /// @throws OutputError if the texture cannot be read, if the motion is larger than `most_positions`, which the first
+  /// frame tells already, or a position
+  ///                     is beyond 10⁸ times the precision
+  void add(const Frame& frame);
+
+  /// Returns the number of frames added.
+  [[nodiscard]] int frames() const { return frames_; }
+
+  /// Completes the motion, of at least one frame. Call it once.
+  [[nodiscard]] html::PlayedMotion finish();
+
+ private:
+  class Compressor;
+  struct Mesh {
+    IntegerTrack track;
+    std::size_t vertices, triangles;
+  };
+
+  void add_first(const Frame& frame);
+  void add_texture(std::string& bytes);
+  void add_mesh(const std::vector<Triangle>& triangles, Eigen::Index vertices, std::string& bytes);
+  void pack_colliders(const Frame& frame, std::string& bytes);
+  [[nodiscard]] VertexIntegers whole(const Vertices& x) const;
+  [[nodiscard]] std::string description() const;
+
+  FilmInfo film_;
+  ColorScale scale_;
+  std::optional<VertexStretch> stretch_;
+  std::optional<IntegerTrack> strain_;
+  std::vector<Mesh> meshes_;  // the cloth and the bodies
+  GroundPatch patch_;
+  std::string texture_;  // a PNG file; empty: none
+  std::unique_ptr<Compressor> compressor_;
+  Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
+  Eigen::RowVector3d lowest_, highest_;  // of the cloth and all things in all frames
+  double precision_ = 1, time_ = 0;
+  std::size_t positions_ = 0;  // of vertices in a frame
+  int spheres_ = 0, grounds_ = 0, frames_ = 0;
+};
+
+}  // namespace drape
