@@ -55,6 +55,24 @@ TEST(Audit, JudgesTheEnergyOnlyWhereNothingGivesAny) {
       std::string::npos);
 }
 
+TEST(Audit, PlacesABodyWhereItIsAfterAStepInSubsteps) {
+  const SceneFolder folder;
+  folder.write("lift.toml", test::least_scene + R"(duration = 0.3
+[integrator]
+method = "verlet"
+substeps = 4
+[effects.gravity]
+[effects.body]
+box = [4, 4, 0.1]
+center = [0, 0, -0.07]
+velocity = [0, 0, -0.5]
+thickness = 0.02
+)");
+  ASSERT_EQ(drape(folder, "simulate lift.toml -o lift.drape --quiet").code, 0);
+  const Finished finished = drape(folder, "audit lift.drape");
+  EXPECT_EQ(finished.code, 0) << "the cloth goes down with the body, which was above it earlier\n" << finished.text;
+}
+
 TEST(Audit, RefusesInOneMessageWithExitCode2) {
   const SceneFolder folder;
   folder.write("still.toml", still);
