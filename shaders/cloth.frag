@@ -63,12 +63,13 @@ void main() {
   albedo = max(albedo, 0.02);  // no cloth is as black as a hole
 
   float towards = dot(n, key_direction);
+#ifdef DARK
+  const float lit = 0.0;
+#else
   float lit = 1.0;
+#endif
 #ifdef SHADOWS
-  // Texels are read up to a diagonal away: lifted by that off the side that is lit, no surface, however slanted, hides
-  // itself.
-  vec3 lifted = world_position + n * (towards < 0.0 ? -1.0 : 1.0) * (1.42 * shadow_texel.z);
-  lit = past_spheres(world_position, vec4(0.0)) * past_cloth(lifted);
+  lit = past_spheres(world_position, vec4(0.0)) * past_cloth(world_position, n);
 #endif
 #ifdef OCCLUSION
   float open = gl_FrontFacing ? openness.x : openness.y;

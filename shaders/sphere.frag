@@ -32,7 +32,7 @@ void main() {
   vec3 direct = key_light;
 #ifdef SHADOWS
   vec3 p = sphere.xyz + sphere.w * n;
-  direct *= past_cloth(p);
+  direct *= past_cloth(p, n);
 #if SPHERES > 1
   direct *= past_spheres(p, sphere);
 #endif
