@@ -50,6 +50,8 @@ DrawCloth::DrawCloth(GlDevice& device, const Look& look, Eigen::Vector2i size, c
       look_(look),
       triangles_(triangles),
       surface_(triangles, SmoothSurface::levels_for(triangles.size(), static_cast<double>(size.x()) * size.y())),
+      hem_(surface_, look.mesh_lines ? 0 : look.thickness),
+      drawn_triangles_(surface_.triangles()),
       occluders_(triangles_),
       array_(gl_),
       static_buffer_(gl_),
@@ -69,7 +71,14 @@ DrawCloth::DrawCloth(GlDevice& device, const Look& look, Eigen::Vector2i size, c
     occlusion_.emplace();
     occlusion_buffer_.emplace(gl_);
   }
+  drawn_triangles_.insert(drawn_triangles_.end(), hem_.triangles().begin(), hem_.triangles().end());
   make_corners(uvs);
+}
+
+void DrawCloth::shape(const Frame& frame) {
+  positions_ = surface_.positions(frame.positions);
+  normals_ = vertex_normals(positions_, surface_.triangles());
+  hem_.append(positions_, normals_);
 }
 
 void DrawCloth::load_texture() {
@@ -119,7 +128,23 @@ void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
       corners.push_back(corner);
     }
   }
+  add_hem(corners);
   upload_corners(corners);
+}
+
+// A hem has the texture of the border that it is at. Its corners are in the order of its vertices.
+void DrawCloth::add_hem(std::vector<Corner>& corners) {
+  const auto first = static_cast<unsigned>(corners.size());
+  for (std::size_t k = 0; k < hem_.corners().size(); ++k) {
+    const Hem::Corner& border = hem_.corners()[k];
+    const unsigned at_border = indices_[3 * static_cast<std::size_t>(border.piece) + border.corner];
+    corners.push_back(corners[at_border]);
+    sources_.push_back(sources_[at_border]);
+    sources_.back().vertex = surface_.vertex_count() + static_cast<int>(k);
+  }
+  for (const Triangle& t : hem_.triangles()) {
+    for (const int vertex : t) indices_.push_back(first + static_cast<unsigned>(vertex - surface_.vertex_count()));
+  }
 }
 
 void DrawCloth::upload_corners(const std::vector<Corner>& corners) {
@@ -146,11 +171,10 @@ void DrawCloth::upload_corners(const std::vector<Corner>& corners) {
 }
 
 void DrawCloth::upload_shape() {
-  const Vertices normals = vertex_normals(surface_positions_, surface_.triangles());
   float* to = dynamic_.data();
   for (const Source& source : sources_) {
-    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(surface_positions_(source.vertex, axis));
-    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(normals(source.vertex, axis));
+    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(positions_(source.vertex, axis));
+    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(normals_(source.vertex, axis));
   }
   gl_.BindBuffer(GL_ARRAY_BUFFER, dynamic_buffer_.id());
   gl_.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(dynamic_.size() * sizeof(float)), dynamic_.data());
@@ -232,9 +256,8 @@ void DrawCloth::set_uniforms(const Program& program) const {
 void DrawCloth::upload_indices(const ClothShadow& shadow) {
   std::array<std::vector<unsigned>, 3> groups;
   groups[0].reserve(indices_.size());
-  const std::vector<Triangle>& triangles = surface_.triangles();
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    std::vector<unsigned>& group = groups[static_cast<std::size_t>(shadow.light_on(triangles[t]))];
+  for (std::size_t t = 0; t < drawn_triangles_.size(); ++t) {
+    std::vector<unsigned>& group = groups[static_cast<std::size_t>(shadow.light_on(drawn_triangles_[t]))];
     for (std::size_t c = 0; c < 3; ++c) group.push_back(indices_[3 * t + c]);
   }
   std::vector<unsigned>& all = groups[0];
@@ -251,7 +274,7 @@ void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, std::span<cons
   if (occlusion_) upload_occlusion(shot);
   if (!colors.empty()) upload_colors(colors);
   find_programs(shot.spheres.size(), !colors.empty());
-  counts_ = {surface_.triangles().size(), 0, 0};
+  counts_ = {drawn_triangles_.size(), 0, 0};
   if (shadow != nullptr) upload_indices(*shadow);
   if (texture_) {
     gl_.ActiveTexture(GL_TEXTURE0);

@@ -9,6 +9,7 @@
 #include "render/cloth_shadow.hpp"
 #include "render/gl/device.hpp"
 #include "render/gl/objects.hpp"
+#include "render/hem.hpp"
 #include "render/occluders.hpp"
 #include "render/settings.hpp"
 #include "render/shot.hpp"
@@ -17,18 +18,20 @@
 
 namespace drape {
 
-/// Draws the cloth: its smooth surface, lit on both sides, in its texture or its colour, with or without mesh lines.
+/// Draws the cloth: its smooth surface with a hem, lit on both sides, in its texture or its colour, with or without
+/// mesh lines.
 class DrawCloth {
  public:
   /// Parameters and exceptions are Renderer's.
   DrawCloth(GlDevice& device, const Look& look, Eigen::Vector2i size, const std::vector<Triangle>& triangles,
             const std::vector<std::array<float, 2>>& uvs);
 
-  /// Computes the surface of a frame, which is drawn next.
-  void shape(const Frame& frame) { surface_positions_ = surface_.positions(frame.positions); }
-  [[nodiscard]] const SmoothSurface& surface() const { return surface_; }
-  /// Positions of the surface's vertices.
-  [[nodiscard]] const Vertices& positions() const { return surface_positions_; }
+  /// Computes the shape of a frame, which is drawn next.
+  void shape(const Frame& frame);
+  /// Triangles of the surface and the hem.
+  [[nodiscard]] const std::vector<Triangle>& triangles() const { return drawn_triangles_; }
+  /// Positions of their vertices.
+  [[nodiscard]] const Vertices& positions() const { return positions_; }
 
   /// @param shadow of the frame, where the look has shadows
   /// @param colors of the cloth's vertices, in place of texture and colour; or none
@@ -51,6 +54,7 @@ class DrawCloth {
 
   void load_texture();
   void make_corners(const std::vector<std::array<float, 2>>& uvs);
+  void add_hem(std::vector<Corner>& corners);
   void upload_corners(const std::vector<Corner>& corners);
   void upload_shape();
   void upload_occlusion(const Shot& shot);
@@ -65,7 +69,9 @@ class DrawCloth {
   Look look_;
   std::vector<Triangle> triangles_;
   SmoothSurface surface_;
-  Vertices surface_positions_;
+  Hem hem_;
+  std::vector<Triangle> drawn_triangles_;
+  Vertices positions_, normals_;
   Occluders occluders_;          // of the sky
   std::vector<Source> sources_;  // of each GL vertex
   std::vector<float> dynamic_;   // of each GL vertex: position and normal

@@ -30,7 +30,7 @@ class Renderer::Implementation {
         device_(borrow_device(data_folder, backend)),
         canvas_(device_->gl(), size, look),
         cloth_(*device_, look, size, triangles, uvs),
-        occluders_(cloth_.surface().triangles()) {
+        occluders_(cloth_.triangles()) {
     if (look.shadows) shadow_.emplace(device_->gl(), size.y());
   }
 
@@ -54,9 +54,9 @@ class Renderer::Implementation {
       throw std::invalid_argument("a frame has another number of vertices than its renderer was made for");
     }
     device_->make_current();
-    const Shot shot(frame, view_, static_cast<double>(size_.x()) / size_.y());
-    canvas_.begin(covered_box(shot, size_));
+    const Shot shot(frame, view_, static_cast<double>(size_.x()) / size_.y(), look_);
     cloth_.shape(frame);
+    canvas_.begin(covered_box(shot, cloth_.positions(), size_));
     occluders_.take(cloth_.positions(), frame);
     if (shadow_) shadow_->cast(shot, occluders_);
     const ClothShadow* shadow = shadow_ ? &*shadow_ : nullptr;

@@ -164,7 +164,7 @@ void SmoothSurface::project_to_limit() {
 }
 
 Vertices SmoothSurface::positions(const Vertices& vertices) const {
-  if (!divided_) return vertices;
+  if (!divided_) return vertices.topRows(vertex_count_);
   const auto given = vertices.topRows(weights_.cols());
   Vertices controls = given;
   controls += sharpness * (given - limits_ * given);

@@ -30,6 +30,7 @@ class SmoothSurface {
   /// The number of levels for a picture of so many pixels: an edge takes a few of them.
   static int levels_for(std::size_t triangle_count, double pixels);
 
+  [[nodiscard]] int vertex_count() const { return vertex_count_; }
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
 

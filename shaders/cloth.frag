@@ -88,11 +88,17 @@ void main() {
   vec3 surroundings = (ambient_light(n) + fill_light * fill) * around;
   vec3 direct = key_light * lit;
 
-  // Fibres that stand up from the cloth catch light where it is seen edge-on, of whatever colour it is.
+  // Fibres that stand up from the cloth catch light where it is seen edge-on, and give it most of their colour.
   float aside = 1.0 - clamp(dot(n, to_eye), 0.0, 1.0);
-  vec3 sheen = 0.16 * aside * aside * aside * (surroundings + direct * max(0.0, towards));
+  vec3 tint = mix(vec3(1.0), albedo / max(albedo.r, max(albedo.g, albedo.b)), 0.8);
+  vec3 sheen = 0.16 * tint * aside * aside * aside * (surroundings + direct * max(0.0, towards));
   float glance = power4(half_cosine(n, to_eye, key_direction));
   vec3 specular = direct * 0.03 * highlight(n, key_direction, 12.0, glance * glance * glance);
 
+#ifdef VERTEX_COLORS
+  // Colours that say something keep their value; only how squarely the surface is seen shows its folds, faintly.
+  color = vec4(albedo * (1.0 - 0.35 * aside * aside), 1.0);
+#else
   color = vec4(film(albedo * (surroundings + direct * key) + sheen + specular), 1.0);
+#endif
 }
