@@ -88,9 +88,9 @@ bool ClothShadow::has_layers(const Texels& texels) const {
 }
 
 ClothShadow::Light ClothShadow::light_on(const Triangle& triangle) const {
-  if (map_.columns() == 0) return Light::changing;
+  if (map_.columns() == 0) return Light::past_cloth;
   const Light light = past_cloth(triangle);
-  return light == Light::whole && is_behind_a_sphere(triangle) ? Light::changing : light;
+  return light == Light::whole && is_behind_a_sphere(triangle) ? Light::past_spheres : light;
 }
 
 // Whether there are two layers anywhere, of which one is above the triangle's plane, in the rectangle around it and
@@ -107,7 +107,7 @@ ClothShadow::Light ClothShadow::past_cloth(const Triangle& triangle) const {
   if (!has_layers(texels)) return Light::whole;
   const Eigen::Vector3d normal = (b - a).cross(c - a);
   const double slope = -normal[0] / normal[2], rise = -normal[1] / normal[2], steep = std::hypot(slope, rise);
-  if (!(steep < 1e3 * map_.texel())) return Light::changing;
+  if (!(steep < 1e3 * map_.texel())) return Light::past_cloth;
   const auto tolerated = static_cast<float>(0.5 * lift * map_.texel()), step = static_cast<float>(slope);
   const auto deep = static_cast<float>(2 * (lift + softness) * (map_.texel() + steep));
   bool any = false, all = true;
@@ -124,9 +124,9 @@ ClothShadow::Light ClothShadow::past_cloth(const Triangle& triangle) const {
     }
     any = any || above != 0;
     all = all && near == 0;
-    if (any && !all) return Light::changing;
+    if (any && !all) return Light::past_cloth;
   }
-  return all ? Light::none : any ? Light::changing : Light::whole;
+  return all ? Light::none : any ? Light::past_cloth : Light::whole;
 }
 
 // As past_spheres() in shadow.glsl, by how far away from the sphere's axis in the light the triangle comes at most.

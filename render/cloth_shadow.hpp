@@ -18,8 +18,9 @@ class ClothShadow {
  public:
   static constexpr GLint texture_unit = 1;
 
-  /// Which light reaches a triangle: all of the key light, a part that changes across it, or none.
-  enum class Light { whole, changing, none };
+  /// Which part of the key light reaches a triangle: all of it, what spheres leave, what cloth, bodies and spheres
+  /// leave, or none.
+  enum class Light { whole, past_spheres, past_cloth, none };
 
   /// @param rows of the picture [pixels]
   ClothShadow(const GlFunctions& gl, int rows);

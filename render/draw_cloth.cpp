@@ -51,7 +51,6 @@ DrawCloth::DrawCloth(GlDevice& device, const Look& look, Eigen::Vector2i size, c
       triangles_(triangles),
       surface_(triangles, SmoothSurface::levels_for(triangles.size(), static_cast<double>(size.x()) * size.y())),
       hem_(surface_, look.mesh_lines ? 0 : look.thickness),
-      drawn_triangles_(surface_.triangles()),
       occluders_(triangles_),
       array_(gl_),
       static_buffer_(gl_),
@@ -71,7 +70,6 @@ DrawCloth::DrawCloth(GlDevice& device, const Look& look, Eigen::Vector2i size, c
     occlusion_.emplace();
     occlusion_buffer_.emplace(gl_);
   }
-  drawn_triangles_.insert(drawn_triangles_.end(), hem_.triangles().begin(), hem_.triangles().end());
   make_corners(uvs);
 }
 
@@ -233,8 +231,11 @@ void DrawCloth::find_programs(std::size_t sphere_count, bool colored) {
 }
 
 const Program* DrawCloth::find_program(ClothShadow::Light light) const {
-  std::vector<std::string> defines = light_defines(look_, sphere_count_, light == ClothShadow::Light::changing);
-  if (light == ClothShadow::Light::none) defines.emplace_back("DARK");
+  using Light = ClothShadow::Light;
+  const bool shadows = light == Light::past_spheres || light == Light::past_cloth;
+  std::vector<std::string> defines = light_defines(look_, sphere_count_, shadows);
+  if (light == Light::past_spheres) defines.emplace_back("PAST_SPHERES");
+  if (light == Light::none) defines.emplace_back("DARK");
   if (colored_) {
     defines.emplace_back("VERTEX_COLORS");
   } else if (texture_) {
@@ -254,10 +255,13 @@ void DrawCloth::set_uniforms(const Program& program) const {
 
 // Reading the shadow map takes llvmpipe several times as long as all else in a pixel.
 void DrawCloth::upload_indices(const ClothShadow& shadow) {
-  std::array<std::vector<unsigned>, 3> groups;
+  std::array<std::vector<unsigned>, 4> groups;
   groups[0].reserve(indices_.size());
-  for (std::size_t t = 0; t < drawn_triangles_.size(); ++t) {
-    std::vector<unsigned>& group = groups[static_cast<std::size_t>(shadow.light_on(drawn_triangles_[t]))];
+  std::vector<ClothShadow::Light> lights;
+  for (const Triangle& triangle : surface_.triangles()) lights.push_back(shadow.light_on(triangle));
+  for (const int piece : hem_.pieces()) lights.push_back(lights[static_cast<std::size_t>(piece)]);
+  for (std::size_t t = 0; t < lights.size(); ++t) {
+    std::vector<unsigned>& group = groups[static_cast<std::size_t>(lights[t])];
     for (std::size_t c = 0; c < 3; ++c) group.push_back(indices_[3 * t + c]);
   }
   std::vector<unsigned>& all = groups[0];
@@ -274,7 +278,7 @@ void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, std::span<cons
   if (occlusion_) upload_occlusion(shot);
   if (!colors.empty()) upload_colors(colors);
   find_programs(shot.spheres.size(), !colors.empty());
-  counts_ = {drawn_triangles_.size(), 0, 0};
+  counts_ = {indices_.size() / 3, 0, 0, 0};
   if (shadow != nullptr) upload_indices(*shadow);
   if (texture_) {
     gl_.ActiveTexture(GL_TEXTURE0);

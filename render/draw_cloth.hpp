@@ -28,9 +28,9 @@ class DrawCloth {
 
   /// Computes the shape of a frame, which is drawn next.
   void shape(const Frame& frame);
-  /// Triangles of the surface and the hem.
-  [[nodiscard]] const std::vector<Triangle>& triangles() const { return drawn_triangles_; }
-  /// Positions of their vertices.
+  /// Triangles of the surface, without the hem.
+  [[nodiscard]] const std::vector<Triangle>& triangles() const { return surface_.triangles(); }
+  /// Positions of the vertices of surface and hem.
   [[nodiscard]] const Vertices& positions() const { return positions_; }
 
   /// @param shadow of the frame, where the look has shadows
@@ -70,7 +70,6 @@ class DrawCloth {
   std::vector<Triangle> triangles_;
   SmoothSurface surface_;
   Hem hem_;
-  std::vector<Triangle> drawn_triangles_;
   Vertices positions_, normals_;
   Occluders occluders_;          // of the sky
   std::vector<Source> sources_;  // of each GL vertex
@@ -82,8 +81,8 @@ class DrawCloth {
   std::optional<AmbientOcclusion> occlusion_;  // with its buffer: absent where the look has none
   std::optional<Texture> texture_;
   std::vector<unsigned> indices_;             // of the corners of all triangles
-  std::array<std::size_t, 3> counts_{};       // triangles in each light, as they follow each other in the index buffer
-  std::array<const Program*, 3> programs_{};  // likewise; without shadows only the first is there
+  std::array<std::size_t, 4> counts_{};       // triangles in each light, as they follow each other in the index buffer
+  std::array<const Program*, 4> programs_{};  // likewise; without shadows only the first is there
   std::size_t sphere_count_ = 0;
   bool colored_ = false;
 };

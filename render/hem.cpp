@@ -57,6 +57,7 @@ Hem::Hem(const SmoothSurface& surface, double thickness) : thickness_(thickness)
       const int a = first + ring * p + k, b = first + ring * q + k;
       triangles_.push_back({a, a + 1, b});
       triangles_.push_back({b, a + 1, b + 1});
+      pieces_.insert(pieces_.end(), 2, edge.piece);
     }
   }
 }

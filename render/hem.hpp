@@ -23,6 +23,8 @@ class Hem {
   Hem(const SmoothSurface& surface, double thickness);
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// The piece that each triangle lies at.
+  [[nodiscard]] const std::vector<int>& pieces() const { return pieces_; }
   [[nodiscard]] const std::vector<Corner>& corners() const { return corners_; }
 
   /// Appends the vertices of the hem, and the normals of its tube.
@@ -40,6 +42,7 @@ class Hem {
   double thickness_;
   std::vector<BorderVertex> border_;
   std::vector<Triangle> triangles_;
+  std::vector<int> pieces_;
   std::vector<Corner> corners_;  // of each vertex of the hem
 };
 

@@ -39,7 +39,7 @@ enum class ColorBy { stretch, speed, curvature };
 struct Look {
   std::filesystem::path texture = {};  ///< an image file; empty: the plain `color`
   Rgb color{0.85, 0.65, 0.13};         ///< of the cloth, where it has no texture
-  int anisotropy = 4;                  ///< of the texture's filter, 1 is off
+  int anisotropy = 1;                  ///< of the texture's filter, 1 is off: in software it is slow
   bool mesh_lines = false;             ///< draw the triangles' edges as thin dark lines
   Rgb line_color{0.16, 0.12, 0.06};
   double line_width = 0.8;                 ///< [pixels]

@@ -150,7 +150,9 @@ Keys look_keys(Look& look, std::optional<Quality>& quality) {
            "of the cloth stays below throughout the motion.")
       .above(0);
   keys.add("anisotropy", &look.anisotropy, "",
-           "Anisotropic filtering of the texture, where OpenGL supports it; 1 is off.")
+           "Anisotropic filtering of the texture, where OpenGL supports it; 1 is off. In software rendering a frame "
+           "takes "
+           "more than twice as long.")
       .at_least(1)
       .at_most(16);
   keys.add("mesh_lines", &look.mesh_lines, "", "Draws the edges of the triangles.");

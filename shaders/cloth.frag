@@ -69,7 +69,10 @@ void main() {
   float lit = 1.0;
 #endif
 #ifdef SHADOWS
-  lit = past_spheres(world_position, vec4(0.0)) * past_cloth(world_position, n);
+  lit = past_spheres(world_position, vec4(0.0));
+#ifndef PAST_SPHERES
+  lit *= past_cloth(world_position, n);
+#endif
 #endif
 #ifdef OCCLUSION
   float open = gl_FrontFacing ? openness.x : openness.y;

@@ -166,12 +166,14 @@ TEST(Light, SwitchedOffChangesNothingWhereThereIsNothingToHide) {
   Look off;
   off.shadows = off.ambient_occlusion = false;
   off.translucency = 0;
+  Look on;
+  on.thickness = off.thickness = 0;  // light shines through the far side of a hem
   // A sheet that bulges towards the camera and the light: nothing of it is hidden from anything.
   Mesh bulge = make_grid(16, 16);
   for (Eigen::Index i = 0; i < bulge.positions.rows(); ++i) {
     bulge.positions(i, 2) = -0.05 * bulge.positions.row(i).head<2>().squaredNorm();
   }
-  EXPECT_EQ(draw(bulge, from_above(), Look{}, {160, 160}), draw(bulge, from_above(), off, {160, 160}));
+  EXPECT_EQ(draw(bulge, from_above(), on, {160, 160}), draw(bulge, from_above(), off, {160, 160}));
 }
 
 }  // namespace
