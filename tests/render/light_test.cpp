@@ -116,6 +116,73 @@ TEST(Light, ComesFromAboveOnTheLeft) {
   EXPECT_GT(leaning(0, 1), leaning(0, -1) + 15);
 }
 
+TEST(Light, IsMultipliedByTheExposure) {
+  const auto light = [](double exposure) {
+    Look look;
+    look.color = {0.3, 0.3, 0.3};
+    look.exposure = exposure;
+    return to_linear(draw(make_grid(4, 4), from_above(), look, {101, 101}).at(50, 50)[1]);
+  };
+  EXPECT_NEAR(light(2) / light(1), 2, 0.03);
+  EXPECT_NEAR(light(0.5) / light(1), 0.5, 0.03);
+}
+
+// A level sheet gets the cosine of the light's height, from whichever side it comes, and wherever the camera is.
+TEST(Light, ComesFromWhereTheLookPlacesIt) {
+  const auto light = [](double azimuth, double elevation) {
+    Look look;
+    look.color = {0.4, 0.4, 0.4};
+    look.shadows = look.ambient_occlusion = false;
+    look.key_azimuth = azimuth;
+    look.key_elevation = elevation;
+    return to_linear(draw(make_grid(4, 4), from_above(), look, {101, 101}).at(50, 50)[1]);
+  };
+  const double dark = light(0, 0), bright = light(0, 60);
+  for (const double azimuth : {-120.0, 45.0, 170.0}) EXPECT_NEAR(light(azimuth, 60), bright, 0.01) << azimuth;
+  EXPECT_NEAR((light(0, 30) - dark) / (bright - dark), std::sin(std::numbers::pi / 6) / std::sin(std::numbers::pi / 3),
+              0.05);
+}
+
+TEST(Light, CastsAShadowOnABackdropAndNowhereElse) {
+  Mesh sheet = make_grid(6, 6);
+  sheet.positions *= 0.5;
+  const View view{{0, -5, 2.5}, {0, 0, -0.6}, {0, 0, 1}, 34};
+  Look look;
+  const Image none = draw(sheet, view, look, {200, 200});
+  look.backdrop = true;
+  const Image with = draw(sheet, view, look, {200, 200});
+  look.shadows = false;
+  const Image without = draw(sheet, view, look, {200, 200});
+  int darker = 0;
+  for (int y = 130; y < 200; ++y) {
+    for (int x = 0; x < 200; ++x) darker += with.at(x, y)[1] + 10 < without.at(x, y)[1] ? 1 : 0;
+  }
+  EXPECT_GT(darker, 200);
+  // A scene with a ground needs no other.
+  const std::vector<Collider> ground{GroundShape{{0, 0, 1}, -1, 0.01}};
+  Look plain = look;
+  plain.backdrop = false;
+  EXPECT_EQ(draw(sheet, view, look, {200, 200}, ground), draw(sheet, view, plain, {200, 200}, ground));
+  EXPECT_EQ(std::vector(none.at(0, 0), none.at(0, 0) + 3), std::vector(with.at(0, 0), with.at(0, 0) + 3));
+}
+
+TEST(Light, OfABackgroundHasNoBands) {
+  // Dithered: over four by four pixels the mean is that of the gradient to a quarter of a step; whole bytes miss by
+  // half.
+  Look look;
+  look.background = Rgb{0.84, 0.84, 0.84};
+  look.background_top = Rgb{0.80, 0.80, 0.80};
+  const Image image = draw(nothing(), from_above(), look, {16, 400});
+  for (int y = 0; y < 400; y += 4) {
+    double mean = 0, exact = 0;
+    for (int row = y; row < y + 4; ++row) {
+      for (int x = 0; x < 4; ++x) mean += image.at(x, row)[1] / 16.0;
+      exact += 255 * std::lerp(0.80, 0.84, (row + 0.5) / 400) / 4;
+    }
+    EXPECT_NEAR(mean, exact, 0.15) << y;
+  }
+}
+
 TEST(Light, OnAFlatSheetIsThatOfItsFormula) {
   // Lambert's cosine of the key light, a fill light that wraps around, sky and floor by the normal, and the film's
   // shoulder: from the eye's direction there is neither sheen nor highlight worth a byte.
