@@ -33,7 +33,7 @@ void main() {
   float open = 1.0;
 #ifdef SHADOWS
   vec3 p = sphere.xyz + sphere.w * n;
-  open = past_cloth(p, n);
+  open = past_cloth(p, key_direction);  // not in the map, it hides nothing of itself
   direct *= open;
 #if SPHERES > 1
   direct *= past_spheres(p, sphere);
