@@ -39,9 +39,9 @@ float past_cloth(vec3 p, vec3 n) {
   vec2 corner = floor(place), part = place - corner;
   float facing = dot(n, key_direction), texel = shadow_texel.z;
   vec2 along = vec2(dot(n, shadow_u.xyz), dot(n, shadow_v.xyz)) * (texel * texel);
-  float inverse = facing / max(facing * facing, 0.0025);
+  float inverse = facing / max(facing * facing, 0.0004);
   vec2 slope = -along * inverse;  // of the plane, in depth by texels
-  float steep = 1.0 + length(along) * abs(inverse) / texel;
+  float steep = 1.0 + min(length(along) * abs(inverse) / texel, 4.0);
   float scale = shadow_texel.w / steep;
   depth += shadow_lift * steep;
 
@@ -58,7 +58,7 @@ float past_cloth(vec3 p, vec3 n) {
                                  vec4(high_weight.y, high_weight.y, low_weight.y, low_weight.y));
     }
   }
-  return 1.0 - hidden / 81.0 * smoothstep(0.05, 0.15, abs(facing));
+  return 1.0 - hidden / 81.0 * smoothstep(0.01, 0.04, abs(facing));
 }
 #endif
 #endif
