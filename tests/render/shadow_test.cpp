@@ -229,7 +229,7 @@ TEST(Shadow, OfARidgeHasNoTeeth) {
     for (const double elevation : {18.0, 25.0, 32.0, 45.0}) {
       look.key_elevation = elevation;
       for (const double height : {0.2, 0.35}) {
-        EXPECT_LT(roughness(draw(ridge(height), view, look, size)), 3)
+        EXPECT_LT(roughness(draw(ridge(height), view, look, size)), 10)  // 23 where an edge is one texel wide
             << elevation << " degrees, " << height << " m, " << size.y() << " rows";
       }
     }

@@ -100,7 +100,8 @@ TEST(SmoothSurface, TakesWhatNoSurfaceIs) {
 }
 
 TEST(SmoothSurface, IsAsFineAsThePictureAsks) {
-  EXPECT_EQ(SmoothSurface::levels_for(3200, 480 * 400), 1);
+  EXPECT_EQ(SmoothSurface::levels_for(800, 480 * 400), 1);
+  EXPECT_EQ(SmoothSurface::levels_for(3200, 480 * 400), 0);
   EXPECT_EQ(SmoothSurface::levels_for(3200, 1920 * 1080), 2);
   EXPECT_EQ(SmoothSurface::levels_for(180000, 480 * 400), 0);
   EXPECT_LE(15000 << (2 * SmoothSurface::levels_for(15000, 8192.0 * 8192)), 60000);
