@@ -60,7 +60,9 @@ void main() {
 #ifdef MESH_LINES
   albedo = mix(albedo, line_color, line_coverage());
 #endif
+#ifndef VERTEX_COLORS
   albedo = max(albedo, 0.02);  // no cloth is as black as a hole
+#endif
 
   float towards = dot(n, key_direction);
 #ifdef DARK
