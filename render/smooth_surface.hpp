@@ -13,8 +13,9 @@ namespace drape {
 /// triangle, or of more than two, become cubic B-splines of their own (Hoppe et al. 1994), which end at the corners of
 /// the cloth.
 ///
-/// A flat grid keeps its shape, corners keep their place, and convex parts are drawn inside their vertices: on a ball
-/// of radius R by h²/(4R) for edges of length h, which is far less than the distance that contact keeps.
+/// A flat grid keeps its shape and corners keep their place. The control points are moved outwards first, by as much as
+/// the surface would be inside them: on a ball it then differs from its vertices by a fourth power of an edge's length,
+/// far less than the distance that contact keeps.
 class SmoothSurface {
  public:
   /// A triangle of the surface, which is part of one of the mesh.

@@ -31,8 +31,8 @@ uniform vec4 shadow_texel;  // its width in texture coordinates, twice, and in m
 // How much of the key light the cloth leaves to a point of a surface with normal n. The point's own surface is taken for a
 // plane, which each of the 36 texels around it is compared with; what is above that plane hides light, by a tent filter
 // three texels wide on each side. Nothing jumps here: were depths only compared, the last bit of a number, in which
-// processors differ, could turn a pixel from light to dark. Towards grazing light, which makes little difference, what hides
-// it has to be ever farther above the plane, and nothing does in the end. One gather takes llvmpipe half as long as three filtered samples.
+// processors differ, could turn a pixel from light to dark. In slanting light what hides it has to be farther above the
+// plane. One gather takes llvmpipe half as long as three filtered samples.
 float past_cloth(vec3 p, vec3 n) {
   vec2 place = vec2(dot(shadow_u, vec4(p, 1.0)), dot(shadow_v, vec4(p, 1.0)));
   float depth = dot(shadow_depth, vec4(p, 1.0));
