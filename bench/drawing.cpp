@@ -37,6 +37,7 @@ DrawnFilm make_film(const std::string& file) {
   FrameSampler sampler(extent, [&](Frame frame) {
     framing.add(frame.positions);
     for (const Collider& collider : frame.colliders) framing.add(collider);
+    framing.end_frame();
     if (seen++ * count / last == static_cast<int>(film.frames.size())) film.frames.push_back(std::move(frame));
   });
   const std::array<StepObserver*, 1> observers{&sampler};

@@ -66,6 +66,8 @@ RunOptions run_options(const RunArguments& arguments, const Scene& scene, bool v
   options.largest_file = parse_file_limit(arguments.max_size, arguments.keep, arguments.outputs);
   if (arguments.poster) require_a_film("--poster", arguments.outputs);
   options.poster = arguments.poster;
+  if (!arguments.start.empty()) require_a_film("--start", arguments.outputs);
+  options.start_at_poster = arguments.start == "poster";
   options.sheet = parse_sheet(arguments.sheet, options.outputs);
   options.backend = arguments.backend;
   options.threads = parse_threads(arguments.threads);

@@ -19,6 +19,7 @@ struct RunArguments {
   std::string frames, every, resume, max_size, keep, sheet;
   FilmTimes times;  ///< as frames, in seconds
   bool poster = false;
+  std::string start;  ///< of films that repeat for ever: first or poster
   bool open = false;  ///< show the first film when it is complete
   std::optional<std::int64_t> steps;
   double checkpoint_seconds = MotionOptions{}.checkpoint_seconds;

@@ -227,6 +227,12 @@ void add_run_commands(CLI::App& app, const CommonOptions& common, Command& comma
   add_file_limit(*render, arguments->max_size, arguments->keep);
   render->add_flag("--poster", arguments->poster,
                    "Also write FILM.poster.png beside each film: its most telling frame");
+  render
+      ->add_option(
+          "--start", arguments->start,
+          "Frame that a GIF, WebP or APNG begins with, which a page shows until it plays: first (the default) or "
+          "poster")
+      ->check(CLI::IsMember({"first", "poster"}));
   render->add_flag("--open", arguments->open, "Show the first output when it is complete, with xdg-open");
   add_shared_options(*render, *arguments, "Scene files (TOML), or motions: .drape, or what drape import reads");
   render->add_option("--scene", arguments->look, "Render motions with the camera, look and film of this scene");

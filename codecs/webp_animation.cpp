@@ -18,7 +18,7 @@ namespace {
 using Mask = cv::Mat1b;  // 1 where a frame changes the picture
 
 constexpr float quality = 75;          // libwebp's own default: a film has two thirds of the size of a GIF
-constexpr int seen_at_rest = 2;        // of 255: what may be off where nothing moves
+constexpr int seen_at_rest = 0;        // of 255: what may be off where nothing moves
 constexpr int seen_in_motion = 5;      // and elsewhere; in libwebp it is as much at this quality
 constexpr std::uint8_t at_rest = 4;    // frames for which a pixel has not changed
 constexpr int block = 8;               // pixels: what is transparent is the cheaper the fewer corners it has

@@ -9,7 +9,7 @@
 namespace drape {
 
 /// An animated picture of all colours that repeats for ever: WebP, whose pixels are nearly those that were drawn, and
-/// right to two of 255 where nothing moves, or APNG, whose are exactly. Frame k is shown from k/fps on, to the
+/// exactly where nothing moves, or APNG, whose are exactly. Frame k is shown from k/fps on, to the
 /// millisecond in which WebP counts.
 class AnimationEncoder final : public Encoder {
  public:

@@ -19,6 +19,28 @@ constexpr std::uint8_t paper = 255;
 
 }  // namespace
 
+namespace {
+
+/// Cuts rows off the bottom of a picture.
+Image cut_below(Image& picture, int rows) {
+  Image below(picture.width, rows);
+  const auto bytes = static_cast<std::ptrdiff_t>(below.pixels.size());
+  std::copy(picture.pixels.end() - bytes, picture.pixels.end(), below.pixels.begin());
+  picture.pixels.resize(picture.pixels.size() - below.pixels.size());
+  picture.height -= rows;
+  return below;
+}
+
+/// Puts a narrower picture below another, in the middle.
+void put_below(Image& sheet, const Image& below) {
+  const int left = (sheet.width - below.width) / 2, top = sheet.height;
+  sheet.pixels.resize(sheet.pixels.size() + std::size_t{3} * sheet.width * below.height, paper);
+  sheet.height += below.height;
+  for (int y = 0; y < below.height; ++y) std::copy_n(below.at(0, y), 3 * below.width, sheet.at(left, top + y));
+}
+
+}  // namespace
+
 bool is_spread(int index, int count, int shown) {
   if (count <= shown) return true;
   if (shown < 2) return index == 0;
@@ -32,7 +54,8 @@ ContactSheet::ContactSheet(std::filesystem::path file, const FilmInfo& film)
       grid_(film.sheet.value()),
       first_frame_(film.first_frame),
       expected_frames_(std::max(1, film.expected_frames)),
-      seconds_per_frame_(film.seconds_per_frame) {
+      seconds_per_frame_(film.seconds_per_frame),
+      bands_(film.bands) {
   require_writable(file_);
 }
 
@@ -54,7 +77,10 @@ void ContactSheet::add(const Image& image) {
   if (!pictures_.empty() && pictures_.front().width != image.width) {
     throw std::invalid_argument("the frames of a film must have one size");
   }
-  pictures_.push_back(grid_.labelled ? labelled(image, (first_frame_ + index) * seconds_per_frame_) : image);
+  Image picture = image;
+  legend_ = cut_below(picture, bands_);
+  pictures_.push_back(grid_.labelled ? labelled(std::move(picture), (first_frame_ + index) * seconds_per_frame_)
+                                     : std::move(picture));
 }
 
 std::vector<OutputFile> ContactSheet::finish(Ending ending) {
@@ -62,7 +88,9 @@ std::vector<OutputFile> ContactSheet::finish(Ending ending) {
   std::vector<const Image*> list;
   for (const Image& picture : pictures_) list.push_back(&picture);
   PartialFile file(file_);
-  file.write(encode_png(montage(list, grid_.columns, gap, paper)));
+  Image sheet = montage(list, grid_.columns, gap, paper);
+  if (legend_.height > 0) put_below(sheet, legend_);
+  file.write(encode_png(sheet));
   const std::uintmax_t size = file.commit(ending);
   return {{file.name(ending), size}};
 }

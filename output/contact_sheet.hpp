@@ -11,7 +11,8 @@ namespace drape {
 /// Whether an item is among `shown` evenly spread ones of `count`, of which the first and the last are two.
 bool is_spread(int index, int count, int shown);
 
-/// One picture of several moments of a film, evenly spread, the first and the last among them.
+/// One picture of several moments of a film, evenly spread, the first and the last among them. What is below the last
+/// one's picture, legend and curves of the whole, stands once below them all.
 class ContactSheet final : public Encoder {
  public:
   /// @param film whose `sheet` says how many there are
@@ -31,9 +32,11 @@ class ContactSheet final : public Encoder {
   SheetGrid grid_;
   int first_frame_, expected_frames_;
   double seconds_per_frame_;
+  int bands_;
   Pen pen_;
   int added_ = 0;
   std::vector<Image> pictures_;
+  Image legend_;  // without rows where there is none
 };
 
 }  // namespace drape

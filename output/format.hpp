@@ -39,6 +39,7 @@ struct FilmInfo {
   int first_frame = 0;              ///< number of the first frame added
   int expected_frames = 0;          ///< how many will be added; fewer is no error
   int width = 64, height = 64;      ///< of the pictures, to try beforehand what can be tried [pixels]
+  int bands = 0;                    ///< rows at the bottom of each picture that hold legend and curves
 
   std::optional<FileLimit> largest_file = {};  ///< of a film that is drawn; it becomes smaller for it, see FittedFilm
 

@@ -1,13 +1,15 @@
 #include "overlay/color_scale.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "overlay/color_map.hpp"
 
 namespace drape {
 namespace {
 
-constexpr double shown_part = 0.95;  // of a frame's vertices, within the limit
+constexpr double shown_part = 0.95;   // of a frame's vertices, within the limit
+constexpr double shown_frames = 0.9;  // of the frames of which that holds
 
 }  // namespace
 
@@ -15,12 +17,17 @@ void ColorScale::survey(Eigen::VectorXd values) {
   if (values.size() == 0) return;
   const auto place = static_cast<Eigen::Index>(shown_part * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + place, values.end());
-  seen_ = std::max(seen_, values[place]);
+  seen_.push_back(values[place]);
 }
 
 double ColorScale::limit() const {
   constexpr double least = 1e-9;  // of a cloth that does nothing of the kind: all of it has the first colour
-  return limit_ ? *limit_ : round_up(std::max(seen_, least));
+  if (limit_) return *limit_;
+  if (seen_.empty()) return round_up(least);
+  std::vector<double> frames = seen_;
+  const auto place = static_cast<std::ptrdiff_t>(std::ceil(shown_frames * static_cast<double>(frames.size() - 1)));
+  std::nth_element(frames.begin(), frames.begin() + place, frames.end());
+  return round_up(std::max(frames[static_cast<std::size_t>(place)], least));
 }
 
 std::vector<Rgb> ColorScale::colors(const Eigen::VectorXd& values) const {

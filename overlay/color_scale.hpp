@@ -10,8 +10,8 @@
 namespace drape {
 
 /// The colours of viridis() for numbers from 0 up to a limit: one that is given, or else the smallest of 1, 2 and 5
-/// times a power of ten that 95 % of a frame's vertices stay below in every frame. So a few vertices in the sharpest
-/// fold do not leave all others in one colour.
+/// times a power of ten that 95 % of a frame's vertices stay below in nine frames of ten. So neither a few vertices in
+/// the sharpest fold nor a short blow leave all others in one colour.
 class ColorScale {
  public:
   explicit ColorScale(std::optional<double> limit) : limit_(limit) {}
@@ -30,7 +30,7 @@ class ColorScale {
 
  private:
   std::optional<double> limit_;
-  double seen_ = 0;  // the largest of what 95 % of the vertices of a frame stay below
+  std::vector<double> seen_;  // what 95 % of the vertices of each frame stay below
 };
 
 }  // namespace drape

@@ -153,6 +153,7 @@ CameraPath camera_path(const Camera& given, const KnownFilm& film) {
   film.pass([&](const Frame& frame) {
     framing.add(frame.positions);
     for (const Collider& collider : frame.colliders) framing.add(collider);
+    framing.end_frame();
   });
   return turning(framing.view(), camera, film.count);
 }

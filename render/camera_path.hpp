@@ -16,6 +16,7 @@ struct KnownFilm {
   double fps;     ///< frames per second
   int count;      ///< of its frames, at least 1
   const std::vector<Triangle>& triangles;
+  const Look& look;  ///< where the key light stands
   /// Calls what it is given for each frame, from the first to the last. Can be gone through several times.
   std::function<void(const std::function<void(const Frame&)>&)> pass;
 };
@@ -38,7 +39,8 @@ class CameraPath {
 
 /// The camera with azimuth and elevation: where one of them is absent, that of a few directions which shows most. Each
 /// is looked at in some frames, in a small picture with everything's true depth:
-///  - how much of the picture the cloth covers, its back counting a little less, if all of the motion has to fit;
+///  - how much of the picture the cloth covers, the more the better the key light falls on it, and its back a little
+///    less, if all of the motion has to fit;
 ///  - how much of each sphere is seen, of what would be seen if it stood alone;
 ///  - how far vertices move across the picture.
 /// Nothing else being equal, the usual direction is the best. Directions from below a ground are left out.

@@ -13,6 +13,10 @@
 namespace drape {
 namespace {
 
+/// Bayer's order of 4×4 thresholds.
+constexpr std::array<std::array<double, 4>, 4> thresholds{
+    {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}}};
+
 constexpr std::uint32_t full = 65535;  // the 16 bits of light 1, and of coverage 1
 
 void check_complete(const GlFunctions& gl) {
@@ -77,10 +81,18 @@ Canvas::Canvas(const GlFunctions& gl, Eigen::Vector2i size, const Look& look)
     const double height = 1 - (size.y() - 1 - y + 0.5) / size.y();  // of its middle, from 0 to 1
     for (std::size_t c = 0; c < 3; ++c) {
       const double value = std::clamp(std::lerp(lower[c], upper[c], height), 0.0, 1.0);
-      row.bytes[c] = static_cast<std::uint8_t>(std::lround(255 * value));
       row.light[c] = static_cast<std::uint32_t>(std::lround(full * srgb_to_linear(value)));
     }
-    for (int x = 0; x < size.x(); ++x) std::ranges::copy(row.bytes, empty_.at(x, size.y() - 1 - y));
+    // A gradient of whole bytes has bands. One colour has none, and stays exact.
+    const auto& offsets = thresholds[static_cast<std::size_t>(y % 4)];
+    for (int x = 0; x < size.x(); ++x) {
+      const double offset = (offsets[static_cast<std::size_t>(x % 4)] + 0.5) / 16 - 0.5;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double exact = 255 * std::clamp(std::lerp(lower[c], upper[c], height), 0.0, 1.0);
+        const double dithered = lower[c] == upper[c] ? exact : exact + offset;
+        empty_.at(x, size.y() - 1 - y)[c] = static_cast<std::uint8_t>(std::lround(std::clamp(dithered, 0.0, 255.0)));
+      }
+    }
   }
 }
 

@@ -43,7 +43,6 @@ class Canvas {
 
   /// One row of the background.
   struct Row {
-    std::array<std::uint8_t, 3> bytes{};
     std::array<std::uint32_t, 3> light{};  // 16 bits, linear
   };
 

@@ -10,19 +10,23 @@
 namespace drape {
 namespace {
 
-/// Texels across what the picture shows: a shadow's edge is as soft in a large picture as in a small one.
-constexpr double resolution = 400;
+/// Texels for each row of the picture, and how many across it at least and at most: edges are a few pixels wide.
+constexpr double texels_per_row = 0.75, least_resolution = 300, most_resolution = 600;
 /// Texels that no side of the map exceeds, where the camera sees only a part of the cloth.
-constexpr int largest_map = 1024;
-/// Of a shadow, in texels: what the cloth must be above a point to take all of its light.
-constexpr double edge_width = 2;
-
-/// Texels around a point that its shadow may be of: it is lifted by a diagonal, and read a diagonal away.
-constexpr int filtered = 3;
+constexpr int largest_map = 1536;
+/// Texels in light that falls straight on a surface: how far above its plane something has to be to take light, and how
+/// much farther to take all of it.
+constexpr double lift = 0.8, softness = 1.6;
+/// Texels around a point that its shadow may be of.
+constexpr int filtered = 4;
+/// Texels along each side of the blocks that are looked at first.
+constexpr int block = 8;
+static_assert(DepthMap::block % block == 0);
 
 }  // namespace
 
-ClothShadow::ClothShadow(const GlFunctions& gl) : gl_(gl), texture_(gl) {
+ClothShadow::ClothShadow(const GlFunctions& gl, int rows)
+    : gl_(gl), resolution_(std::clamp(texels_per_row * rows, least_resolution, most_resolution)), texture_(gl) {
   gl_.ActiveTexture(GL_TEXTURE0 + texture_unit);
   gl_.BindTexture(GL_TEXTURE_2D, texture_.id());
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -34,8 +38,8 @@ ClothShadow::ClothShadow(const GlFunctions& gl) : gl_(gl), texture_(gl) {
 void ClothShadow::cast(const Shot& shot, const Occluders& occluders) {
   const Eigen::Vector3d light = shot.key_direction.cast<double>().normalized();
   map_.look(light, shot.up.cast<double>());
-  map_.draw(occluders.positions(), occluders.triangles(), shot.extent / resolution, largest_map);
-  softness_ = edge_width * map_.texel();
+  map_.draw(occluders.positions(), occluders.triangles(), shot.extent / resolution_, largest_map);
+  find_layers();
   spheres_.clear();
   for (const Eigen::Vector4f& sphere : shot.spheres) {
     Eigen::Vector4d center = sphere.cast<double>();
@@ -58,37 +62,71 @@ void ClothShadow::cast(const Shot& shot, const Occluders& occluders) {
   size_ = size;
 }
 
-bool ClothShadow::may_fall_on(const Triangle& triangle) const {
-  if (map_.columns() == 0) return true;
-  return is_behind_cloth(triangle) || is_behind_a_sphere(triangle);
+void ClothShadow::find_layers() {
+  const auto columns = static_cast<std::size_t>(map_.columns()), rows = static_cast<std::size_t>(map_.rows());
+  const auto tolerated = static_cast<float>(lift * map_.texel());
+  layered_.assign(columns / block * (rows / block), 0);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const float* nearest = map_.nearest().data() + row * columns;
+    const float* farthest = map_.farthest().data() + row * columns;
+    for (std::size_t k = 0; k < columns / block; ++k, nearest += block, farthest += block) {
+      float most = 0;
+      for (int i = 0; i < block; ++i) most = std::max(most, nearest[i] - farthest[i]);
+      layered_[row / block * (columns / block) + k] |= most > tolerated ? 1 : 0;
+    }
+  }
+}
+
+bool ClothShadow::has_layers(const Texels& texels) const {
+  for (int row = texels.bottom / block; row <= texels.top / block; ++row) {
+    const auto* first = layered_.data() + static_cast<std::ptrdiff_t>(row) * (map_.columns() / block);
+    for (int k = texels.left / block; k <= texels.right / block; ++k) {
+      if (first[k] != 0) return true;
+    }
+  }
+  return false;
+}
+
+ClothShadow::Light ClothShadow::light_on(const Triangle& triangle) const {
+  if (map_.columns() == 0) return Light::past_cloth;
+  const Light light = past_cloth(triangle);
+  return light == Light::whole && is_behind_a_sphere(triangle) ? Light::past_spheres : light;
 }
 
 // Whether there are two layers anywhere, of which one is above the triangle's plane, in the rectangle around it and
-// what the filter takes in. What is above the plane and the only layer is the surface itself, which curves.
-bool ClothShadow::is_behind_cloth(const Triangle& triangle) const {
+// what the filter takes in; and whether there is one far above it everywhere. What is above the plane and the only
+// layer is the surface itself, which curves.
+ClothShadow::Light ClothShadow::past_cloth(const Triangle& triangle) const {
   const auto corner = [&](std::size_t c) { return map_.places().row(triangle[c]).transpose().eval(); };
-  const Eigen::Vector3d a = corner(0), b = corner(1), c = corner(2), normal = (b - a).cross(c - a);
-  if (std::abs(normal[2]) < 1e-3) return true;
-  const double slope = -normal[0] / normal[2], rise = -normal[1] / normal[2];
+  const Eigen::Vector3d a = corner(0), b = corner(1), c = corner(2);
   const Eigen::Array3d low = a.array().min(b.array()).min(c.array()), high = a.array().max(b.array()).max(c.array());
-  const int left = std::max(static_cast<int>(low[0]) - filtered, 0);
-  const int right = std::min(static_cast<int>(high[0]) + filtered, map_.columns() - 1);
-  const int bottom = std::max(static_cast<int>(low[1]) - filtered, 0);
-  const int top = std::min(static_cast<int>(high[1]) + filtered, map_.rows() - 1);
-  const auto tolerated = static_cast<float>(map_.texel()), step = static_cast<float>(slope);
-  for (int row = bottom; row <= top; ++row) {
-    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * map_.columns() + left;
+  const Texels texels{.left = std::max(static_cast<int>(low[0]) - filtered, 0),
+                      .right = std::min(static_cast<int>(high[0]) + filtered, map_.columns() - 1),
+                      .bottom = std::max(static_cast<int>(low[1]) - filtered, 0),
+                      .top = std::min(static_cast<int>(high[1]) + filtered, map_.rows() - 1)};
+  if (!has_layers(texels)) return Light::whole;
+  const Eigen::Vector3d normal = (b - a).cross(c - a);
+  const double slope = -normal[0] / normal[2], rise = -normal[1] / normal[2], steep = std::hypot(slope, rise);
+  if (!(steep < 1e3 * map_.texel())) return Light::past_cloth;
+  const auto tolerated = static_cast<float>(0.5 * lift * map_.texel()), step = static_cast<float>(slope);
+  const auto deep = static_cast<float>(2 * (lift + softness) * (map_.texel() + steep));
+  bool any = false, all = true;
+  for (int row = texels.bottom; row <= texels.top; ++row) {
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * map_.columns() + texels.left;
     const float* nearest = map_.nearest().data() + first;
     const float* farthest = map_.farthest().data() + first;
-    const auto start = static_cast<float>(a[2] + (left + 0.5 - a[0]) * slope + (row + 0.5 - a[1]) * rise);
-    int above = 0;
-    for (int k = 0; k <= right - left; ++k) {
-      const float lower = std::max(start + static_cast<float>(k) * step, farthest[k]);
-      above |= nearest[k] - lower > tolerated ? 1 : 0;
+    const auto start = static_cast<float>(a[2] + (texels.left + 0.5 - a[0]) * slope + (row + 0.5 - a[1]) * rise);
+    int above = 0, near = 0;
+    for (int k = 0; k <= texels.right - texels.left; ++k) {
+      const float plane = start + static_cast<float>(k) * step;
+      above |= nearest[k] - std::max(plane, farthest[k]) > tolerated ? 1 : 0;
+      near |= nearest[k] - plane > deep ? 0 : 1;
     }
-    if (above != 0) return true;
+    any = any || above != 0;
+    all = all && near == 0;
+    if (any && !all) return Light::past_cloth;
   }
-  return false;
+  return all ? Light::none : any ? Light::past_cloth : Light::whole;
 }
 
 // As past_spheres() in shadow.glsl, by how far away from the sphere's axis in the light the triangle comes at most.
@@ -115,10 +153,12 @@ void ClothShadow::set_uniforms(const Program& program) const {
   set("shadow_u", empty ? Eigen::Vector4d::Zero().eval() : (map_.u() + middle).eval());
   set("shadow_v", empty ? Eigen::Vector4d::Zero().eval() : (map_.v() + middle).eval());
   set("shadow_depth", empty ? Eigen::Vector4d::Zero().eval() : map_.depth());
+  program.set("shadow_lift", static_cast<float>(lift * map_.texel()));
   // What is behind all of the cloth is as dark as half a block behind it, in front of what an empty texel holds.
   program.set("shadow_lowest", static_cast<float>(-0.5 * DepthMap::block * map_.texel()));
-  set("shadow_texel", empty ? Eigen::Vector4d(0, 0, 0, 1)
-                            : Eigen::Vector4d(1.0 / map_.columns(), 1.0 / map_.rows(), map_.texel(), 1 / softness_));
+  set("shadow_texel",
+      empty ? Eigen::Vector4d(0, 0, 0, 1)
+            : Eigen::Vector4d(1.0 / map_.columns(), 1.0 / map_.rows(), map_.texel(), 1 / (softness * map_.texel())));
   program.set("shadow_map", texture_unit);
   gl_.ActiveTexture(GL_TEXTURE0 + texture_unit);
   gl_.BindTexture(GL_TEXTURE_2D, texture_.id());

@@ -65,10 +65,10 @@ constexpr int border = 1;
 
 }  // namespace
 
-PixelBox covered_box(const Shot& shot, Eigen::Vector2i picture) {
+PixelBox covered_box(const Shot& shot, const Vertices& cloth, Eigen::Vector2i picture) {
   if (!shot.grounds.empty()) return {.size = picture};
   Outline outline(shot);
-  outline.add(shot.frame.positions);
+  outline.add(cloth);
   for (const Eigen::Vector4f& sphere : shot.spheres) outline.add(cube(sphere));
   for (const MeshShape* body : shot.bodies) outline.add(body->positions);
   return outline.box(picture, border);

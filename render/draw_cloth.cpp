@@ -43,12 +43,15 @@ std::vector<std::array<bool, 3>> boundary_edges(const std::vector<Triangle>& tri
 
 }  // namespace
 
-DrawCloth::DrawCloth(GlDevice& device, const Look& look, const std::vector<Triangle>& triangles,
+DrawCloth::DrawCloth(GlDevice& device, const Look& look, Eigen::Vector2i size, const std::vector<Triangle>& triangles,
                      const std::vector<std::array<float, 2>>& uvs)
     : device_(device),
       gl_(device.gl()),
       look_(look),
       triangles_(triangles),
+      surface_(triangles, SmoothSurface::levels_for(triangles.size(), static_cast<double>(size.x()) * size.y())),
+      hem_(surface_, look.mesh_lines ? 0 : look.thickness),
+      occluders_(triangles_),
       array_(gl_),
       static_buffer_(gl_),
       dynamic_buffer_(gl_),
@@ -68,6 +71,12 @@ DrawCloth::DrawCloth(GlDevice& device, const Look& look, const std::vector<Trian
     occlusion_buffer_.emplace(gl_);
   }
   make_corners(uvs);
+}
+
+void DrawCloth::shape(const Frame& frame) {
+  positions_ = surface_.positions(frame.positions);
+  normals_ = vertex_normals(positions_, surface_.triangles());
+  hem_.append(positions_, normals_);
 }
 
 void DrawCloth::load_texture() {
@@ -90,37 +99,53 @@ void DrawCloth::load_texture() {
 }
 
 void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
+  const std::vector<std::array<bool, 3>> boundary =
+      look_.mesh_lines ? boundary_edges(triangles_) : std::vector<std::array<bool, 3>>();
   std::vector<Corner> corners;
-  if (look_.mesh_lines) {
-    const std::vector<std::array<bool, 3>> boundary = boundary_edges(triangles_);
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        Corner corner;
-        if (!uvs.empty()) corner.uv = uvs[3 * t + c];
-        corner.barycentric[c] = 1;
-        for (std::size_t k = 0; k < 3; ++k) corner.line_scale[k] = boundary[t][k] ? 2 : 1;
-        indices_.push_back(static_cast<unsigned>(corners.size()));
-        positions_.push_back(triangles_[t][c]);
-        corners.push_back(corner);
-      }
-    }
-  } else {
-    std::map<std::tuple<int, float, float>, unsigned> known;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        Corner corner;
-        if (!uvs.empty()) corner.uv = uvs[3 * t + c];
-        const auto [place, is_new] =
-            known.try_emplace({triangles_[t][c], corner.uv[0], corner.uv[1]}, static_cast<unsigned>(corners.size()));
-        if (is_new) {
-          positions_.push_back(triangles_[t][c]);
-          corners.push_back(corner);
+  std::map<std::tuple<int, float, float>, unsigned> known;
+  for (const SmoothSurface::Piece& piece : surface_.pieces()) {
+    const auto parent = static_cast<std::size_t>(piece.parent);
+    for (std::size_t c = 0; c < 3; ++c) {
+      Corner corner;
+      for (std::size_t k = 0; k < 3 && !uvs.empty(); ++k) {
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          corner.uv[axis] += piece.weights[c][k] * uvs[3 * parent + k][axis];
         }
-        indices_.push_back(place->second);
       }
+      const auto number = static_cast<unsigned>(corners.size());
+      if (look_.mesh_lines) {
+        corner.barycentric = piece.weights[c];
+        for (std::size_t k = 0; k < 3; ++k) corner.line_scale[k] = boundary[parent][k] ? 2 : 1;
+      } else {
+        const auto [place, is_new] = known.try_emplace({piece.corners[c], corner.uv[0], corner.uv[1]}, number);
+        indices_.push_back(place->second);
+        if (!is_new) continue;
+      }
+      if (look_.mesh_lines) indices_.push_back(number);
+      sources_.push_back({piece.corners[c], triangles_[parent], piece.weights[c]});
+      corners.push_back(corner);
     }
   }
+  add_hem(corners);
+  upload_corners(corners);
+}
 
+// A hem has the texture of the border that it is at. Its corners are in the order of its vertices.
+void DrawCloth::add_hem(std::vector<Corner>& corners) {
+  const auto first = static_cast<unsigned>(corners.size());
+  for (std::size_t k = 0; k < hem_.corners().size(); ++k) {
+    const Hem::Corner& border = hem_.corners()[k];
+    const unsigned at_border = indices_[3 * static_cast<std::size_t>(border.piece) + border.corner];
+    corners.push_back(corners[at_border]);
+    sources_.push_back(sources_[at_border]);
+    sources_.back().vertex = surface_.vertex_count() + static_cast<int>(k);
+  }
+  for (const Triangle& t : hem_.triangles()) {
+    for (const int vertex : t) indices_.push_back(first + static_cast<unsigned>(vertex - surface_.vertex_count()));
+  }
+}
+
+void DrawCloth::upload_corners(const std::vector<Corner>& corners) {
   gl_.BindVertexArray(array_.id());
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_.id());
   gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices_.size() * sizeof(unsigned)), indices_.data(),
@@ -136,32 +161,39 @@ void DrawCloth::make_corners(const std::vector<std::array<float, 2>>& uvs) {
   attribute(barycentric_attribute, 3, sizeof(Corner), offsetof(Corner, barycentric));
   attribute(line_scale_attribute, 3, sizeof(Corner), offsetof(Corner, line_scale));
 
-  dynamic_.resize(6 * positions_.size());
+  dynamic_.resize(6 * sources_.size());
   gl_.BindBuffer(GL_ARRAY_BUFFER, dynamic_buffer_.id());
   gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(dynamic_.size() * sizeof(float)), nullptr, GL_STREAM_DRAW);
   attribute(position_attribute, 3, 6 * sizeof(float), 0);
   attribute(normal_attribute, 3, 6 * sizeof(float), 3 * sizeof(float));
 }
 
-void DrawCloth::upload_frame(const Shot& shot, const Occluders& occluders) {
-  const Frame& frame = shot.frame;
-  const Vertices normals = vertex_normals(frame.positions, triangles_);
+void DrawCloth::upload_shape() {
   float* to = dynamic_.data();
-  for (const int vertex : positions_) {
-    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(frame.positions(vertex, axis));
-    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(normals(vertex, axis));
+  for (const Source& source : sources_) {
+    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(positions_(source.vertex, axis));
+    for (int axis = 0; axis < 3; ++axis) *to++ = static_cast<float>(normals_(source.vertex, axis));
   }
   gl_.BindBuffer(GL_ARRAY_BUFFER, dynamic_buffer_.id());
   gl_.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(dynamic_.size() * sizeof(float)), dynamic_.data());
-  if (occlusion_) upload_occlusion(shot, occluders, normals);
 }
 
-void DrawCloth::upload_occlusion(const Shot& shot, const Occluders& occluders, const Vertices& normals) {
+// The light from all around changes slowly: it is computed at the cloth's own vertices.
+void DrawCloth::upload_occlusion(const Shot& shot) {
+  const Vertices& positions = shot.frame.positions;
+  occluders_.take(positions, shot.frame);
   const std::vector<AmbientOcclusion::Sides>& open =
-      occlusion_->compute(occluders.positions(), normals, occluders.triangles(), shot.extent / occlusion_resolution);
+      occlusion_->compute(occluders_.positions(), vertex_normals(positions, triangles_), occluders_.triangles(),
+                          shot.extent / occlusion_resolution);
   std::vector<AmbientOcclusion::Sides> of_corners;
-  of_corners.reserve(positions_.size());
-  for (const int vertex : positions_) of_corners.push_back(open[static_cast<std::size_t>(vertex)]);
+  of_corners.reserve(sources_.size());
+  for (const Source& source : sources_) {
+    AmbientOcclusion::Sides& mean = of_corners.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const AmbientOcclusion::Sides& corner = open[static_cast<std::size_t>(source.corners[k])];
+      for (std::size_t side = 0; side < 2; ++side) mean[side] += source.weights[k] * corner[side];
+    }
+  }
   gl_.BindVertexArray(array_.id());
   gl_.BindBuffer(GL_ARRAY_BUFFER, occlusion_buffer_->id());
   gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(of_corners.size() * sizeof(AmbientOcclusion::Sides)),
@@ -172,9 +204,12 @@ void DrawCloth::upload_occlusion(const Shot& shot, const Occluders& occluders, c
 
 void DrawCloth::upload_colors(std::span<const Rgb> colors) {
   std::vector<float> linear;
-  linear.reserve(3 * positions_.size());
-  for (const int vertex : positions_) {
-    const Eigen::Vector3f color = linear_color(colors[static_cast<std::size_t>(vertex)]);
+  linear.reserve(3 * sources_.size());
+  for (const Source& source : sources_) {
+    Eigen::Vector3f color = Eigen::Vector3f::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      color += source.weights[k] * linear_color(colors[static_cast<std::size_t>(source.corners[k])]);
+    }
     linear.insert(linear.end(), color.data(), color.data() + 3);
   }
   if (!color_buffer_) color_buffer_.emplace(gl_);
@@ -187,15 +222,20 @@ void DrawCloth::upload_colors(std::span<const Rgb> colors) {
 }
 
 void DrawCloth::find_programs(std::size_t sphere_count, bool colored) {
-  if (lit_program_ && sphere_count_ == sphere_count && colored_ == colored) return;
+  if (programs_[0] && sphere_count_ == sphere_count && colored_ == colored) return;
   sphere_count_ = sphere_count;
   colored_ = colored;
-  lit_program_ = find_program(false);
-  if (look_.shadows) shadowed_program_ = find_program(true);
+  for (std::size_t light = 0; light < (look_.shadows ? programs_.size() : 1); ++light) {
+    programs_[light] = find_program(static_cast<ClothShadow::Light>(light));
+  }
 }
 
-const Program* DrawCloth::find_program(bool shadowed) const {
-  std::vector<std::string> defines = light_defines(look_, sphere_count_, shadowed);
+const Program* DrawCloth::find_program(ClothShadow::Light light) const {
+  using Light = ClothShadow::Light;
+  const bool shadows = light == Light::past_spheres || light == Light::past_cloth;
+  std::vector<std::string> defines = light_defines(look_, sphere_count_, shadows);
+  if (light == Light::past_spheres) defines.emplace_back("PAST_SPHERES");
+  if (light == Light::none) defines.emplace_back("DARK");
   if (colored_) {
     defines.emplace_back("VERTEX_COLORS");
   } else if (texture_) {
@@ -213,43 +253,49 @@ void DrawCloth::set_uniforms(const Program& program) const {
   program.set("line_width", static_cast<float>(look_.line_width));
 }
 
-// Reading the shadow map takes llvmpipe about as long as all else in a pixel.
+// Reading the shadow map takes llvmpipe several times as long as all else in a pixel.
 void DrawCloth::upload_indices(const ClothShadow& shadow) {
-  std::vector<unsigned> lit, shadowed;
-  lit.reserve(indices_.size());
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    std::vector<unsigned>& group = shadow.may_fall_on(triangles_[t]) ? shadowed : lit;
+  std::array<std::vector<unsigned>, 4> groups;
+  groups[0].reserve(indices_.size());
+  std::vector<ClothShadow::Light> lights;
+  for (const Triangle& triangle : surface_.triangles()) lights.push_back(shadow.light_on(triangle));
+  for (const int piece : hem_.pieces()) lights.push_back(lights[static_cast<std::size_t>(piece)]);
+  for (std::size_t t = 0; t < lights.size(); ++t) {
+    std::vector<unsigned>& group = groups[static_cast<std::size_t>(lights[t])];
     for (std::size_t c = 0; c < 3; ++c) group.push_back(indices_[3 * t + c]);
   }
-  lit_count_ = lit.size() / 3;
-  lit.insert(lit.end(), shadowed.begin(), shadowed.end());
+  std::vector<unsigned>& all = groups[0];
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    counts_[k] = groups[k].size() / 3;
+    if (k > 0) all.insert(all.end(), groups[k].begin(), groups[k].end());
+  }
   gl_.BindVertexArray(array_.id());
-  gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(lit.size() * sizeof(unsigned)), lit.data());
+  gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(all.size() * sizeof(unsigned)), all.data());
 }
 
-void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, const Occluders& occluders,
-                     std::span<const Rgb> colors) {
-  upload_frame(shot, occluders);
+void DrawCloth::draw(const Shot& shot, const ClothShadow* shadow, std::span<const Rgb> colors) {
+  upload_shape();
+  if (occlusion_) upload_occlusion(shot);
   if (!colors.empty()) upload_colors(colors);
   find_programs(shot.spheres.size(), !colors.empty());
-  lit_count_ = triangles_.size();
+  counts_ = {indices_.size() / 3, 0, 0, 0};
   if (shadow != nullptr) upload_indices(*shadow);
   if (texture_) {
     gl_.ActiveTexture(GL_TEXTURE0);
     gl_.BindTexture(GL_TEXTURE_2D, texture_->id());
   }
   gl_.BindVertexArray(array_.id());
-  const auto draw_triangles = [&](const Program& program, std::size_t first, std::size_t count) {
-    if (count == 0) return;
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < counts_.size(); first += counts_[k++]) {
+    if (counts_[k] == 0) continue;
+    const Program& program = *programs_[k];
     program.use();
     set_uniforms(program);
     shot.set_uniforms(program);
     if (shadow != nullptr) shadow->set_uniforms(program);
-    gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT,
+    gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * counts_[k]), GL_UNSIGNED_INT,
                      buffer_offset(3 * first * sizeof(unsigned)));
-  };
-  draw_triangles(*lit_program_, 0, lit_count_);
-  if (shadow != nullptr) draw_triangles(*shadowed_program_, lit_count_, triangles_.size() - lit_count_);
+  }
 }
 
 }  // namespace drape

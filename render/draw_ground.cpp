@@ -112,7 +112,7 @@ void DrawGround::draw(const Program& program, const Shot& shot, const GroundShap
   shot.set_uniforms(program);
   program.set("cloth_shadow", 0);
   program.set("ground_color", linear_color(look_.ground_color));
-  program.set("grid_spacing", static_cast<float>(look_.ground_grid));
+  program.set("grid_spacing", shot.backdrop ? 0.0F : static_cast<float>(look_.ground_grid));
   program.set("from_clip", Eigen::Matrix4f(shot.view_projection.cast<double>().inverse().cast<float>()));
   set(program, "shadow_u", shadow_.u());
   set(program, "shadow_v", shadow_.v());

@@ -4,19 +4,19 @@
 
 namespace drape {
 
-void Occluders::take(const Frame& frame) {
-  cloth_positions_ = &frame.positions;
+void Occluders::take(const Vertices& cloth, const Frame& frame) {
+  cloth_positions_ = &cloth;
   copied_ = std::ranges::any_of(frame.colliders,
                                 [](const Collider& collider) { return std::holds_alternative<MeshShape>(collider); });
   if (!copied_) return;
-  Eigen::Index count = frame.positions.rows();
+  Eigen::Index count = cloth.rows();
   for (const Collider& collider : frame.colliders) {
     if (const auto* mesh = std::get_if<MeshShape>(&collider)) count += mesh->positions.rows();
   }
   positions_.resize(count, 3);
-  positions_.topRows(frame.positions.rows()) = frame.positions;
+  positions_.topRows(cloth.rows()) = cloth;
   triangles_ = cloth_;
-  Eigen::Index first = frame.positions.rows();
+  Eigen::Index first = cloth.rows();
   for (const Collider& collider : frame.colliders) {
     const auto* mesh = std::get_if<MeshShape>(&collider);
     if (mesh == nullptr) continue;

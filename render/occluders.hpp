@@ -13,8 +13,8 @@ class Occluders {
   /// @param cloth its triangles, which must outlive this object
   explicit Occluders(const std::vector<Triangle>& cloth) : cloth_(cloth) {}
 
-  /// @param frame must outlive what is asked of it
-  void take(const Frame& frame);
+  /// @param cloth its positions; it and the frame must outlive what is asked of this object
+  void take(const Vertices& cloth, const Frame& frame);
 
   [[nodiscard]] const Vertices& positions() const { return copied_ ? positions_ : *cloth_positions_; }
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return copied_ ? triangles_ : cloth_; }

@@ -29,9 +29,9 @@ class Renderer::Implementation {
         vertex_count_(vertex_count),
         device_(borrow_device(data_folder, backend)),
         canvas_(device_->gl(), size, look),
-        cloth_(*device_, look, triangles, uvs),
+        cloth_(*device_, look, size, triangles, uvs),
         occluders_(cloth_.triangles()) {
-    if (look.shadows) shadow_.emplace(device_->gl());
+    if (look.shadows) shadow_.emplace(device_->gl(), size.y());
   }
 
   Implementation(const Implementation&) = delete;
@@ -54,16 +54,17 @@ class Renderer::Implementation {
       throw std::invalid_argument("a frame has another number of vertices than its renderer was made for");
     }
     device_->make_current();
-    const Shot shot(frame, view_, static_cast<double>(size_.x()) / size_.y());
-    canvas_.begin(covered_box(shot, size_));
-    occluders_.take(frame);
+    const Shot shot(frame, view_, static_cast<double>(size_.x()) / size_.y(), look_);
+    cloth_.shape(frame);
+    canvas_.begin(covered_box(shot, cloth_.positions(), size_));
+    occluders_.take(cloth_.positions(), frame);
     if (shadow_) shadow_->cast(shot, occluders_);
     const ClothShadow* shadow = shadow_ ? &*shadow_ : nullptr;
     if (!shot.grounds.empty()) {
       if (!grounds_) grounds_.emplace(*device_, look_, shot.spheres.size());
       grounds_->draw(shot, shadow, size_);
     }
-    cloth_.draw(shot, shadow, occluders_, colors);
+    cloth_.draw(shot, shadow, colors);
     if (!shot.spheres.empty()) {  // after the cloth that hides much of them
       if (!spheres_) spheres_.emplace(*device_, look_, shot.spheres.size(), shot.grounds.size());
       spheres_->draw(shot, shadow);

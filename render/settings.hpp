@@ -28,6 +28,7 @@ struct Camera {
   double margin = 0.06;                  ///< free border around the motion, as a fraction of the picture
   bool follow = false;                   ///< stays near what moves, instead of where all of the motion is in view
   double orbit = 0;                      ///< how far it goes around the target, about `up`, in the whole film [degrees]
+  double outside = 0;  ///< part of the frames whose farthest points a camera that stays may leave outside the picture
 };
 
 /// What the colours of a cloth's vertices show, in place of its texture and its colour. The order is that of the names
@@ -53,7 +54,12 @@ struct Look {
   std::optional<double> color_limit = {};  ///< what the last colour stands for: as a part of 1, [m/s] or [1/m]
   bool shadows = true;                     ///< of cloth and spheres, in the key light
   bool ambient_occlusion = true;
-  double translucency = 0.3;  ///< part of the key light that shines through the cloth
+  double translucency = 0.3;                 ///< part of the key light that shines through the cloth
+  double thickness = 0.003;                  ///< of the cloth's hem, 0 without one [m]
+  double exposure = 1;                       ///< by what all light is multiplied
+  std::optional<double> key_azimuth = {};    ///< of the key light, as the camera's; absent: it goes with the camera
+  std::optional<double> key_elevation = {};  ///< likewise [degrees]
+  bool backdrop = false;                     ///< a floor below the picture's lower edge, where the scene has no ground
 
   /// The background at the bottom and at the top of the picture. Without one it is the grey of a studio: darker than
   /// white cloth in the light, brighter than any in the shade, and of a colour that little cloth has.

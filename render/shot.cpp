@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,25 +10,49 @@
 
 namespace drape {
 
-Shot::Shot(const Frame& shown, const View& view, double aspect) : frame(shown) {
-  const DepthRange depth = depth_range(view, shown);
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// A direction in the axes of a view, of which the second goes to the sky instead of upwards in the picture.
+Eigen::Vector3d towards(const View& view, double right, double upwards, double backwards) {
+  const Eigen::Matrix3d axes = view.axes();
+  return (right * axes.row(0).transpose() + upwards * unit_vector(view.up) + backwards * axes.row(2).transpose())
+      .normalized();
+}
+
+/// The floor of a backdrop: it crosses the picture's lower edge where the camera looks, or goes a little deeper. It
+/// hides nothing.
+GroundShape backdrop_floor(const View& view, double extent) {
+  const Eigen::Vector3d sky = unit_vector(view.up);
+  const double upright = view.axes().row(1).dot(sky);
+  return {.normal = sky, .height = sky.dot(view.target) - 0.55 * extent * upright, .thickness = extent};
+}
+
+}  // namespace
+
+Eigen::Vector3d key_light(const View& view, const Look& look) {
+  const Eigen::Vector3d usual = towards(view, -0.75, 0.8, 0.5);
+  if (!look.key_azimuth && !look.key_elevation) return usual;
+  const double azimuth = look.key_azimuth ? *look.key_azimuth * degree : std::atan2(usual.y(), usual.x());
+  const double elevation =
+      look.key_elevation ? *look.key_elevation * degree : std::asin(std::clamp(usual.z(), -1.0, 1.0));
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+}
+
+Shot::Shot(const Frame& shown, const View& view, double aspect, const Look& look)
+    : frame(shown), exposure(static_cast<float>(look.exposure)) {
+  const DepthRange depth = depth_range(view, shown, look.thickness);
   view_projection = (view.projection_matrix(aspect, depth) * view.view_matrix()).cast<float>();
   eye = view.position.cast<float>();
 
   const Eigen::Matrix3d axes = view.axes();
   const Eigen::Vector3d sky = unit_vector(view.up);
-  const auto towards = [&](double right, double upwards, double backwards) {
-    return (right * axes.row(0).transpose() + upwards * sky + backwards * axes.row(2).transpose())
-        .normalized()
-        .cast<float>()
-        .eval();
-  };
-  constexpr double degree = std::numbers::pi / 180;
   extent = 2 * std::tan(view.field_of_view * degree / 2) * (view.position - view.target).norm();
   back = axes.row(2).transpose().cast<float>();
   up = sky.cast<float>();
-  key_direction = towards(-0.75, 0.8, 0.5);
-  fill_direction = towards(0.8, 0.15, 0.5);
+  key_direction = key_light(view, look).cast<float>();
+  fill_direction = towards(view, 0.8, 0.15, 0.5).cast<float>();
 
   for (const Collider& collider : shown.colliders) {
     if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
@@ -39,6 +64,11 @@ Shot::Shot(const Frame& shown, const View& view, double aspect) : frame(shown) {
       bodies.push_back(mesh);
     }
   }
+  if (look.backdrop && grounds.empty()) {
+    const GroundShape floor = backdrop_floor(view, extent);
+    backdrop = floor.normal.dot(view.position) > floor.height;
+    if (backdrop) grounds.push_back(floor);
+  }
 }
 
 void Shot::set_uniforms(const Program& program) const {
@@ -47,6 +77,7 @@ void Shot::set_uniforms(const Program& program) const {
   program.set("up", up);
   program.set("key_direction", key_direction);
   program.set("fill_direction", fill_direction);
+  program.set("exposure", exposure);
   program.set("spheres", spheres);
   std::vector<Eigen::Vector4f> planes;
   for (const GroundShape& ground : grounds) {

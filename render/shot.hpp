@@ -25,13 +25,19 @@ struct Shot {
   std::vector<Eigen::Vector4f> spheres;  ///< center and radius of each [m]
   std::vector<GroundShape> grounds;      ///< those that are seen from above
   std::vector<const MeshShape*> bodies;  ///< of the frame
+  float exposure;                        ///< by what light is multiplied
+  bool backdrop = false;                 ///< whether the only ground is a backdrop's floor
 
-  /// The lights stand with the camera, so that a scene looks alike from every side.
-  Shot(const Frame& shown, const View& view, double aspect);
+  /// The lights stand with the camera, so that a scene looks alike from every side, unless the look places the key
+  /// light.
+  Shot(const Frame& shown, const View& view, double aspect, const Look& look = {});
 
   /// Hands all of it to a program that includes lighting.glsl and is in use.
   void set_uniforms(const Program& program) const;
 };
+
+/// The unit vector towards the key light.
+Eigen::Vector3d key_light(const View& view, const Look& look);
 
 /// What shaders that include shadow.glsl are compiled with: what the look switches off is not in them.
 /// @param shadows whether what they draw may have shadows on it

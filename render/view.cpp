@@ -65,7 +65,7 @@ Eigen::Matrix4d View::projection_matrix(double aspect, const DepthRange& depth) 
   return matrix;
 }
 
-DepthRange depth_range(const View& view, const Frame& frame) {
+DepthRange depth_range(const View& view, const Frame& frame, double thickness) {
   const Eigen::Vector3d forward = -view.axes().row(2).transpose();
   const double origin = forward.dot(view.position);
   double nearest = infinity, farthest = -infinity;
@@ -81,7 +81,8 @@ DepthRange depth_range(const View& view, const Frame& frame) {
                   [&](const Eigen::Vector3d& center, double radius) { add(center.dot(forward) - origin, radius); });
   }
   if (!(farthest > 0)) return {};  // all of it is behind the camera
-  const double room = 0.01 * std::max(farthest - nearest, 1e-3 * farthest);
+  // The surface that is drawn of a cloth reaches a little beyond its vertices.
+  const double room = thickness + 0.02 * std::max(farthest - nearest, 1e-3 * farthest);
   farthest += room;
   // A ground is seen in front of everything else and behind it, where its depth need only be that of the range's ends.
   // Where two of them meet one hides the other.
@@ -136,19 +137,64 @@ void Framing::add_ball(const Eigen::Vector3d& center, double radius) {
   highest_ = highest_.cwiseMax(center + Eigen::Vector3d::Constant(radius));
 }
 
+void Framing::end_frame() {
+  if (camera_.outside <= 0) return;
+  frames_.push_back(fans_);
+  middles_.emplace_back((lowest_ + highest_) / 2);
+  lowest_.setConstant(infinity);
+  highest_.setConstant(-infinity);
+  for (Fan& fan : fans_) {
+    fan.upper.setConstant(-infinity);
+    fan.lower.setConstant(-infinity);
+  }
+}
+
+Eigen::Vector3d Framing::middle() const {
+  if (middles_.empty()) return (lowest_ + highest_) / 2;
+  Eigen::Vector3d median;
+  std::vector<double> values(middles_.size());
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::ranges::transform(middles_, values.begin(), [axis](const Eigen::Vector3d& middle) { return middle[axis]; });
+    const auto place = static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), values.begin() + place, values.end());
+    median[axis] = values[static_cast<std::size_t>(place)];
+  }
+  return median;
+}
+
+// Each plane on its own is where that part of the frames is beyond it.
+std::array<Framing::Fan, 2> Framing::without_farthest() const {
+  std::array<Fan, 2> fans = fans_;
+  if (frames_.empty()) return fans;
+  const auto kept = static_cast<std::ptrdiff_t>((1 - camera_.outside) * static_cast<double>(frames_.size() - 1));
+  std::vector<double> values(frames_.size());
+  for (std::size_t axis = 0; axis < fans.size(); ++axis) {
+    for (const auto bound : {&Fan::upper, &Fan::lower}) {
+      for (int k = 0; k < widths; ++k) {
+        for (std::size_t i = 0; i < frames_.size(); ++i) values[i] = (frames_[i][axis].*bound)[k];
+        std::nth_element(values.begin(), values.begin() + kept, values.end());
+        double& here = (fans[axis].*bound)[k];
+        here = std::max(here, values[static_cast<std::size_t>(kept)]);
+      }
+    }
+  }
+  return fans;
+}
+
 View Framing::view() const {
-  if (!(lowest_[0] <= highest_[0])) throw std::logic_error("Framing::view() before anything was added");
+  if (empty()) throw std::logic_error("Framing::view() before anything was added");
   if (camera_.position)
     return {*camera_.position, camera_.target.value_or(middle()), camera_.up, camera_.field_of_view};
 
   // In the camera's axes, e = (x, y, z): the planes at the right and left are cos·x + sin·z ≥ upper and
   // -cos·x + sin·z ≥ lower, and those at the top and bottom are the same with y.
+  const std::array<Fan, 2> fans = without_farthest();
   Eigen::Vector3d target = axes_ * camera_.target.value_or(middle());
   Eigen::Vector3d eye = target;
   constexpr int free = widths - 1;
   eye[2] += 1e-3;  // a single point is not looked at from where it is
   for (int axis = 0; axis < 2; ++axis) {
-    const Fan& fan = fans_[static_cast<std::size_t>(axis)];
+    const Fan& fan = fans[static_cast<std::size_t>(axis)];
     if (camera_.target) {
       const double across = fan.cosines[free] * eye[axis];
       eye[2] = std::max(eye[2], (std::max(fan.upper[free] - across, fan.lower[free] + across)) / fan.sines[free]);
@@ -158,7 +204,7 @@ View Framing::view() const {
   }
   if (!camera_.target) {
     for (int axis = 0; axis < 2; ++axis) {
-      const Fan& fan = fans_[static_cast<std::size_t>(axis)];
+      const Fan& fan = fans[static_cast<std::size_t>(axis)];
       int narrowest = 0;  // of those in which the motion fits
       while (narrowest < free && fan.upper[narrowest] + fan.lower[narrowest] > 2 * fan.sines[narrowest] * eye[2]) {
         ++narrowest;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
 #include "render/settings.hpp"
 #include "sim/frame.hpp"
@@ -38,7 +39,8 @@ struct View {
 };
 
 /// The range that holds everything of the frame in front of the camera, with some room.
-DepthRange depth_range(const View& view, const Frame& frame);
+/// @param thickness of the cloth [m]
+DepthRange depth_range(const View& view, const Frame& frame, double thickness = 0);
 
 /// The view from 1 m in the direction in which a camera without a position stands, towards the origin. Where it looks
 /// along its `up`, the view's is another.
@@ -75,16 +77,19 @@ class Framing {
   void add(const Vertices& positions);
   /// A ground, which has no end, is not added.
   void add(const Collider& collider);
+  /// What was added since the last call belongs to one frame. Needed where the camera may leave something outside.
+  void end_frame();
 
-  /// Of the box around everything added. [m]
-  [[nodiscard]] Eigen::Vector3d middle() const { return (lowest_ + highest_) / 2; }
+  /// Of the box around everything added; where something may be outside, the median of the frames'. [m]
+  [[nodiscard]] Eigen::Vector3d middle() const;
 
   /// Whether nothing has been added.
-  [[nodiscard]] bool empty() const { return lowest_[0] > highest_[0]; }
+  [[nodiscard]] bool empty() const { return middles_.empty() && lowest_[0] > highest_[0]; }
 
-  /// The view in which everything added is inside with the camera's margin, and as large as that allows. Without a
-  /// target the space that is left over, in one of the two axes, is the same on both sides. A camera with a position
-  /// stays there and turns to its target, or else to the middle of the motion.
+  /// The view in which everything added is inside with the camera's margin, and as large as that allows; with
+  /// `outside`, on each side of the picture, in all frames but the part that reach farthest there. Without a target the
+  /// space that is left over, in one of the two axes, is the same on both sides. A camera with a position stays there
+  /// and turns to its target, or else to the middle of the motion.
   /// @throws std::logic_error if nothing has been added
   [[nodiscard]] View view() const;
 
@@ -99,11 +104,14 @@ class Framing {
   };
 
   void add_ball(const Eigen::Vector3d& center, double radius);
+  [[nodiscard]] std::array<Fan, 2> without_farthest() const;
 
   Camera camera_;
-  Eigen::Matrix3d axes_;              // as View::axes(), of a camera without a position
-  std::array<Fan, 2> fans_;           // horizontal, vertical
-  Eigen::Vector3d lowest_, highest_;  // the bounding box
+  Eigen::Matrix3d axes_;                    // as View::axes(), of a camera without a position
+  std::array<Fan, 2> fans_;                 // horizontal, vertical
+  std::vector<Eigen::Vector3d> middles_;    // of each frame, where something may be outside
+  std::vector<std::array<Fan, 2>> frames_;  // likewise; fans_ is of the next one
+  Eigen::Vector3d lowest_, highest_;        // the bounding box
 };
 
 }  // namespace drape

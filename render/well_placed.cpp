@@ -8,6 +8,7 @@
 
 #include "core/rotation.hpp"
 #include "render/camera_path.hpp"
+#include "render/shot.hpp"
 
 namespace drape {
 namespace {
@@ -23,6 +24,7 @@ constexpr double least_above_ground = 0.1;                               // sine
 
 // What things count.
 constexpr double back_side = 0.85;  // of the cloth, where its front is 1
+constexpr double unlit = 0.45;      // of the cloth, where the key light falls straight on it is 1
 constexpr double bodies = 0.6;      // spheres that are seen whole, where a cloth that fills the picture is 1
 constexpr double movement = 0.1;    // of half the picture's height between two of the frames
 constexpr double unusual = 0.05;    // taken off where the camera stands opposite to where it usually does
@@ -46,9 +48,13 @@ enum class Seen : std::uint8_t { nothing, front, back, body };
 /// Sees frames from far away in one direction, in pictures into which all of them fit.
 class Onlooker {
  public:
-  Onlooker(const std::vector<Frame>& frames, const std::vector<Triangle>& triangles, const Eigen::Matrix3d& axes,
-           double aspect)
-      : triangles_(triangles), columns_(std::max(1, static_cast<int>(std::lround(rows * aspect)))) {
+  /// @param light unit vector towards the key light, in the axes
+  Onlooker(const std::vector<Frame>& frames, const KnownFilm& film, const Eigen::Matrix3d& axes,
+           const Eigen::Vector3d& light)
+      : triangles_(film.triangles),
+        light_(light),
+        translucency_(film.look.translucency),
+        columns_(std::max(1, static_cast<int>(std::lround(rows * film.aspect)))) {
     Eigen::Array3d low = Eigen::Array3d::Constant(unlimited), high = -low;
     for (const Frame& frame : frames) {
       Scene& scene = scenes_.emplace_back();
@@ -88,11 +94,8 @@ class Onlooker {
     for (std::size_t i = 0; i < scenes_.size(); ++i) {
       const Scene& scene = scenes_[i];
       draw(scene);
-      const auto count = [this](Seen what) {
-        return static_cast<double>(std::count(seen_.begin(), seen_.end(), what));
-      };
       // The root: a cloth that nearly vanishes for a while is worse than one that is smaller all the time.
-      cloth += std::sqrt((count(Seen::front) + back_side * count(Seen::back)) / static_cast<double>(seen_.size()));
+      cloth += std::sqrt(shown_cloth() / static_cast<double>(seen_.size()));
       for (const Ball& ball : scene.balls) {
         seen += std::min(1.0, visible(ball));
         ++ball_count;
@@ -141,16 +144,35 @@ class Onlooker {
                    });
   }
 
-  void put(std::size_t pixel, double depth, Seen what) {
+  void put(std::size_t pixel, double depth, Seen what, double worth = 0) {
     if (depth <= depth_[pixel]) return;
     depth_[pixel] = depth;
     seen_[pixel] = what;
+    worth_[pixel] = worth;
+  }
+
+  /// Pixels of the cloth, each by its light and side.
+  [[nodiscard]] double shown_cloth() const {
+    double sum = 0;
+    for (std::size_t k = 0; k < seen_.size(); ++k) {
+      if (seen_[k] == Seen::front) sum += worth_[k];
+      if (seen_[k] == Seen::back) sum += back_side * worth_[k];
+    }
+    return sum;
+  }
+
+  /// How much a triangle is worth, by the key light on the side that is seen.
+  [[nodiscard]] double worth(const Eigen::Array3d& a, const Eigen::Array3d& b, const Eigen::Array3d& c) const {
+    const Eigen::Vector3d normal = (b - a).matrix().cross((c - a).matrix()).stableNormalized();
+    const double cosine = (normal.z() < 0 ? -normal : normal).dot(light_);
+    return unlit + (1 - unlit) * (cosine > 0 ? cosine : -translucency_ * cosine);
   }
 
   void draw(const Scene& scene) {
     const auto size = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows);
     depth_.assign(size, -unlimited);
     seen_.assign(size, Seen::nothing);
+    worth_.assign(size, 0);
     for (const Ball& ball : scene.balls) {
       for_each_pixel(ball, [&](std::size_t pixel, double depth) { put(pixel, depth, Seen::body); });
     }
@@ -170,11 +192,12 @@ class Onlooker {
     const double twice_area = cross(b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
     if (twice_area == 0) return;
     const Eigen::Array3d low = a.min(b).min(c), high = a.max(b).max(c);
+    const double lit = front == Seen::body ? 0 : worth(a, b, c);
     for_each_pixel(low.head<2>(), high.head<2>(), [&](std::size_t pixel, double x, double y) {
       const double u = cross(b[0] - x, b[1] - y, c[0] - x, c[1] - y) / twice_area;
       const double v = cross(c[0] - x, c[1] - y, a[0] - x, a[1] - y) / twice_area;
       if (u < 0 || v < 0 || u + v > 1) return;
-      put(pixel, u * a[2] + v * b[2] + (1 - u - v) * c[2], twice_area > 0 ? front : back);
+      put(pixel, u * a[2] + v * b[2] + (1 - u - v) * c[2], twice_area > 0 ? front : back, lit);
     });
   }
 
@@ -189,9 +212,11 @@ class Onlooker {
   }
 
   const std::vector<Triangle>& triangles_;
+  Eigen::Vector3d light_;
+  double translucency_;
   int columns_;
   std::vector<Scene> scenes_;
-  std::vector<double> depth_;
+  std::vector<double> depth_, worth_;
   std::vector<Seen> seen_;
 };
 
@@ -232,10 +257,11 @@ Camera well_placed(const Camera& camera, const KnownFilm& film) {
     for (const int turn : turns) {
       if (camera.azimuth && turn > 0) break;
       const Camera there = placed(camera, Camera::usual_azimuth + turn, elevation);
-      const Eigen::Matrix3d axes = distant_view(there).axes();
+      const View view = distant_view(there);
+      const Eigen::Matrix3d axes = view.axes();
       if (!above_grounds(frames, axes.row(2))) continue;
       const double off = std::min(turn, 360 - turn) / 180.0;
-      const double score = Onlooker(frames, film.triangles, axes, film.aspect).score() - unusual * off;
+      const double score = Onlooker(frames, film, axes, axes * key_light(view, film.look)).score() - unusual * off;
       if (score <= most) continue;
       most = score;
       best = there;

@@ -15,6 +15,7 @@ inline KnownFilm known_film(const Scene& scene, const Eigen::Vector2i& size, int
           .fps = scene.video.fps,
           .count = count,
           .triangles = scene.simulation.cloth.triangles,
+          .look = scene.look,
           .pass = std::move(pass)};
 }
 

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
+#include <type_traits>
 
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "output/png_encoder.hpp"
 #include "output/registry.hpp"
 #include "run/annotations.hpp"
@@ -16,6 +20,12 @@ namespace {
 /// Hands over what a sink takes.
 void add_to(Encoder& encoder, const FilmFrame& frame) { frame.image ? encoder.add(*frame.image) : encoder.skip(); }
 void add_to(MotionWriter& writer, const FilmFrame& frame) { writer.add(frame.frame); }
+
+/// Whether its films repeat for ever, so that they can begin anywhere.
+bool loops(const OutputFormat& format) {
+  constexpr std::array<std::string_view, 3> extensions{".gif", ".webp", ".apng"};
+  return std::ranges::find(extensions, format.extension) != extensions.end();
+}
 
 }  // namespace
 
@@ -40,6 +50,7 @@ FilmInfo film_info(const Scene& scene, const RunOptions& options, Progress* prog
   const Eigen::Vector2i size = Annotations::film_size(scene);
   film.width = size.x();
   film.height = size.y();
+  film.bands = size.y() - scene.video.size.y();
   film.cloth = &scene.simulation.cloth;
   film.uvs = &scene.uvs;
   film.look = &scene.look;
@@ -63,7 +74,7 @@ bool needs_drawing(const RunOptions& options) {
 }
 
 void require_outputs(const Scene& scene, const RunOptions& options) {
-  const Outputs outputs(options.outputs, film_info(scene, options), options.poster);
+  const Outputs outputs(options.outputs, film_info(scene, options), options.poster, options.start_at_poster);
   const Records records(options.records);
   if (options.motion) require_motion_file(*options.motion, motion_space(scene, options), options.from != nullptr);
 }
@@ -77,7 +88,7 @@ void require_texture(const Scene& scene, int largest) {
   }
 }
 
-Outputs::Outputs(const std::vector<std::string>& paths, const FilmInfo& film, bool poster) {
+Outputs::Outputs(const std::vector<std::string>& paths, const FilmInfo& film, bool poster, bool start_at_poster) {
   for (const std::string& path : paths) outputs_.push_back({path, make_sink(path, film)});
   pictures_.assign(static_cast<std::size_t>(std::max(0, film.expected_frames)), false);
   for (std::size_t i = 0; i < pictures_.size(); ++i) {
@@ -86,10 +97,25 @@ Outputs::Outputs(const std::vector<std::string>& paths, const FilmInfo& film, bo
       return encoder != nullptr && (*encoder)->needs(static_cast<int>(i));
     });
   }
+  if (poster || start_at_poster) poster_.emplace(film);
+  if (start_at_poster) hold_loops(film);
   if (!poster) return;
-  poster_.emplace(film);
   poster_files_ = poster_files(paths, film);
   for (const std::string& file : poster_files_) require_writable(file);
+}
+
+void Outputs::hold_loops(const FilmInfo& film) {
+  for (Output& output : outputs_) {
+    const OutputFormat* format = find_format(output.path);
+    output.held = format != nullptr && loops(*format);
+  }
+  if (std::ranges::none_of(outputs_, &Output::held)) return;
+  require_memory(fmt::format("a film of {} frames that begins with its poster", film.expected_frames),
+                 3.0 * film.width * film.height * film.expected_frames, "make its pictures smaller or fewer");
+}
+
+void Outputs::release(Encoder& encoder) const {
+  for (std::size_t k = 0; k < held_.size(); ++k) encoder.add(held_[(poster_place_ + k) % held_.size()]);
 }
 
 bool Outputs::none() const {
@@ -127,8 +153,14 @@ void Outputs::attempt(Output& output, Work work) {
 }
 
 void Outputs::add(const FilmFrame& frame) {
-  for (Output& output : outputs_) attempt(output, [&](auto& sink) { add_to(sink, frame); });
-  if (poster_ && frame.image) poster_->see(frame.frame, *frame.image);
+  for (Output& output : outputs_) {
+    if (!output.held) attempt(output, [&](auto& sink) { add_to(sink, frame); });
+  }
+  if (!poster_ || !frame.image) return;
+  poster_->see(frame.frame, *frame.image);
+  if (std::ranges::none_of(outputs_, &Output::held)) return;
+  if (poster_->frame() == frame.frame.index) poster_place_ = held_.size();
+  held_.push_back(*frame.image);
 }
 
 std::vector<OutputFile> Outputs::write_poster(const std::string& name, Ending ending) {
@@ -147,6 +179,9 @@ std::vector<std::vector<OutputFile>> Outputs::finish(Ending ending) {
   std::vector<std::vector<OutputFile>> written;
   for (Output& output : outputs_) {
     attempt(output, [&](auto& sink) {
+      if constexpr (std::is_base_of_v<Encoder, std::remove_reference_t<decltype(sink)>>) {
+        if (output.held) release(sink);
+      }
       std::vector<OutputFile> files = sink.finish(ending);
       if (!files.empty()) written.push_back(std::move(files));
     });

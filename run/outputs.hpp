@@ -46,8 +46,11 @@ struct FilmFrame {
 class Outputs {
  public:
   /// @param poster whether each film that is drawn gets one
+  /// @param start_at_poster whether films that repeat for ever begin with its frame; their pictures are kept until the
+  /// end
   /// @throws UsageError, OutputError as make_sink()
-  Outputs(const std::vector<std::string>& paths, const FilmInfo& film, bool poster = false);
+  Outputs(const std::vector<std::string>& paths, const FilmInfo& film, bool poster = false,
+          bool start_at_poster = false);
 
   /// Whether no output takes frames (any more).
   [[nodiscard]] bool none() const;
@@ -76,12 +79,15 @@ class Outputs {
   struct Output {
     std::string path;
     std::optional<AnySink> sink;  ///< absent once it was given up
+    bool held = false;            ///< whether it gets its pictures at the end, beginning with the poster's
   };
   template <class AnyOf>
   [[nodiscard]] bool any_is() const;
   template <class Work>
   void attempt(Output& output, Work work);
 
+  void hold_loops(const FilmInfo& film);
+  void release(Encoder& encoder) const;
   /// @returns what was written
   std::vector<OutputFile> write_poster(const std::string& file, Ending ending);
 
@@ -89,6 +95,8 @@ class Outputs {
   std::vector<bool> pictures_;  // of the film's frames, whether any output needs it
   std::optional<Poster> poster_;
   std::vector<std::string> poster_files_;
+  std::vector<Image> held_;       // of the film
+  std::size_t poster_place_ = 0;  // among them
   std::vector<std::string> problems_;
 };
 

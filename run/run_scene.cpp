@@ -43,7 +43,7 @@ class Pipeline {
         options_(options),
         progress_(progress),
         extent_(film_extent(scene, options)),
-        outputs_(options.outputs, film_info(scene, options, &progress), options.poster),
+        outputs_(options.outputs, film_info(scene, options, &progress), options.poster, options.start_at_poster),
         drawn_(outputs_.drawn()),
         records_(options.records),
         reasons_(!outputs_.none(), options.motion.has_value(), records_.wanted()),

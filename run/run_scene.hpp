@@ -37,6 +37,7 @@ struct RunOptions {
   std::function<void()> drawn = {};  ///< called when every frame is with its outputs, which are only completed then
   bool time_effects = false;         ///< measure which part of the steps' time each effect takes
   StepObserver* observer = nullptr;  ///< told of every step too, on the thread that simulates, after it is recorded
+  bool start_at_poster = false;      ///< begin films that repeat for ever with the frame of their poster
 };
 
 enum class Outcome { completed, interrupted, diverged };

@@ -130,6 +130,11 @@ Keys camera_keys(Camera& camera) {
   keys.add(
       "orbit", &camera.orbit, "degrees",
       "Angle by which the camera circles its target during the film: 360 is a turntable that loops without a break.");
+  keys.add("outside", &camera.outside, "",
+           "Fraction of the frames that may reach beyond a side of the picture: 0.05 frames what matters of a motion "
+           "with a few wide swings. For a camera that is placed automatically and stays.")
+      .at_least(0)
+      .at_most(0.5);
   return keys;
 }
 
@@ -145,8 +150,9 @@ Keys look_keys(Look& look, std::optional<Quality>& quality) {
            "of the cloth stays below throughout the motion.")
       .above(0);
   keys.add("anisotropy", &look.anisotropy, "",
-           "Anisotropic filtering of the texture, where OpenGL supports it; 1 is off. In software rendering it takes "
-           "about nine times as long.")
+           "Anisotropic filtering of the texture, where OpenGL supports it; 1 is off. In software rendering a frame "
+           "takes "
+           "more than twice as long.")
       .at_least(1)
       .at_most(16);
   keys.add("mesh_lines", &look.mesh_lines, "", "Draws the edges of the triangles.");
@@ -165,6 +171,18 @@ Keys look_keys(Look& look, std::optional<Quality>& quality) {
            "Fraction of the key light that shines through the cloth: 0 for felt, 0.5 for thin cotton.")
       .at_least(0)
       .at_most(1);
+  keys.add("thickness", &look.thickness, "m",
+           "Thickness of the cloth's rounded hem; 0 draws none. Not with mesh_lines.")
+      .at_least(0);
+  keys.add("exposure", &look.exposure, "", "Factor on all light.").above(0).at_most(100);
+  keys.add("key_azimuth", &look.key_azimuth, "degrees",
+           "Where the key light comes from: the angle in the xy plane, from +x towards +y. Default: it stands to the "
+           "camera's upper left and goes with it.");
+  keys.add("key_elevation", &look.key_elevation, "degrees", "Angle of the key light above the xy plane, likewise.")
+      .at_least(-90)
+      .at_most(90);
+  keys.add("backdrop", &look.backdrop, "",
+           "A floor below the motion, in `ground_color`, for a scene without a ground. It only shows shadows.");
   keys.add("samples", &look.samples, "", "Antialiasing samples per pixel: 1 (off), 2 or 4.").at_least(1).at_most(4);
   keys.choice("quality", quality, {"draft", "film", "print"},
               "Everything that trades time for detail, relative to what the scene says: draft halves the film's size "

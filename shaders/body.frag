@@ -25,9 +25,7 @@ void main() {
   float towards = dot(n, key_direction);
   vec3 direct = key_light;
 #ifdef SHADOWS
-  // As on the cloth: lifted so far that no surface hides itself.
-  vec3 lifted = world_position + n * (1.42 * shadow_texel.z);
-  direct *= past_spheres(world_position, vec4(0.0)) * past_cloth(lifted);
+  direct *= past_spheres(world_position, vec4(0.0)) * past_cloth(world_position, n);
 #endif
   vec3 light = ambient_light(n) + direct * max(towards, 0.0) + fill_light * wrapped_cosine(n, fill_direction, 0.2);
 #ifdef OCCLUSION

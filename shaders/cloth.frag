@@ -60,15 +60,21 @@ void main() {
 #ifdef MESH_LINES
   albedo = mix(albedo, line_color, line_coverage());
 #endif
+#ifndef VERTEX_COLORS
   albedo = max(albedo, 0.02);  // no cloth is as black as a hole
+#endif
 
   float towards = dot(n, key_direction);
+#ifdef DARK
+  const float lit = 0.0;
+#else
   float lit = 1.0;
+#endif
 #ifdef SHADOWS
-  // Texels are read up to a diagonal away: lifted by that off the side that is lit, no surface, however slanted, hides
-  // itself.
-  vec3 lifted = world_position + n * (towards < 0.0 ? -1.0 : 1.0) * (1.42 * shadow_texel.z);
-  lit = past_spheres(world_position, vec4(0.0)) * past_cloth(lifted);
+  lit = past_spheres(world_position, vec4(0.0));
+#ifndef PAST_SPHERES
+  lit *= past_cloth(world_position, n);
+#endif
 #endif
 #ifdef OCCLUSION
   float open = gl_FrontFacing ? openness.x : openness.y;
@@ -87,11 +93,17 @@ void main() {
   vec3 surroundings = (ambient_light(n) + fill_light * fill) * around;
   vec3 direct = key_light * lit;
 
-  // Fibres that stand up from the cloth catch light where it is seen edge-on, of whatever colour it is.
+  // Fibres that stand up from the cloth catch light where it is seen edge-on, and give it most of their colour.
   float aside = 1.0 - clamp(dot(n, to_eye), 0.0, 1.0);
-  vec3 sheen = 0.16 * aside * aside * aside * (surroundings + direct * max(0.0, towards));
+  vec3 tint = mix(vec3(1.0), albedo / max(albedo.r, max(albedo.g, albedo.b)), 0.8);
+  vec3 sheen = 0.16 * tint * aside * aside * aside * (surroundings + direct * max(0.0, towards));
   float glance = power4(half_cosine(n, to_eye, key_direction));
   vec3 specular = direct * 0.03 * highlight(n, key_direction, 12.0, glance * glance * glance);
 
+#ifdef VERTEX_COLORS
+  // Colours that say something keep their value; only how squarely the surface is seen shows its folds, faintly.
+  color = vec4(albedo * (1.0 - 0.35 * aside * aside), 1.0);
+#else
   color = vec4(film(albedo * (surroundings + direct * key) + sheen + specular), 1.0);
+#endif
 }

@@ -46,7 +46,7 @@ void main() {
 #ifdef OCCLUSION
   open *= free_sky(p, n);
 #endif
-  float coverage = 1.0 - smoothstep(0.25, 1.0, length(p - focus.xyz) / focus.w);
+  float coverage = (1.0 - smoothstep(0.25, 1.0, length(p - focus.xyz) / focus.w)) * smoothstep(0.0, 0.22, descent);
   if (descent <= 1e-5 || coverage <= 0.0) discard;
 
   vec3 light = ambient_light(n) * open + key_light * key + fill_light * wrapped_cosine(n, fill_direction, 0.4);

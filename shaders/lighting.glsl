@@ -5,6 +5,7 @@ uniform vec3 eye;             // the camera [m]
 uniform vec3 up;              // unit vector to the sky
 uniform vec3 key_direction;   // unit vectors to the lights
 uniform vec3 fill_direction;
+uniform float exposure;       // by what all light is multiplied
 
 const vec3 sky_light = vec3(0.34, 0.36, 0.40);
 const vec3 floor_light = vec3(0.20, 0.19, 0.18);
@@ -41,6 +42,7 @@ float fresnel(float cosine) { return 0.04 + 0.5 * power4(1.0 - clamp(cosine, 0.0
 // What a film keeps of light: all of it up to the shoulder, beyond that ever less, so that nothing is ever just white.
 vec3 film(vec3 light) {
   const float shoulder = 0.6, rest = 1.0 - shoulder;
+  light *= exposure;
   vec3 over = max(light - shoulder, 0.0);
   return min(light, shoulder) + rest * over / (rest + over);
 }

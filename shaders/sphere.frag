@@ -30,19 +30,22 @@ void main() {
 #endif
 
   vec3 direct = key_light;
+  float open = 1.0;
 #ifdef SHADOWS
   vec3 p = sphere.xyz + sphere.w * n;
-  direct *= past_cloth(p);
+  open = past_cloth(p, key_direction);  // not in the map, it hides nothing of itself
+  direct *= open;
 #if SPHERES > 1
   direct *= past_spheres(p, sphere);
 #endif
 #endif
-  vec3 light = ambient_light(n) + direct * wrapped_cosine(n, key_direction, 0.1) +
+  // What hides the key light is near, and gives back some of the light that it gets: less for a mirror, more all around.
+  vec3 light = ambient_light(n) * (1.5 - 0.5 * open) + direct * wrapped_cosine(n, key_direction, 0.1) +
                fill_light * wrapped_cosine(n, fill_direction, 0.2);
   float mirror = fresnel(dot(n, to_eye));
   float glance = power4(half_cosine(n, to_eye, key_direction));
   float wide = glance * glance * glance;  // to the power of 12, and below of 24 and 256
-  vec3 gloss = surroundings(reflect(-to_eye, n)) * mirror +
+  vec3 gloss = surroundings(reflect(-to_eye, n)) * (0.3 + 0.7 * open) * mirror +
                direct * (0.060 * highlight(n, key_direction, 256.0, power4(power4(power4(glance)))) +
                          0.035 * highlight(n, key_direction, 24.0, wide * wide));
 

@@ -154,7 +154,6 @@ int residual(const Shown& film, const std::vector<Image>& drawn, double fps, int
 
 // A pixel that is at rest is right, as in a GIF: nothing that has passed leaves traces.
 TEST_P(Animation, LeavesNothingWhereAShadowWas) {
-  const int allowed = GetParam() == ".apng" ? 0 : 2;  // of 255
   // Where a frame is too short to be cut in two, what lossy compression leaves is put right every twelfth frame.
   for (const auto& [fps, still] : {std::pair{25.0, 4}, std::pair{60.0, 17}}) {
     std::vector<Image> drawn;
@@ -165,7 +164,7 @@ TEST_P(Animation, LeavesNothingWhereAShadowWas) {
     }
     const std::uintmax_t size = animation->finish().at(0).size;
     const Shown film = shown();
-    EXPECT_LE(residual(film, drawn, fps, still), allowed) << fps;
+    EXPECT_EQ(residual(film, drawn, fps, still), 0) << fps;
     EXPECT_NEAR(film.ends.back(), 60 / fps, 0.001);
     for (std::size_t i = 1; i < film.ends.size(); ++i) EXPECT_GT(film.ends[i] - film.ends[i - 1], 0.0105) << i;
     if (GetParam() == ".webp") {

@@ -52,6 +52,32 @@ TEST(ContactSheet, HasThePicturesInOrder) {
   EXPECT_EQ(whole.at<cv::Vec3b>(second_row, 126)[0], 90);
 }
 
+TEST(ContactSheet, HasTheLegendOnce) {
+  const test::ScratchFolder folder;
+  const auto rows = [&](int bands) {
+    FilmInfo film;
+    film.expected_frames = 4;
+    film.sheet = SheetGrid{.columns = 2, .rows = 2};
+    film.bands = bands;
+    const std::string file = (folder.path() / "sheet.png").string();
+    AnySink any = make_sink(file, film);
+    auto& sheet = *std::get<std::unique_ptr<Encoder>>(any);
+    for (int i = 0; i < 4; ++i) {
+      Image image(80, 60 + bands);
+      std::fill(image.pixels.begin() + std::ptrdiff_t{3} * 80 * 60, image.pixels.end(),
+                static_cast<std::uint8_t>(40 + i));
+      sheet.add(image);
+    }
+    sheet.finish();
+    const cv::Mat whole = cv::imread(file);
+    if (bands > 0) {
+      EXPECT_EQ(whole.at<cv::Vec3b>(whole.rows - 5, whole.cols / 2)[0], 43) << "it is that of the last picture";
+    }
+    return whole.rows;
+  };
+  EXPECT_EQ(rows(20), rows(0) + 20);
+}
+
 TEST(ContactSheet, OneFilePerFrameStaysThat) {
   const test::ScratchFolder folder;
   FilmInfo film;

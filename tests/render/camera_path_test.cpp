@@ -19,6 +19,7 @@ constexpr double rate = 10;  // frames per second
 struct Film {
   Mesh mesh;
   std::vector<Frame> frames;
+  Look look;
 
   explicit Film(Mesh cloth) : mesh(std::move(cloth)) {}
   Frame& add(const Vertices& positions) {
@@ -31,6 +32,7 @@ struct Film {
             .fps = rate,
             .count = static_cast<int>(frames.size()),
             .triangles = mesh.triangles,
+            .look = look,
             .pass = pass};
   }
   [[nodiscard]] std::vector<View> views(const Camera& camera) const {

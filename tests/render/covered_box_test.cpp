@@ -112,7 +112,7 @@ TEST(CoveredBox, IsTightAndEndsAtThePicture) {
     Frame frame;
     frame.positions = make_grid(2, 2).positions * 0.5;  // a square of side 1 around the origin
     const View view = looking_at(x, y);
-    return covered_box(Shot(frame, view, 1), {100, 100});
+    return covered_box(Shot(frame, view, 1), frame.positions, {100, 100});
   };
   const PixelBox middle = box(0, 0);
   EXPECT_LE(middle.corner.maxCoeff(), 25);
@@ -128,10 +128,10 @@ TEST(CoveredBox, IsThePictureWhereItCannotBeKnown) {
   Frame frame;
   frame.positions = make_grid(2, 2).positions;
   frame.positions(0, 2) = 6;  // behind the camera
-  EXPECT_EQ(covered_box(Shot(frame, from_above(), 1), {100, 90}).size, Eigen::Vector2i(100, 90));
+  EXPECT_EQ(covered_box(Shot(frame, from_above(), 1), frame.positions, {100, 90}).size, Eigen::Vector2i(100, 90));
   frame.positions(0, 2) = 0;
   frame.colliders = {GroundShape{}};
-  EXPECT_EQ(covered_box(Shot(frame, from_above(), 1), {100, 90}).size, Eigen::Vector2i(100, 90));
+  EXPECT_EQ(covered_box(Shot(frame, from_above(), 1), frame.positions, {100, 90}).size, Eigen::Vector2i(100, 90));
 }
 
 }  // namespace

@@ -116,6 +116,72 @@ TEST(Light, ComesFromAboveOnTheLeft) {
   EXPECT_GT(leaning(0, 1), leaning(0, -1) + 15);
 }
 
+TEST(Light, IsMultipliedByTheExposure) {
+  const auto light = [](double exposure) {
+    Look look;
+    look.color = {0.3, 0.3, 0.3};
+    look.exposure = exposure;
+    return to_linear(draw(make_grid(4, 4), from_above(), look, {101, 101}).at(50, 50)[1]);
+  };
+  EXPECT_NEAR(light(2) / light(1), 2, 0.03);
+  EXPECT_NEAR(light(0.5) / light(1), 0.5, 0.03);
+}
+
+// A level sheet gets the cosine of the light's height, from whichever side it comes, and wherever the camera is.
+TEST(Light, ComesFromWhereTheLookPlacesIt) {
+  const auto light = [](double azimuth, double elevation) {
+    Look look;
+    look.color = {0.8, 0.8, 0.8};
+    look.exposure = 0.3;  // below the film's shoulder
+    look.shadows = look.ambient_occlusion = false;
+    look.key_azimuth = azimuth;
+    look.key_elevation = elevation;
+    return to_linear(draw(make_grid(4, 4), from_above(), look, {101, 101}).at(50, 50)[1]);
+  };
+  const double dark = light(0, 0), bright = light(0, 60);
+  for (const double azimuth : {-120.0, 45.0, 170.0}) EXPECT_NEAR(light(azimuth, 60), bright, 0.01) << azimuth;
+  EXPECT_NEAR((light(0, 30) - dark) / (bright - dark), std::sin(std::numbers::pi / 6) / std::sin(std::numbers::pi / 3),
+              0.05);
+}
+
+TEST(Light, CastsAShadowOnABackdrop) {
+  Mesh sheet = make_grid(6, 6);
+  sheet.positions *= 0.5;
+  const View view{{0, -5, 2.5}, {0, 0, -0.6}, {0, 0, 1}, 34};
+  Look look;
+  look.backdrop = true;
+  const Image with = draw(sheet, view, look, {200, 200});
+  look.shadows = false;
+  const Image without = draw(sheet, view, look, {200, 200});
+  int darker = 0;
+  for (int y = 130; y < 200; ++y) {
+    for (int x = 0; x < 200; ++x) darker += with.at(x, y)[1] + 10 < without.at(x, y)[1] ? 1 : 0;
+  }
+  EXPECT_GT(darker, 200);
+  // A scene with a ground needs no other.
+  const std::vector<Collider> ground{GroundShape{{0, 0, 1}, -1, 0.01}};
+  Look plain = look;
+  plain.backdrop = false;
+  EXPECT_EQ(draw(sheet, view, look, {200, 200}, ground), draw(sheet, view, plain, {200, 200}, ground));
+}
+
+TEST(Light, OfABackgroundHasNoBands) {
+  // Dithered: over four by four pixels the mean is that of the gradient to a quarter of a step; whole bytes miss by
+  // half.
+  Look look;
+  look.background = Rgb{0.84, 0.84, 0.84};
+  look.background_top = Rgb{0.80, 0.80, 0.80};
+  const Image image = draw(nothing(), from_above(), look, {16, 400});
+  for (int y = 0; y < 400; y += 4) {
+    double mean = 0, exact = 0;
+    for (int row = y; row < y + 4; ++row) {
+      for (int x = 0; x < 4; ++x) mean += image.at(x, row)[1] / 16.0;
+      exact += 255 * std::lerp(0.80, 0.84, (row + 0.5) / 400) / 4;
+    }
+    EXPECT_NEAR(mean, exact, 0.15) << y;
+  }
+}
+
 TEST(Light, OnAFlatSheetIsThatOfItsFormula) {
   // Lambert's cosine of the key light, a fill light that wraps around, sky and floor by the normal, and the film's
   // shoulder: from the eye's direction there is neither sheen nor highlight worth a byte.
@@ -166,12 +232,14 @@ TEST(Light, SwitchedOffChangesNothingWhereThereIsNothingToHide) {
   Look off;
   off.shadows = off.ambient_occlusion = false;
   off.translucency = 0;
+  Look on;
+  on.thickness = off.thickness = 0;  // light shines through the far side of a hem
   // A sheet that bulges towards the camera and the light: nothing of it is hidden from anything.
   Mesh bulge = make_grid(16, 16);
   for (Eigen::Index i = 0; i < bulge.positions.rows(); ++i) {
     bulge.positions(i, 2) = -0.05 * bulge.positions.row(i).head<2>().squaredNorm();
   }
-  EXPECT_EQ(draw(bulge, from_above(), Look{}, {160, 160}), draw(bulge, from_above(), off, {160, 160}));
+  EXPECT_EQ(draw(bulge, from_above(), on, {160, 160}), draw(bulge, from_above(), off, {160, 160}));
 }
 
 }  // namespace

@@ -188,5 +188,53 @@ TEST(Shadow, OfASphereFallsOnTheCloth) {
   EXPECT_EQ(with.at(20, 140)[1], without.at(20, 140)[1]);
 }
 
+/// A sheet with a ridge in the direction of x, of a mesh that is turned against it: the surface, and so its picture, is
+/// the same all along the ridge.
+Mesh ridge(double height) {
+  Mesh mesh = make_grid(40, 40);
+  const Eigen::Rotation2D<double> turn(0.35);
+  for (Eigen::Index i = 0; i < mesh.positions.rows(); ++i) {
+    const Eigen::Vector2d p = 1.6 * (turn * mesh.positions.row(i).head<2>().transpose());
+    mesh.positions.row(i) << p.x(), p.y(), height * std::exp(-12 * p.y() * p.y());
+  }
+  return mesh;
+}
+
+/// The largest standard deviation of a row's light: how rough a picture is that should be the same all along its rows.
+double roughness(const Image& image) {
+  double worst = 0;
+  for (int y = image.height / 6; y < 5 * image.height / 6; ++y) {
+    double sum = 0, squares = 0;
+    int count = 0;
+    for (int x = image.width / 4; x < 3 * image.width / 4; ++x, ++count) {
+      const double light = image.at(x, y)[1];
+      sum += light;
+      squares += light * light;
+    }
+    worst = std::max(worst, std::sqrt(std::max(0.0, squares / count - sum * sum / count / count)));
+  }
+  return worst;
+}
+
+// Its edges are as smooth as the surface on which it lies: they do not follow the mesh.
+TEST(Shadow, OfARidgeHasNoTeeth) {
+  Look look = only_shadows();
+  look.thickness = 0;
+  // The light, which comes over the ridge at an angle at which its far side begins to be in the shadow or is in it.
+  look.key_azimuth = 90;
+  View view = from_above();
+  view.position.z() = 500;  // far away, with the same picture: the highlight does not change along a row
+  view.field_of_view = 2 * std::atan(1.0 / 500) * 180 / std::numbers::pi;
+  for (const Eigen::Vector2i& size : {Eigen::Vector2i(240, 200), {1296, 1080}}) {
+    for (const double elevation : {18.0, 25.0, 32.0, 45.0}) {
+      look.key_elevation = elevation;
+      for (const double height : {0.2, 0.35}) {
+        EXPECT_LT(roughness(draw(ridge(height), view, look, size)), 10)  // 23 where an edge is one texel wide
+            << elevation << " degrees, " << height << " m, " << size.y() << " rows";
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace drape::test

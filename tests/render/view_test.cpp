@@ -68,6 +68,26 @@ TEST(Framing, OfAMotionIsTheFramingOfAllItsFramesTogether) {
   EXPECT_NEAR(reach, 1 - 2 * Camera{}.margin, 1e-9);
 }
 
+TEST(Framing, MayLeaveThePartOfTheFramesThatReachesFarthestOutside) {
+  // Twenty frames in one place, and one far off to a side.
+  const Vertices near = random_points(1), far = near.rowwise() + Eigen::RowVector3d(40, 0, 0);
+  const auto view_of = [&](double outside) {
+    Camera camera;
+    camera.outside = outside;
+    Framing framing(camera, 1.2);
+    for (int frame = 0; frame < 21; ++frame) {
+      framing.add(frame == 7 ? far : near);
+      framing.end_frame();
+    }
+    return framing.view();
+  };
+  Framing alone(Camera{}, 1.2);
+  alone.add(near);
+  EXPECT_TRUE(view_of(0.05).position.isApprox(alone.view().position, 1e-9));
+  EXPECT_NEAR(projected(view_of(0.05), 1.2, near).reach(), 1 - 2 * Camera{}.margin, 1e-9);
+  EXPECT_LE(projected(view_of(0), 1.2, far).reach(), 1 - 2 * Camera{}.margin + 1e-9);
+}
+
 TEST(Framing, TouchesASphereFromOutside) {
   const SphereShape sphere{{1, 2, 3}, 0.7};
   Framing framing(Camera{}, 1.0);

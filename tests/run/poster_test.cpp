@@ -2,7 +2,10 @@
 
 #include <cmath>
 
+#include "core/read_file.hpp"
+#include "run/outputs.hpp"
 #include "run/poster.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace drape {
 namespace {
@@ -44,6 +47,41 @@ int chosen_of(const std::vector<double>& angles) {
 TEST(Poster, IsOfTheFrameInWhichTheClothIsBentMost) {
   EXPECT_EQ(chosen_of({0, 0.3, 1.2, 0.7}), 2);
   EXPECT_EQ(chosen_of({0, -0.3, -2.5, 0.7}), 2);  // up or down, and beyond a right angle
+}
+
+/// A film of four frames, of which the third is bent most.
+std::string film_of(const std::string& file, bool start_at_poster, const std::vector<int>& order) {
+  Cloth cloth;
+  for (int i = 0; i < 3; ++i) {
+    cloth.triangles.push_back({i, i + 1, i + 4});
+    cloth.triangles.push_back({i + 5, i + 4, i + 1});
+  }
+  FilmInfo film;
+  film.cloth = &cloth;
+  film.expected_frames = 4;
+  film.width = film.height = 32;
+  Outputs outputs({file}, film, false, start_at_poster);
+  for (int k = 0; k < 4; ++k) {
+    Frame frame;
+    frame.index = k;
+    frame.positions = bent(std::vector{0.0, 0.3, 1.2, 0.7}[static_cast<std::size_t>(k)]);
+    Image image(32, 32);
+    image.at(4 * order[static_cast<std::size_t>(k)], 9)[0] = 200;
+    outputs.add({frame, image});
+  }
+  outputs.finish(Ending::complete);
+  return read_file(file, 1 << 20);
+}
+
+// A film that repeats is the same, from another frame on.
+TEST(Poster, CanBeWhereALoopBegins) {
+  const test::ScratchFolder folder;
+  for (const char* extension : {".gif", ".webp", ".apng"}) {
+    const std::string file = (folder.path() / "film").string() + extension;
+    const std::string rotated = film_of(file, true, {0, 1, 2, 3});
+    EXPECT_EQ(rotated, film_of(file, false, {2, 3, 0, 1})) << extension;
+    EXPECT_NE(rotated, film_of(file, false, {0, 1, 2, 3})) << extension;
+  }
 }
 
 TEST(Poster, IsOfTheFirstFrameOfSeveral) {

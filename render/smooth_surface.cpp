@@ -1,0 +1,174 @@
+#include "render/smooth_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <set>
+
+namespace drape {
+namespace {
+
+/// Pixels that a piece takes where a cloth fills a third of the picture.
+constexpr double piece_pixels = 16, filled_part = 0.33;
+constexpr int most_levels = 3;
+constexpr std::size_t most_pieces = 60000;
+
+/// How much of the way from a vertex to its place on the limit surface the control point is moved in the other
+/// direction. With 1 the surface comes so near to the vertices that a body's corner stays below it.
+constexpr double sharpness = 1;
+
+/// Triangles at a crease vertex up to which it is a corner.
+constexpr int corner_triangles = 2;
+
+struct EdgeUse {
+  int number = 0;  // of the edge
+  int uses = 0;
+  std::array<int, 2> opposite{};  // vertices of the first two triangles
+};
+
+Edge sorted(int p, int q) { return {std::min(p, q), std::max(p, q)}; }
+
+/// The neighbourhoods of a mesh's vertices.
+struct Neighbourhood {
+  std::map<Edge, EdgeUse> edges;
+  std::vector<std::vector<int>> neighbors, crease_neighbors;
+  std::vector<int> triangle_counts;
+
+  Neighbourhood(const std::vector<Triangle>& triangles, int vertex_count)
+      : neighbors(static_cast<std::size_t>(vertex_count)),
+        crease_neighbors(neighbors),
+        triangle_counts(neighbors.size(), 0) {
+    for (const Triangle& t : triangles) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        ++triangle_counts[static_cast<std::size_t>(t[c])];
+        EdgeUse& use = edges[sorted(t[(c + 1) % 3], t[(c + 2) % 3])];
+        if (use.uses < 2) use.opposite[static_cast<std::size_t>(use.uses)] = t[c];
+        ++use.uses;
+      }
+    }
+    int number = vertex_count;
+    for (auto& [edge, use] : edges) {
+      use.number = number++;
+      for (const auto& [from, to] : {std::pair(edge[0], edge[1]), std::pair(edge[1], edge[0])}) {
+        neighbors[static_cast<std::size_t>(from)].push_back(to);
+        if (use.uses != 2) crease_neighbors[static_cast<std::size_t>(from)].push_back(to);
+      }
+    }
+  }
+};
+
+using Weights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using Entries = std::vector<Eigen::Triplet<double>>;
+
+/// How a vertex moves: to a mean of itself and its neighbours, or those along a crease.
+/// @param limit whether it moves to its place on the limit surface, rather than that of the next level
+void add_vertex(Entries& entries, const Neighbourhood& mesh, int vertex, bool limit) {
+  const auto i = static_cast<std::size_t>(vertex);
+  const std::vector<int>& creases = mesh.crease_neighbors[i];
+  const std::vector<int>* around = nullptr;
+  double each = 0;
+  if (creases.size() == 2 && mesh.triangle_counts[i] > corner_triangles) {
+    around = &creases;
+    each = limit ? 1.0 / 6 : 1.0 / 8;
+  } else if (creases.empty() && mesh.neighbors[i].size() >= 3) {
+    around = &mesh.neighbors[i];
+    const auto n = static_cast<double>(around->size());
+    const double beta = n == 3 ? 3.0 / 16 : 3 / (8 * n);
+    each = limit ? 1 / (n + 3 / (8 * beta)) : beta;
+  }
+  double own = 1;
+  if (around != nullptr) {
+    own -= each * static_cast<double>(around->size());
+    for (const int other : *around) entries.emplace_back(vertex, other, each);
+  }
+  entries.emplace_back(vertex, vertex, own);
+}
+
+Weights matrix(int rows, int columns, const Entries& entries) {
+  Weights weights(rows, columns);
+  weights.setFromTriplets(entries.begin(), entries.end());
+  return weights;
+}
+
+}  // namespace
+
+int SmoothSurface::levels_for(std::size_t triangle_count, double pixels) {
+  if (triangle_count == 0) return 0;
+  const double ratio = filled_part * pixels / piece_pixels / static_cast<double>(triangle_count);
+  int levels = std::clamp(static_cast<int>(std::lround(std::log2(std::max(ratio, 1e-6)) / 2)), 0, most_levels);
+  while (levels > 0 && (triangle_count << (2 * levels)) > most_pieces) --levels;
+  return levels;
+}
+
+SmoothSurface::SmoothSurface(const std::vector<Triangle>& triangles, int levels) {
+  bool degenerate = false;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Triangle& corners = triangles[t];
+    degenerate = degenerate || corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+    pieces_.push_back({corners, static_cast<int>(t), {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}});
+    vertex_count_ = std::max(vertex_count_, 1 + std::max({corners[0], corners[1], corners[2]}));
+  }
+  if (!degenerate) {
+    for (int k = 0; k < levels; ++k) divide();
+  }
+  triangles_.clear();
+  for (const Piece& piece : pieces_) triangles_.push_back(piece.corners);
+  if (divided_) project_to_limit();
+}
+
+void SmoothSurface::divide() {
+  triangles_.clear();
+  for (const Piece& piece : pieces_) triangles_.push_back(piece.corners);
+  const Neighbourhood mesh(triangles_, vertex_count_);
+  Entries entries;
+  for (int i = 0; i < vertex_count_; ++i) add_vertex(entries, mesh, i, false);
+  for (const auto& [edge, use] : mesh.edges) {
+    const double own = use.uses == 2 ? 3.0 / 8 : 1.0 / 2;
+    for (const int end : edge) entries.emplace_back(use.number, end, own);
+    if (use.uses != 2) continue;
+    for (const int opposite : use.opposite) entries.emplace_back(use.number, opposite, 1.0 / 8);
+  }
+  const int count = vertex_count_ + static_cast<int>(mesh.edges.size());
+  const Weights step = matrix(count, vertex_count_, entries);
+  weights_ = divided_ ? Weights(step * weights_) : step;
+  divided_ = true;
+  vertex_count_ = count;
+
+  std::vector<Piece> finer;
+  finer.reserve(4 * pieces_.size());
+  for (const Piece& piece : pieces_) {
+    std::array<int, 3> middles{};
+    std::array<std::array<float, 3>, 3> weights{};
+    for (std::size_t c = 0; c < 3; ++c) {  // opposite to corner c
+      const std::size_t p = (c + 1) % 3, q = (c + 2) % 3;
+      middles[c] = mesh.edges.at(sorted(piece.corners[p], piece.corners[q])).number;
+      for (std::size_t k = 0; k < 3; ++k) weights[c][k] = (piece.weights[p][k] + piece.weights[q][k]) / 2;
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t p = (c + 1) % 3, q = (c + 2) % 3;
+      finer.push_back(
+          {{piece.corners[c], middles[q], middles[p]}, piece.parent, {piece.weights[c], weights[q], weights[p]}});
+    }
+    finer.push_back({middles, piece.parent, weights});
+  }
+  pieces_ = std::move(finer);
+}
+
+void SmoothSurface::project_to_limit() {
+  const Neighbourhood mesh(triangles_, vertex_count_);
+  Entries entries;
+  for (int i = 0; i < vertex_count_; ++i) add_vertex(entries, mesh, i, true);
+  weights_ = Weights(matrix(vertex_count_, vertex_count_, entries) * weights_);
+  limits_ = weights_.topRows(weights_.cols());
+}
+
+Vertices SmoothSurface::positions(const Vertices& vertices) const {
+  if (!divided_) return vertices.topRows(vertex_count_);
+  const auto given = vertices.topRows(weights_.cols());
+  Vertices controls = given;
+  controls += sharpness * (given - limits_ * given);
+  return weights_ * controls;
+}
+
+}  // namespace drape
