@@ -54,7 +54,7 @@ struct ContactConstraint {
     }
     return sum;
   }
-  /// Whether enough of its weights is on vertices that can move: a feature that hardly can would have to be pushed far.
+  /// Returns true if enough of its weights is on vertices that can move: others would have to be pushed far.
   [[nodiscard]] bool can_move(const std::vector<char>& free) const {
     constexpr double least_free = 0.25;
     double moved = 0, all = 0;

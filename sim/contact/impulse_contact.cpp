@@ -74,11 +74,11 @@ void ImpulseContact::find() {
   }
   auto known = before_.begin();
   for (const ContactConstraint& contact : found_) {
+    if (!contact.can_move(free_)) continue;
     double compliance = 0;
     for (Index i = 0; i < Index(contact.count); ++i) {
       compliance += contact.weights[i] * contact.weights[i] * inverse_masses_[Index(contact.vertices[i])];
     }
-    if (!contact.can_move(free_)) continue;
     Impulse impulse{.contact = contact, .compliance = compliance, .gap_at_end = 0, .turned = 0};
     while (known != before_.end() && known->contact.key < contact.key) ++known;
     if (known != before_.end() && known->contact.key == contact.key) {

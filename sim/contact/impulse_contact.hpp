@@ -55,7 +55,7 @@ class ImpulseContact final : public MotionFilter {
   /// By how much a contact's force changes that lacks so much along its normal and slips so far.
   [[nodiscard]] static Eigen::Vector3d change_of(const Impulse& impulse, double missing, const Eigen::Vector3d& slip);
   [[nodiscard]] bool any_collides() const;
-  /// Whether the last solve has moved nothing so far that other contacts could follow.
+  /// Returns true if the last solve has moved nothing so far that other contacts could follow.
   [[nodiscard]] bool stays_as_found() const;
   void hold();
   /// Lets the vertices of a contact go as its obstacle does. Returns whether any did not yet.

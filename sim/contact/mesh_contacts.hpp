@@ -39,7 +39,7 @@ class SelfContacts final : public ContactSource {
             std::vector<ContactConstraint>& contacts) override;
 
  private:
-  /// Whether the candidates hold for this step: whether the vertices go as it was expected when they were found.
+  /// Returns true if the candidates hold for this step: the vertices go as expected when they were found.
   [[nodiscard]] bool go_as_expected() const;
   void find_candidates();
   /// Appends the contact of a pair, if it has one.

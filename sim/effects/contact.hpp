@@ -35,7 +35,7 @@ struct ContactLaw {
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;
 };
 
-/// Whether the method of these settings is explicit, or will be chosen.
+/// Returns true if the method of these settings is explicit, or will be chosen.
 bool has_impulses(const SimulationSettings& settings);
 
 /// What keeps contact from being Response::solved in these settings.
