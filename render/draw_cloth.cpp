@@ -24,18 +24,16 @@ constexpr GLuint position_attribute = 0, normal_attribute = 1, uv_attribute = 2,
 /// Texels of the maps of ambient occlusion across what the picture shows.
 constexpr double occlusion_resolution = 100;
 
-Edge sorted(int p, int q) { return {std::min(p, q), std::max(p, q)}; }
-
 /// Of each triangle, for the edges opposite to its corners: whether only one triangle has that edge.
 std::vector<std::array<bool, 3>> boundary_edges(const std::vector<Triangle>& triangles) {
   std::map<Edge, int> uses;
   for (const Triangle& t : triangles) {
-    for (std::size_t c = 0; c < 3; ++c) ++uses[sorted(t[(c + 1) % 3], t[(c + 2) % 3])];
+    for (std::size_t c = 0; c < 3; ++c) ++uses[undirected(t[(c + 1) % 3], t[(c + 2) % 3])];
   }
   std::vector<std::array<bool, 3>> boundary(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (std::size_t c = 0; c < 3; ++c) {
-      boundary[t][c] = uses[sorted(triangles[t][(c + 1) % 3], triangles[t][(c + 2) % 3])] == 1;
+      boundary[t][c] = uses[undirected(triangles[t][(c + 1) % 3], triangles[t][(c + 2) % 3])] == 1;
     }
   }
   return boundary;

@@ -21,13 +21,13 @@ std::vector<BorderEdge> border_edges(const std::vector<SmoothSurface::Piece>& pi
   std::map<Edge, int> uses;
   const auto sorted = [](int p, int q) { return Edge{std::min(p, q), std::max(p, q)}; };
   for (const auto& piece : pieces) {
-    for (std::size_t c = 0; c < 3; ++c) ++uses[sorted(piece.corners[c], piece.corners[(c + 1) % 3])];
+    for (std::size_t c = 0; c < 3; ++c) ++uses[undirected(piece.corners[c], piece.corners[(c + 1) % 3])];
   }
   std::vector<BorderEdge> edges;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     for (std::size_t c = 0; c < 3; ++c) {
       const int from = pieces[k].corners[c], to = pieces[k].corners[(c + 1) % 3];
-      if (from != to && uses[sorted(from, to)] == 1) edges.push_back({from, to, static_cast<int>(k), c});
+      if (from != to && uses[undirected(from, to)] == 1) edges.push_back({from, to, static_cast<int>(k), c});
     }
   }
   return edges;

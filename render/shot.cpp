@@ -32,7 +32,7 @@ GroundShape backdrop_floor(const View& view, double extent) {
 }  // namespace
 
 Eigen::Vector3d key_light(const View& view, const Look& look) {
-  const Eigen::Vector3d usual = towards(view, -0.75, 0.8, 0.5);
+  Eigen::Vector3d usual = towards(view, -0.75, 0.8, 0.5);
   if (!look.key_azimuth && !look.key_elevation) return usual;
   const double azimuth = look.key_azimuth ? *look.key_azimuth * degree : std::atan2(usual.y(), usual.x());
   const double elevation =

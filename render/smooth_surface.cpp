@@ -27,8 +27,6 @@ struct EdgeUse {
   std::array<int, 2> opposite{};  // vertices of the first two triangles
 };
 
-Edge sorted(int p, int q) { return {std::min(p, q), std::max(p, q)}; }
-
 /// The neighbourhoods of a mesh's vertices.
 struct Neighbourhood {
   std::map<Edge, EdgeUse> edges;
@@ -42,7 +40,7 @@ struct Neighbourhood {
     for (const Triangle& t : triangles) {
       for (std::size_t c = 0; c < 3; ++c) {
         ++triangle_counts[static_cast<std::size_t>(t[c])];
-        EdgeUse& use = edges[sorted(t[(c + 1) % 3], t[(c + 2) % 3])];
+        EdgeUse& use = edges[undirected(t[(c + 1) % 3], t[(c + 2) % 3])];
         if (use.uses < 2) use.opposite[static_cast<std::size_t>(use.uses)] = t[c];
         ++use.uses;
       }
@@ -142,7 +140,7 @@ void SmoothSurface::divide() {
     std::array<std::array<float, 3>, 3> weights{};
     for (std::size_t c = 0; c < 3; ++c) {  // opposite to corner c
       const std::size_t p = (c + 1) % 3, q = (c + 2) % 3;
-      middles[c] = mesh.edges.at(sorted(piece.corners[p], piece.corners[q])).number;
+      middles[c] = mesh.edges.at(undirected(piece.corners[p], piece.corners[q])).number;
       for (std::size_t k = 0; k < 3; ++k) weights[c][k] = (piece.weights[p][k] + piece.weights[q][k]) / 2;
     }
     for (std::size_t c = 0; c < 3; ++c) {

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include "sim/mesh.hpp"
 
 namespace drape {
+
+/// The edge between two vertices, the lower number first.
+inline Edge undirected(int p, int q) { return {std::min(p, q), std::max(p, q)}; }
 
 /// The limit surface of Loop's subdivision (1987) of a cloth's mesh, sampled finely enough for a picture. A position of
 /// it is a weighted mean of the cloth's vertices nearby, with weights that depend on the triangles alone. Edges of one
