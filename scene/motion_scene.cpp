@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array<std::string_view, 3> physics_tables{"time", "integrator", "effects"};
-constexpr double most_frames = 1e6;  // of a motion that is not read yet
+constexpr double longest_motion = 1e6;  // of a motion that is not read yet
 
 /// "cloth.mass=2" is of cloth.
 bool is_of_physics(const std::string& override_text) {
@@ -89,7 +89,7 @@ double number_at(const TomlValue& document, const char* path, double otherwise) 
 void add_stand_ins(TomlValue& document, const Place& place) {
   const Video usual;
   const double duration =
-      most_frames * number_at(document, "video.speed", usual.speed) / number_at(document, "video.fps", usual.fps);
+      longest_motion * number_at(document, "video.speed", usual.speed) / number_at(document, "video.fps", usual.fps);
   auto& entries = document.as<TomlTable>()->entries;
   std::erase_if(entries, [](const TomlEntry& entry) { return entry.name == "cloth"; });
   for (const auto& [name, text] :
