@@ -19,7 +19,6 @@ struct BorderEdge {
 /// The edges of one triangle, in the order of the pieces.
 std::vector<BorderEdge> border_edges(const std::vector<SmoothSurface::Piece>& pieces) {
   std::map<Edge, int> uses;
-  const auto sorted = [](int p, int q) { return Edge{std::min(p, q), std::max(p, q)}; };
   for (const auto& piece : pieces) {
     for (std::size_t c = 0; c < 3; ++c) ++uses[undirected(piece.corners[c], piece.corners[(c + 1) % 3])];
   }
