@@ -17,10 +17,6 @@ namespace {
 constexpr int gap = 6;  // [pixels]
 constexpr std::uint8_t paper = 255;
 
-}  // namespace
-
-namespace {
-
 /// Cuts rows off the bottom of a picture.
 Image cut_below(Image& picture, int rows) {
   Image below(picture.width, rows);

@@ -45,7 +45,7 @@ class DrawCloth {
     std::array<float, 3> line_scale{};   // 1 for an edge of two triangles, which draw one half of the line each, else 2
   };
 
-  /// Where a GL vertex is: its vertex of the surface, and its place in a triangle of the cloth.
+  /// The place of a GL vertex: its vertex of the surface, and where that is in a triangle of the cloth.
   struct Source {
     int vertex;
     Triangle corners;

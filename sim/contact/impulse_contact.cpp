@@ -17,6 +17,12 @@ constexpr double settled_share = 1e-3;     // of the distance that a contact kee
 constexpr double near_share = 0.1;         // of the least distance: how far a solve may move what was found
 constexpr double least_correction = 1e-9;  // or this [m]
 
+/// A force across the normal, no larger than friction can be.
+Eigen::Vector3d limited(const Eigen::Vector3d& across, double most) {
+  const double size = across.norm();
+  return size > most ? Eigen::Vector3d(most / size * across) : across;
+}
+
 }  // namespace
 
 ImpulseContact::ImpulseContact(std::vector<std::unique_ptr<ContactSource>> sources, const Cloth& cloth,
@@ -85,10 +91,7 @@ void ImpulseContact::find() {
       // The same push along the normal that it has now.
       const Eigen::Vector3d &n = contact.normal, &force = known->contact.force;
       const double normal = force.dot(known->contact.normal);
-      Eigen::Vector3d across = force - force.dot(n) * n;
-      const double most = contact.friction * normal, size = across.norm();
-      if (size > most) across *= most / size;
-      impulse.contact.force = normal * n + across;
+      impulse.contact.force = normal * n + limited(force - force.dot(n) * n, contact.friction * normal);
     }
     if (contact.restitution > 0) plan_bounce(impulse);
     impulses_.push_back(impulse);
@@ -137,9 +140,8 @@ Eigen::Vector3d ImpulseContact::change_of(const Impulse& impulse, double missing
   const double normal = std::max(0.0, before + missing / impulse.compliance);
   Eigen::Vector3d across = Eigen::Vector3d::Zero();
   if (contact.friction > 0 && normal > 0) {
-    across = contact.force - before * n - (slip - slip.dot(n) * n) / impulse.compliance;
-    const double most = contact.friction * normal, size = across.norm();
-    if (size > most) across *= most / size;
+    across =
+        limited(contact.force - before * n - (slip - slip.dot(n) * n) / impulse.compliance, contact.friction * normal);
   }
   return normal * n + across - contact.force;
 }
@@ -189,7 +191,7 @@ void ImpulseContact::hold() {
     for (const Impulse& impulse : impulses_) {
       if (!impulse.contact.collides) continue;
       if (impulse.contact.count == 4) {
-        more = more || !(std::ranges::find(joined, impulse.contact.vertices) != joined.end());
+        more = more || std::ranges::find(joined, impulse.contact.vertices) == joined.end();
         joined.push_back(impulse.contact.vertices);
       } else {
         more = hold_with_obstacle(impulse.contact, velocities) || more;

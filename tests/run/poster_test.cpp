@@ -22,12 +22,18 @@ Vertices bent(double angle) {
   return x;
 }
 
-int chosen_of(const std::vector<double>& angles) {
+/// The cloth that is bent.
+Cloth strip() {
   Cloth cloth;
   for (int i = 0; i < 3; ++i) {
     cloth.triangles.push_back({i, i + 1, i + 4});
     cloth.triangles.push_back({i + 5, i + 4, i + 1});
   }
+  return cloth;
+}
+
+int chosen_of(const std::vector<double>& angles) {
+  const Cloth cloth = strip();
   FilmInfo film;
   film.cloth = &cloth;
   Poster poster(film);
@@ -51,11 +57,7 @@ TEST(Poster, IsOfTheFrameInWhichTheClothIsBentMost) {
 
 /// A film of four frames, of which the third is bent most.
 std::string film_of(const std::string& file, bool start_at_poster, const std::vector<int>& order) {
-  Cloth cloth;
-  for (int i = 0; i < 3; ++i) {
-    cloth.triangles.push_back({i, i + 1, i + 4});
-    cloth.triangles.push_back({i + 5, i + 4, i + 1});
-  }
+  const Cloth cloth = strip();
   FilmInfo film;
   film.cloth = &cloth;
   film.expected_frames = 4;
