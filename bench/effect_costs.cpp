@@ -44,13 +44,13 @@ Body make_breathing_cushion() {
 
 std::vector<Case> cases() {
   const Sphere sphere{.center = Eigen::Vector3d(0, 0, -0.5), .radius = 0.4};
-  Sphere solved_for = sphere;
-  solved_for.response = Response::implicit_energy;
+  Sphere contact = sphere;
+  contact.thickness = 0.04;
   return {
       {"bending_rigidity", Bending{.rigidity = 1e-3}, make_moving_cloth},
       {"bending_cross", Bending{.cross_stiffness = 10}, make_moving_cloth},
       {"sphere", sphere, make_moving_cloth},
-      {"sphere_implicit", solved_for, make_moving_cloth},
+      {"sphere_contact", contact, make_moving_cloth},
       {"wind", Wind{.acceleration = {1, 0, 0}}, make_moving_cloth},
       {"air", Air{}, make_moving_cloth},
       {"ground", Ground{.height = -1}, make_moving_cloth},
@@ -58,7 +58,7 @@ std::vector<Case> cases() {
       {"body_deforming", make_breathing_cushion(), make_lying_cloth},
       {"body_far_away", Body{.box = Eigen::Vector3d(1, 1, 1), .center = Eigen::Vector3d(0, 0, -9)}, make_moving_cloth},
       {"strain_limit", StrainLimit{.max_stretch = 1.1}, make_moving_cloth},
-      {"self_collision_smooth", SelfCollision{.thickness = 0.012}, make_resting_cloth},
+      {"self_collision_at_rest", SelfCollision{.thickness = 0.012}, make_resting_cloth},
       {"self_collision", SelfCollision{.thickness = 0.012}, make_moving_cloth},
       {"self_collision_folded", SelfCollision{.thickness = 0.012}, make_folded_cloth},
   };

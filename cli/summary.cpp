@@ -117,10 +117,8 @@ std::vector<std::string> doubts(const RunResult& result) {
   }
   if (const auto rise = result.statistics.energy_rise(); rise && rise->notable()) {
     found.push_back(fmt::format(
-        "the cloth's energy rose by {:.2g} J with nothing that gives any, {:.2g} times all that it ever had, because "
-        "contact and limits are laid over the steps: solve contact with the cloth, response = \"solved\", or use "
-        "method = "
-        "\"verlet\" with [time] accuracy",
+        "the cloth's energy rose by {:.2g} J with nothing that gives any, {:.2g} times all that it ever had: omit "
+        "[integrator], or take a shorter [time] step",
         rise->energy, rise->of_available));
   }
   return found;
@@ -150,6 +148,9 @@ std::string of_steps(const Statistics& s) {
     if (s.not_converged() > 0) {
       text += fmt::format(", {} steps missed {}", s.not_converged(), readable_length(*asked));
     }
+  }
+  if (!asked && s.mean_iterations() == 0 && s.not_converged() > 0) {
+    text += fmt::format(", {} steps end beyond contact or limits", s.not_converged());
   }
   if (s.mean_iterations() > 0) {
     text += fmt::format(", {:.2f} iterations each (at most {})", s.mean_iterations(), s.max_iterations());

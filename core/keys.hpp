@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -105,9 +106,15 @@ class Keys {
     return add(std::move(name), std::move(choice), "", std::move(help));
   }
 
+  /// Says what there is instead of a key that there was.
+  void replace(const std::string& name, std::string advice) { replaced_[name] = std::move(advice); }
+
   [[nodiscard]] const std::deque<Key>& all() const { return keys_; }
+  /// Keys that there were, and what there is instead of them.
+  [[nodiscard]] const std::map<std::string, std::string>& replaced() const { return replaced_; }
 
  private:
+  std::map<std::string, std::string> replaced_;
   std::deque<Key> keys_;  // a deque: the references that add() returns stay valid
 };
 

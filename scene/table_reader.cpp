@@ -303,7 +303,8 @@ bool TableReader::good(const std::string& table) const { return !contains(bad_, 
 void TableReader::report_unknown(const TomlEntry& entry, const TableType& type,
                                  const std::vector<std::string>& subtables) {
   std::string message = fmt::format("unknown key '{}' in [{}]", entry.name, type.name);
-  if (const auto replaced = type.replaced.find(entry.name); replaced != type.replaced.end()) {
+  const auto& replaced_keys = type.keys.replaced();
+  if (const auto replaced = replaced_keys.find(entry.name); replaced != replaced_keys.end()) {
     message = fmt::format("'{}' in [{}] no longer exists: {}", entry.name, type.name, replaced->second);
   } else if (const Home* home = home_of(entry.name)) {
     message += fmt::format("; it belongs in [{}]", home->table);

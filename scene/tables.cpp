@@ -227,6 +227,7 @@ Keys overlay_keys(OverlaySettings& overlay) {
 
 Keys check_keys(CheckSettings& check) {
   Keys keys;
+  keys.replace("window", "the whole motion is compared now, in windows of 'window_time' seconds");
   keys.add("frames", &check.frames, "",
            "Frames of the film to compare, in ascending order. Default: those in which something happens.")
       .at_least(0);
@@ -278,9 +279,7 @@ std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene) {
   add("caption", "Text on every frame of a film. `drape check` ignores it.", caption_keys(scene.caption));
   add("overlay", "Curves below the film, see [captions.md](captions.md). `drape check` ignores them.",
       overlay_keys(scene.overlay));
-  add("check", "Settings of `drape check`, see [regression.md](regression.md). Nothing else uses them.",
-      check_keys(scene.check))
-      .replaced = {{"window", "the whole motion is compared now, in windows of 'window_time' seconds"}};
+  add("check", "Settings of `drape check`, see [regression.md](regression.md). Nothing else uses them.", check_keys(scene.check));
   return tables;
 }
 

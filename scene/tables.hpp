@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,8 +38,7 @@ struct TableType {
   std::string help;
   Keys keys;
   bool required = false;
-  bool repeatable = false;                           ///< may be written as [[name]] several times
-  std::map<std::string, std::string> replaced = {};  ///< keys that there were, and what there is instead of them
+  bool repeatable = false;  ///< may be written as [[name]] several times
 };
 
 /// Every table of a scene but its effects, whose keys write to `cloth` and `scene`. With effect_types() the only

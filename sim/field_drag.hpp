@@ -33,7 +33,6 @@ class FieldDrag final : public Energy {
   double add_gradient(const Vertices& x, double time, Vertices& gradient) const override;
   void add_bound(StiffnessBound& bound) const override { bound.vertices += bound_; }
   [[nodiscard]] std::unique_ptr<EnergyHessian> make_hessian() const override;
-  [[nodiscard]] bool internal() const override { return true; }
 
  private:
   class Hessian;

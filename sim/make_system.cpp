@@ -23,7 +23,6 @@ void add_drag(const IntegratorSettings& integrator, System& system) {
 void install_effects(const SimulationSettings& settings, std::vector<double>* effect_seconds, const Stop& stop,
                      System& system) {
   system.stop = stop;
-  system.impulses = is_explicit(settings.integrator.method);
   for (std::size_t i = 0; i < settings.effects.size(); ++i) {
     const SystemSizes before(system);
     settings.effects[i].install(system);
@@ -31,10 +30,13 @@ void install_effects(const SimulationSettings& settings, std::vector<double>* ef
     if (effect_seconds != nullptr) time_additions(system, before, (*effect_seconds)[i]);
   }
   add_drag(settings.integrator, system);
-  if (system.contacts.empty() || !system.impulses) return;
-  system.filters.push_back(std::make_unique<ImpulseContact>(std::move(system.contacts), system.cloth, system.gravity));
+  if (system.contacts.empty()) return;
+  // Explicit steps have no other contact. What an implicit step has solved for is kept where filters change it.
+  const bool explicitly = is_explicit(settings.integrator.method);
+  if (!explicitly && system.filters.empty()) return;
+  system.filters.push_back(std::make_unique<ImpulseContact>(system.contacts, system.cloth, system.gravity));
   system.filters.back()->heed(stop);
-  system.contacts.clear();
+  if (explicitly) system.contacts.clear();
 }
 
 }  // namespace

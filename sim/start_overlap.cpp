@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "sim/collision/placed_mesh.hpp"
-#include "sim/effects/contact.hpp"
 #include "sim/make_system.hpp"
 
 namespace drape {
@@ -54,7 +53,10 @@ struct DepthIn {
 }  // namespace
 
 std::vector<StartOverlap> start_overlaps(const SimulationSettings& settings) {
-  const std::vector<int> vertices = free_vertices(settings.cloth);
+  std::vector<int> vertices;
+  for (int i = 0; i < settings.cloth.vertex_count(); ++i) {
+    if (!std::ranges::binary_search(settings.cloth.pins, i)) vertices.push_back(i);
+  }
   const std::vector<Collider> colliders = make_system(settings).colliders_at(0);
   std::vector<StartOverlap> overlaps;
   for (std::size_t k = 0; k < colliders.size(); ++k) {

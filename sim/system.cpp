@@ -5,15 +5,16 @@
 #include "sim/parallel/vectors.hpp"
 
 namespace drape {
+namespace {
+
+constexpr int most_turns = 20;  // of filters that undo one another's changes
+
+}  // namespace
 
 StiffnessBound System::stiffness_bound() const {
   StiffnessBound bound{.springs = springs, .vertices = Eigen::VectorXd::Zero(cloth.vertex_count())};
   for (const auto& energy : energies) energy->add_bound(bound);
   return bound;
-}
-
-bool System::all_internal() const {
-  return std::ranges::all_of(energies, [](const auto& energy) { return energy->internal(); });
 }
 
 std::vector<Collider> System::colliders_at(double at) const {
@@ -38,6 +39,14 @@ bool System::only_loses_energy() const {
 void System::filter(State& state, Vertices& way) const {
   for (const auto& filter : filters) {
     filter->apply(state.x, time(state.step), step, way);
+  }
+  bool changed = filters.size() > 1;
+  for (int turn = 0; changed && turn < most_turns; ++turn) {
+    changed = false;
+    for (const auto& filter : filters) changed = filter->adjust(state.x, time(state.step), step, way) || changed;
+  }
+  for (const auto& filter : filters) {
+    filter->note(!changed);
     if (const Restraint* restraint = filter->restraint()) state.restraint = *restraint;
   }
 }

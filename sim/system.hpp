@@ -90,14 +90,6 @@ struct Energy {
   virtual void add_bound(StiffnessBound& bound) const = 0;
   /// Refers to this energy, which must outlive it.
   [[nodiscard]] virtual std::unique_ptr<EnergyHessian> make_hessian() const = 0;
-  /// Whether it is the cloth's own, the same at every time and wherever the cloth is as a whole, or takes energy from
-  /// the cloth. Any other is held by something that pushes, and only methods that solve for the end of a step can have
-  /// it.
-  [[nodiscard]] virtual bool internal() const = 0;
-  /// How far what pushes goes from one time to another [s], if it moves [m].
-  [[nodiscard]] virtual Eigen::Vector3d displacement(double /*from*/, double /*to*/) const {
-    return Eigen::Vector3d::Zero();
-  }
 };
 
 /// A change of the velocity at the end of a step.
@@ -118,13 +110,20 @@ struct MotionFilter {
   /// time + h [s]. Leaves the rows of pinned vertices as they are. What it keeps between calls is memory only: the
   /// result depends on the arguments alone.
   virtual void apply(const Vertices& x, double time, double h, Vertices& v) = 0;
+  /// Lets what it is for hold again where other filters have changed v since, as a part of the same change: the filters
+  /// of a step take turns until nothing is left to change. Returns whether it has changed v.
+  virtual bool adjust(const Vertices& /*x*/, double /*time*/, double /*h*/, Vertices& /*v*/) { return false; }
   /// Makes of the velocities with which the vertices have moved those that they have where they are now: what bounces
   /// on its way ends it with another velocity than it went with on average.
   virtual void finish(Vertices& /*v*/) {}
   /// How the last call held the cloth back, if the next step's will do so, too.
   [[nodiscard]] virtual const Restraint* restraint() const { return nullptr; }
   /// Whether the last call did all that the filter is for, rather than stop at its cap.
-  [[nodiscard]] virtual bool converged() const { return true; }
+  [[nodiscard]] virtual bool done() const { return true; }
+  /// Whether it did so, and no other filter has undone it since.
+  [[nodiscard]] bool converged() const { return settled_ && done(); }
+  /// Takes note of whether the filters of the step have come to an end together.
+  void note(bool settled) { settled_ = settled; }
 
   /// What to look at in the loops of apply().
   void heed(const Stop& stop) { stop_ = stop; }
@@ -135,6 +134,7 @@ struct MotionFilter {
 
  private:
   Stop stop_;
+  bool settled_ = true;
 };
 
 /// Something the cloth can touch, whose place is a function of time.
@@ -152,7 +152,6 @@ struct System {
   double step;                                        ///< h [s]
   double whole_step;                                  ///< that h is a part of [s]…
   std::int64_t substeps = 1;                          ///< …which has so many of them
-  bool impulses = false;                              ///< whether contact that is solved for is by ImpulseContact
   Stop stop = {};                                     ///< of everything that computes with it
   const Threads& threads;                             ///< that share what is worth dividing
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²], for the log's gravity column only
@@ -169,7 +168,7 @@ struct System {
   std::vector<std::unique_ptr<Correction>> corrections;
   std::vector<std::unique_ptr<MotionFilter>> filters;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;
-  std::vector<std::unique_ptr<ContactSource>> contacts;  ///< what the cloth can touch
+  std::vector<std::shared_ptr<ContactSource>> contacts;  ///< what the cloth can touch
   std::vector<PinMotion> pin_motions;                    ///< of pins that do not stay where they are
   std::vector<PinRelease> pin_releases;  ///< a simulation makes its system anew, without these pins, when it gets there
 
@@ -178,9 +177,6 @@ struct System {
 
   /// What no Hessian of the springs and the energies exceeds: the springs, then the energies one after another.
   [[nodiscard]] StiffnessBound stiffness_bound() const;
-
-  /// Whether every energy is the cloth's own, so that nothing which is solved for pushes it.
-  [[nodiscard]] bool all_internal() const;
 
   /// Where everything is that the cloth can touch, at a time [s].
   [[nodiscard]] std::vector<Collider> colliders_at(double at) const;

@@ -22,9 +22,9 @@ class Stopwatch {
 
 template <class Base>
 struct Timed : Base {
-  std::unique_ptr<Base> inner;
+  std::shared_ptr<Base> inner;
   double& seconds;
-  Timed(std::unique_ptr<Base> i, double& s) : inner(std::move(i)), seconds(s) {}
+  Timed(std::shared_ptr<Base> i, double& s) : inner(std::move(i)), seconds(s) {}
 };
 
 struct TimedForce final : Timed<Force> {
@@ -65,10 +65,6 @@ struct TimedEnergy final : Timed<Energy> {
   [[nodiscard]] std::unique_ptr<EnergyHessian> make_hessian() const override {
     return std::make_unique<TimedHessian>(inner->make_hessian(), seconds);
   }
-  [[nodiscard]] bool internal() const override { return inner->internal(); }
-  [[nodiscard]] Eigen::Vector3d displacement(double from, double to) const override {
-    return inner->displacement(from, to);
-  }
 };
 
 struct TimedCorrection final : Timed<Correction> {
@@ -89,12 +85,16 @@ struct TimedFilter final : Timed<MotionFilter> {
     const Stopwatch watch(seconds);
     inner->apply(x, time, h, v);
   }
+  bool adjust(const Vertices& x, double time, double h, Vertices& v) override {
+    const Stopwatch watch(seconds);
+    return inner->adjust(x, time, h, v);
+  }
   void finish(Vertices& v) override {
     const Stopwatch watch(seconds);
     inner->finish(v);
   }
   [[nodiscard]] const Restraint* restraint() const override { return inner->restraint(); }
-  [[nodiscard]] bool converged() const override { return inner->converged(); }
+  [[nodiscard]] bool done() const override { return inner->done(); }
 };
 
 struct TimedContacts final : Timed<ContactSource> {
@@ -110,8 +110,8 @@ struct TimedContacts final : Timed<ContactSource> {
   }
 };
 
-template <class TimedKind, class Base>
-void wrap(std::vector<std::unique_ptr<Base>>& list, std::size_t from, double& seconds) {
+template <class TimedKind, class List>
+void wrap(List& list, std::size_t from, double& seconds) {
   for (std::size_t i = from; i < list.size(); ++i) list[i] = std::make_unique<TimedKind>(std::move(list[i]), seconds);
 }
 

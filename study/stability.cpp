@@ -24,9 +24,10 @@ constexpr double spring_stiffness = 180;  // where the push is varied [N/m]
 constexpr double depth = 0.01;            // to which it lies in the ground [m]
 constexpr double disturbance = 1e-4;      // how far it swings there [m]
 
-/// A level ground at height 0, without friction and a push like a spring, of this stiffness [1/s²].
-Ground ground(double stiffness, Response response) {
-  return {.thickness = 0, .stiffness = stiffness, .response = response, .friction = 0, .restitution = std::nullopt};
+/// A push like a spring, of this stiffness [1/s²], by a sphere so large that it is a level ground at height 0.
+Sphere ground(double stiffness) {
+  constexpr double radius = 1e6;
+  return {.center = Eigen::Vector3d(0, 0, -radius), .radius = radius, .scale = 1, .stiffness = stiffness};
 }
 
 /// What the ground's push holds, Σ m·stiffness/2·depth² [J].
@@ -61,7 +62,7 @@ StabilityMap empty_map(StepMethod method, StabilityAxis axis, const StabilityDet
       axis == StabilityAxis::springs ? decades(1e-2, 1e9, detail.per_decade) : decades(1, 1e9, detail.per_decade);
   for (const double stiffness : map.stiffnesses) map.limits.push_back(stability_limit(method, axis, stiffness));
   map.limit_name = is_explicit(method.method)             ? "safe step"
-                   : axis == StabilityAxis::explicit_push ? "step·√stiffness = 2"
+                   : axis == StabilityAxis::push ? "step·√stiffness = 2"
                                                           : "condition 1e14";
   map.cells.resize(map.steps.size() * map.stiffnesses.size());
   return map;
@@ -77,7 +78,7 @@ std::vector<StabilityBorder> empty_borders() {
   }
   for (const StepMethod method : step_methods) {
     for (const double stiffness : {1e2, 1e4, 1e6, 1e8}) {
-      borders.push_back({method, StabilityAxis::explicit_push, stiffness});
+      borders.push_back({method, StabilityAxis::push, stiffness});
     }
   }
   return borders;
@@ -124,8 +125,7 @@ SimulationSettings stability_cloth(StepMethod method, StabilityAxis axis, double
   settings.integrator.tolerance = 1e-6;
   settings.effects = {Gravity{.acceleration = {0, 0, pushed ? -stiffness * depth : -9.8}}};
   if (pushed) {
-    settings.effects.add(
-        ground(stiffness, axis == StabilityAxis::explicit_push ? Response::explicit_force : Response::implicit_energy));
+    settings.effects.add(ground(stiffness));
     lay(settings.cloth, stiffness);
   }
   return settings;
@@ -135,7 +135,7 @@ double stability_limit(StepMethod method, StabilityAxis axis, double stiffness) 
   const SimulationSettings settings = stability_cloth(method, axis, 1, stiffness);
   const System system = make_system(settings);
   if (is_explicit(method.method)) return safe_step(system);
-  if (axis == StabilityAxis::explicit_push) return 2 / std::sqrt(stiffness);
+  if (axis == StabilityAxis::push) return 2 / std::sqrt(stiffness);
   return std::sqrt(largest_condition / (condition_bound(system) - 1));
 }
 
@@ -197,12 +197,8 @@ StabilityBorder stability_border(StepMethod method, StabilityAxis axis, double s
 
 StabilityStudy plan_stability(const StabilityDetail& detail) {
   StabilityStudy study{.detail = detail, .maps = {}, .borders = empty_borders(), .energies = energy_curves()};
-  for (const StabilityAxis axis :
-       {StabilityAxis::springs, StabilityAxis::explicit_push, StabilityAxis::implicit_push}) {
-    for (const StepMethod method : step_methods) {
-      if (is_explicit(method.method) && axis == StabilityAxis::implicit_push) continue;
-      study.maps.push_back(empty_map(method, axis, detail));
-    }
+  for (const StabilityAxis axis : {StabilityAxis::springs, StabilityAxis::push}) {
+    for (const StepMethod method : step_methods) study.maps.push_back(empty_map(method, axis, detail));
   }
   return study;
 }

@@ -32,7 +32,7 @@ struct StabilityCell {
 };
 
 /// What is varied beside the step.
-enum class StabilityAxis { springs, explicit_push, implicit_push };
+enum class StabilityAxis { springs, push };
 
 /// A method over step lengths and stiffnesses, ascending; the cells row by row, the steps of a row together.
 struct StabilityMap {
@@ -74,7 +74,7 @@ struct StabilityStudy {
 SimulationSettings stability_cloth(StepMethod method, StabilityAxis axis, double step, double stiffness);
 
 /// The largest step that is predicted to be possible: safe_step() for the explicit methods, 2/√stiffness for an
-/// explicit push with the other methods, and else what condition_bound() allows [s].
+/// push with the other methods, and else what condition_bound() allows [s].
 double stability_limit(StepMethod method, StabilityAxis axis, double stiffness);
 
 /// Runs that cloth and says what became of it.

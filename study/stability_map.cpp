@@ -67,8 +67,7 @@ Markup sign(const StabilityCell& cell, double x, double y) {
 
 const char* axes_title(StabilityAxis axis) {
   constexpr const char* titles[] = {"step and stiffness of the springs",
-                                    "step and stiffness of a ground's explicit push",
-                                    "step and stiffness of a ground's implicit push"};
+                                    "step and stiffness of a push"};
   return titles[static_cast<std::size_t>(axis)];
 }
 
@@ -152,7 +151,7 @@ std::string map_title(const StabilityMap& map) {
 }
 
 std::string map_name(const StabilityMap& map) {
-  constexpr const char* axes[] = {"springs", "explicit-push", "implicit-push"};
+  constexpr const char* axes[] = {"springs", "push"};
   return fmt::format("{}-{}", step_method_name(map.method), axes[static_cast<std::size_t>(map.axis)]);
 }
 

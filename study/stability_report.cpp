@@ -36,7 +36,7 @@ ResultTable border_table(const std::vector<StabilityBorder>& borders) {
                 "2/√stiffness of the push. Measured: the longest step with which 2000 steps do not blow up."}};
   for (const StabilityBorder& b : borders) {
     const bool springs = b.axis == StabilityAxis::springs;
-    table.rows.push_back({step_method_name(b.method), springs ? "springs" : "explicit push",
+    table.rows.push_back({step_method_name(b.method), springs ? "springs" : "push",
                           fmt::format("{:g} {}", b.stiffness, springs ? "N/m" : "1/s²"),
                           fmt::format("{:.4g}", b.predicted), fmt::format("{:.4g}", b.measured),
                           fmt::format("{:.3f}", ratio(b))});
@@ -81,8 +81,7 @@ StudyReport stability_report(const StabilityStudy& study) {
       "The cloth, with springs of 180 N/m, rests 1 cm deep in a level ground under an acceleration that the push just "
       "balances, and oscillates by 0.1 mm.";
   report.sections = {section(study, StabilityAxis::springs, "Springs", hangs),
-                     section(study, StabilityAxis::explicit_push, "Explicit push, evaluated once per step", lies),
-                     section(study, StabilityAxis::implicit_push, "Implicit push, solved for in each step", lies),
+                     section(study, StabilityAxis::push, "Push of a sphere, evaluated once per step", lies),
                      {"Limits of stability", {}, {border_table(study.borders)}, {}, {}},
                      {"Energy over time", {describe_energies(study.energies)}, {}, {energy_chart(study.energies)}, {}}};
   report.seconds = study.seconds;

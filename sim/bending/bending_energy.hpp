@@ -20,7 +20,6 @@ class BendingEnergy final : public Energy {
   double add_gradient(const Vertices& x, double time, Vertices& gradient) const override;
   void add_bound(StiffnessBound& bound) const override;
   [[nodiscard]] std::unique_ptr<EnergyHessian> make_hessian() const override;
-  [[nodiscard]] bool internal() const override { return true; }
 
   /// The pairs of vertices that it couples, sorted.
   [[nodiscard]] const std::vector<Spring>& pairs() const { return quadratic_.springs(); }

@@ -1,10 +1,21 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
-#include "sim/collision/contacts.hpp"
+#include "sim/collision/distance.hpp"
 
 namespace drape {
+
+/// Velocities of vertices, which zones change.
+struct MovingVertices {
+  std::vector<Point> velocities;       ///< [m/s]
+  std::vector<double> inverse_masses;  ///< 0 for a pin [1/kg]
+
+  [[nodiscard]] Point velocity(int i) const { return velocities[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] double inverse_mass(int i) const { return inverse_masses[static_cast<std::size_t>(i)]; }
+};
 
 /// Groups of vertices that move as rigid bodies for one step: the way out where impulses do not settle a pile of
 /// collisions (Provot 1997; Bridson, Fedkiw and Anderson 2002, section 7.5; Harmon et al. 2008). A group has the linear

@@ -64,6 +64,12 @@ struct ContactConstraint {
     }
     return moved > 0 && moved >= least_free * all;
   }
+  /// Returns true if one of the features is an obstacle's.
+  [[nodiscard]] bool with_obstacle() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) sum += weights[i];
+    return std::abs(sum) > 0.5;
+  }
   /// d(x) [m].
   [[nodiscard]] Eigen::Vector3d place(const Vertices& x) const { return gather(x) + offset; }
   /// to[vertices] += weights·value.

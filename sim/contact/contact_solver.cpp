@@ -278,15 +278,20 @@ void ContactSolver::choose_start(ContactProblem& problem, const Vertices& steady
     find_radii(at.x, false);
     return assess(problem, at).value;
   };
-  const double value = value_of(point);
-  trial_.x = steady;
-  trial_.value = problem.evaluate(trial_.x, trial_.gradient);
-  find(trial_.x, true);
-  if (value_of(trial_) < value) {
+  double value = value_of(point);
+  const auto consider = [&](const Vertices& x) {
+    trial_.x = x;
+    for (const int pin : system_.cloth.pins) trial_.x.row(pin) = steady.row(pin);
+    trial_.value = problem.evaluate(trial_.x, trial_.gradient);
+    find(trial_.x, true);
+    const double other = value_of(trial_);
+    if (!(other < value)) return;
+    value = other;
     std::swap(point, trial_);
-  } else {
-    find(point.x, true);
-  }
+  };
+  consider(steady);
+  if (problem.exact()) consider(start_);
+  find(point.x, true);
 }
 
 StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accuracy, int most_iterations,
@@ -294,7 +299,7 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
   StepReport report;
   report.converged = false;
   bool settled = false, updated = false;
-  double steepness = 0;
+  double steepness = 0, moved = std::numeric_limits<double>::infinity();
   concavity_ = damping_ = 0;
   for (;; ++report.iterations) {
     problem.linearise(point.x, 0, damping_);
@@ -317,15 +322,17 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
     if (length == 0 && !now.collides) break;
     if (length < 0.5) damping_ = std::min(1.0, std::max(damping_growth * damping_, least_damping));
     if (length == 1) damping_ = damping_ <= least_damping ? 0 : damping_ / damping_growth;
-    const double moved = longest(direction_);
-    settled = moved <= tolerance;
-    updated = moved <= std::max(tolerance, worth_an_update * slack(point.x));
+    const double step = longest(direction_);
+    if (problem.exact()) moved = step;
+    settled = step <= tolerance;
+    updated = step <= std::max(tolerance, worth_an_update * slack(point.x));
     if (updated) {
       for (ContactConstraint& contact : contacts_) contact.force = respond(contact, point.x).force;
     }
     find(point.x, updated);
   }
   retreat(problem, point);
+  error_ = std::min(assess(problem, point).error, moved);
   return report;
 }
 
@@ -338,9 +345,9 @@ double ContactSolver::slack(const Vertices& x) const {
 void ContactSolver::go_with_obstacles(Vertices& x) {
   for (const ContactConstraint& contact : contacts_) {
     if (!contact.collides) continue;
+    if (!contact.with_obstacle()) continue;
     double weight = 0;
     for (Index i = 0; i < static_cast<Index>(contact.count); ++i) weight += contact.weights[i];
-    if (std::abs(weight) < 0.5) continue;  // of the cloth with itself
     const Eigen::RowVector3d way = -contact.carried.transpose() / weight;
     for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
       const int vertex = contact.vertices[i];
@@ -376,7 +383,7 @@ double ContactSolver::work(const Vertices& x, bool converged) const {
 }
 
 bool ContactSolver::touches_obstacles() const {
-  return std::ranges::any_of(contacts_, [](const ContactConstraint& contact) { return contact.count < 4; });
+  return std::ranges::any_of(contacts_, [](const ContactConstraint& contact) { return contact.with_obstacle(); });
 }
 
 bool ContactSolver::carried() const {

@@ -41,7 +41,8 @@ class ContactSolver {
   /// step goes back on its straight way until none do, and counts as not converged.
   StepReport solve(ContactProblem& problem, const Accuracy& accuracy, int most_iterations, Iterate& point);
 
-  /// Sets the point to where cloth would go that keeps its velocities, if the augmented function is less there.
+  /// Sets the point to where cloth would go that keeps its velocities, or stays where it is, if the augmented function
+  /// is less there: vertices that are stopped one by one compress springs that stop all of them at once.
   /// @param steady that place, n×3 [m]
   void choose_start(ContactProblem& problem, const Vertices& steady, Iterate& point);
 
@@ -61,6 +62,10 @@ class ContactSolver {
   void rebound(const Vertices& before, double h, Vertices& v) const;
 
   [[nodiscard]] const std::vector<ContactConstraint>& contacts() const { return contacts_; }
+  /// What the last solve has left out of balance, the contacts' forces included, n×3 [N].
+  [[nodiscard]] const Vertices& residual() const { return gradient_; }
+  /// How far the worst vertex was from the minimum there, estimated [m].
+  [[nodiscard]] double error() const { return error_; }
 
  private:
   /// What a contact does at x.
@@ -113,6 +118,7 @@ class ContactSolver {
   std::vector<char> free_;   // whether each vertex can move
   double longest_move_ = 0;  // of a vertex in an iteration: an edge [m]
   double damping_ = 0;       // of the Hessian's bound, added to it
+  double error_ = 0;         // of the last solve [m]
   double concavity_ = 0;     // share of the Hessian's negative eigenvalues
   std::vector<ContactConstraint> contacts_, before_, held_;
   std::vector<Response> responses_;

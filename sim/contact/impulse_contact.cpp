@@ -25,7 +25,7 @@ Eigen::Vector3d limited(const Eigen::Vector3d& across, double most) {
 
 }  // namespace
 
-ImpulseContact::ImpulseContact(std::vector<std::unique_ptr<ContactSource>> sources, const Cloth& cloth,
+ImpulseContact::ImpulseContact(std::vector<std::shared_ptr<ContactSource>> sources, const Cloth& cloth,
                                const Eigen::Vector3d& gravity)
     : sources_(std::move(sources)), gravity_(gravity) {
   for (const double mass : cloth.masses) inverse_masses_.push_back(1 / mass);
@@ -46,7 +46,30 @@ void ImpulseContact::apply(const Vertices& x, double time, double h, Vertices& v
   target_ = unhindered_;
   mean_ = v;
   find();
-  if (impulses_.empty()) return;
+  if (!impulses_.empty()) settle(v);
+}
+
+bool ImpulseContact::adjust(const Vertices& x, double, double h, Vertices& v) {
+  const Vertices own = target_ - unhindered_;
+  target_ = x + h * v;
+  unhindered_ = target_ - own;
+  if (!target_.allFinite()) return false;
+  mean_ = (unhindered_ - x) / h;
+  find();
+  if (!violated()) return false;
+  settle(v);
+  return true;
+}
+
+bool ImpulseContact::violated() const {
+  return std::ranges::any_of(impulses_, [&](const Impulse& impulse) {
+    const ContactConstraint& contact = impulse.contact;
+    const double missing = contact.distance + impulse.gap_at_end - contact.place(target_).dot(contact.normal);
+    return contact.collides || missing > settled_share * contact.distance + least_correction;
+  });
+}
+
+void ImpulseContact::settle(Vertices& v) {
   bool found = false;
   for (int round = 0; round < most_contact_rounds; ++round) {
     look_at_stop();
@@ -62,7 +85,7 @@ void ImpulseContact::apply(const Vertices& x, double time, double h, Vertices& v
   }
   if (!found) hold();
   for (Eigen::Index i = 0; i < v.rows(); ++i) {
-    if (target_.row(i) != unhindered_.row(i)) v.row(i) = (target_.row(i) - x.row(i)) / h;
+    if (target_.row(i) != unhindered_.row(i)) v.row(i) = (target_.row(i) - x_->row(i)) / h_;
   }
 }
 

@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-#include "sim/collision/contacts.hpp"
 #include "sim/collision/rigid_zones.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/system.hpp"
@@ -28,13 +27,14 @@ namespace drape {
 class ImpulseContact final : public MotionFilter {
  public:
   /// @param gravity on free parabolas, on which what bounces arrives and leaves [m/s²]
-  ImpulseContact(std::vector<std::unique_ptr<ContactSource>> sources, const Cloth& cloth,
+  ImpulseContact(std::vector<std::shared_ptr<ContactSource>> sources, const Cloth& cloth,
                  const Eigen::Vector3d& gravity);
 
   void begin(const State& state, double time) override;
   void apply(const Vertices& x, double time, double h, Vertices& v) override;
+  bool adjust(const Vertices& x, double time, double h, Vertices& v) override;
   void finish(Vertices& v) override;
-  [[nodiscard]] bool converged() const override { return converged_; }
+  [[nodiscard]] bool done() const override { return converged_; }
 
  private:
   /// A contact with what it has done to the step.
@@ -45,6 +45,10 @@ class ImpulseContact final : public MotionFilter {
     double turned;              ///< by how much its bounce changes the mean velocity afterwards [m/s]
   };
   void find();
+  /// Solves from the contacts that are found, and finds more, until none is missed; has the vertices end there.
+  void settle(Vertices& v);
+  /// Returns true if the target lies where a contact forbids it.
+  [[nodiscard]] bool violated() const;
   /// Prepares the bounce of a contact that arrives.
   void plan_bounce(Impulse& impulse) const;
   /// Starts from the unhindered target with the forces that are known.
@@ -61,7 +65,7 @@ class ImpulseContact final : public MotionFilter {
   /// Lets the vertices of a contact go as its obstacle does. Returns whether any did not yet.
   bool hold_with_obstacle(const ContactConstraint& contact, std::vector<Point>& velocities);
 
-  std::vector<std::unique_ptr<ContactSource>> sources_;
+  std::vector<std::shared_ptr<ContactSource>> sources_;
   Eigen::Vector3d gravity_;
   std::vector<double> inverse_masses_;  // 0 on pins [1/kg]
   std::vector<char> free_;              // whether each vertex can move

@@ -2,65 +2,17 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "core/keys.hpp"
-#include "sim/collision/body_contact.hpp"
-#include "sim/collision/foot_memory.hpp"
 #include "sim/contact/mesh_contacts.hpp"
 #include "sim/effects/contact.hpp"
 #include "sim/effects/motion_keys.hpp"
+#include "sim/system.hpp"
 
 namespace drape {
 namespace {
-
-/// A body at one moment, with the layer in which it pushes.
-struct BodyLayer {
-  BodyAt body;
-  double thickness;
-  FootMemory& feet;  // of each vertex
-
-  bool find(Eigen::Index vertex, const Eigen::Vector3d& point, SurfaceContact& contact) const {
-    Foot foot;
-    if (!feet.find(*body.mesh, static_cast<std::size_t>(vertex), body.pose.in(point), foot)) return false;
-    contact.outward = body.pose.turn * foot.normal;
-    contact.length = 1;
-    contact.gap = foot.distance - thickness;
-    contact.triangle = foot.triangle;
-    contact.weights = foot.weights;
-    return true;
-  }
-  [[nodiscard]] double gap(const Eigen::Vector3d& point) const { return nearest(point).distance - thickness; }
-  [[nodiscard]] Eigen::Vector3d normal(const Eigen::Vector3d& point) const {
-    return body.pose.turn * nearest(point).normal;
-  }
-
- private:
-  [[nodiscard]] Foot nearest(const Eigen::Vector3d& point) const {
-    return body.mesh->find(body.pose.in(point), std::numeric_limits<double>::infinity()).value_or(Foot{});
-  }
-};
-
-struct BodyWay {
-  MovingBody::Way way;
-
-  [[nodiscard]] Eigen::Vector3d of(const SurfaceContact& contact) const {
-    return way.of(contact.triangle, contact.weights);
-  }
-};
-
-struct BodySurface {
-  std::shared_ptr<const MovingBody> body;
-  double thickness;
-  std::shared_ptr<FootMemory> feet;
-
-  [[nodiscard]] BodyLayer at(double time) const { return {body->at(time), thickness, *feet}; }
-  [[nodiscard]] Eigen::Vector3d displacement(double from, double to) const { return body->displacement(from, to); }
-  [[nodiscard]] BodyWay way(double from, double to) const { return {MovingBody::Way(*body, from, to)}; }
-};
 
 struct DrawnBody final : ColliderMotion {
   std::shared_ptr<const MovingBody> body;
@@ -117,8 +69,8 @@ void Body::describe(Keys& keys) {
   keys.add("center", &center, "m",
            "Position of the box's centre, or the file's origin, at the start. Default: [0, 0, 0].");
   keys.add("rotate", &rotate, "degrees", "Rotates it about the fixed x axis, then y, then z, around `center`.");
-  keys.add("thickness", &thickness, "m", "Reach of the push: within this distance of the drawn surface.").above(0);
-  describe_contact(keys, stiffness, response, friction, restitution, "");
+  keys.add("thickness", &thickness, "m", "Distance that the cloth keeps from the drawn surface.").above(0);
+  describe_obstacle(keys, friction, &restitution);
   describe_motion(keys, "center", velocity, orbit_period, orbit_center, orbit_axis, keyframes, interpolation);
   keys.add(
       "rotations", KeyframeList{{"rotate"}, &turns}, "s, degrees",
@@ -126,7 +78,7 @@ void Body::describe(Keys& keys) {
       "0 s unless given then, and interpolated one by one: 720 is two turns.");
 }
 
-void Body::check(const SimulationSettings& settings, const ProblemSink& problem) const {
+void Body::check(const SimulationSettings&, const ProblemSink& problem) const {
   if (box && mesh) problem("box", "give only one of 'box' and 'file': each is the body's shape");
   if (shape && (box || mesh)) {
     const std::string& name = body_shape_names()[static_cast<std::size_t>(shape->kind)];
@@ -141,27 +93,14 @@ void Body::check(const SimulationSettings& settings, const ProblemSink& problem)
   if (center && !keyframes.empty()) problem("center", "'keyframes' already says where its centre is");
   if (orbit_period && !turns.empty()) problem("rotations", "omit them on an orbit: the body turns with it");
   check_orbit(orbit_period, orbit_axis, problem);
-  law(has_impulses(settings)).check(settings, problem);
 }
 
 void Body::install(System& system) const {
   const std::shared_ptr<const MovingBody> moving = body();
   const bool rests = !velocity && !orbit_period && keyframes.empty() && turns.empty() && !moving->deforms();
   system.colliders.push_back(std::make_unique<DrawnBody>(moving, thickness, rests));
-  const ContactLaw contact = law(system.impulses);
-  if (contact.response == Response::solved) {
-    const ContactTerms terms{thickness, friction, restitution.value_or(0)};
-    system.contacts.push_back(std::make_unique<BodyContacts>(moving, terms, system.cloth, system.threads));
-    return;
-  }
-  const auto feet = std::make_shared<FootMemory>(static_cast<std::size_t>(system.cloth.vertex_count()), thickness);
-  install_contact(BodySurface{moving, thickness, feet}, contact, system);
-  const BodyLaw limits{thickness, friction, std::sqrt(contact.stiffness)};
-  system.filters.push_back(std::make_unique<BodyContact>(moving, limits, system.cloth, system.threads));
-}
-
-ContactLaw Body::law(bool impulses) const {
-  return {stiffness, response_or_usual(response, impulses && !stiffness), friction, restitution};
+  const ContactTerms terms{thickness, friction, restitution};
+  system.contacts.push_back(std::make_unique<BodyContacts>(moving, terms, system.cloth, system.threads));
 }
 
 std::shared_ptr<const MovingBody> Body::body() const {

@@ -13,7 +13,6 @@
 
 #include "sim/body_shape.hpp"
 #include "sim/effects/effect.hpp"
-#include "sim/effects/response.hpp"
 #include "sim/keyframes.hpp"
 #include "sim/mesh_motion.hpp"
 #include "sim/sphere_track.hpp"
@@ -21,11 +20,8 @@
 namespace drape {
 
 class MovingBody;
-struct ContactLaw;
-
-/// A triangle mesh that the cloth collides with: it pushes the cloth's vertices out of a layer around it as a sphere
-/// does, and lets nothing through, however far it moves in a step, see BodyContact. A closed mesh is solid, another is
-/// a shell with two sides that are alike. It rests at `center`, or moves as a whole in one of three ways: straight on,
+/// A triangle mesh that the cloth collides with: it lets nothing through, however far it moves in a step, see
+/// BodyContacts. A closed mesh is solid, another is a shell with two sides that are alike. It rests at `center`, or moves as a whole in one of three ways: straight on,
 /// on an orbit with which it turns, or on keyframes. It may turn around its place on the way, and change its shape.
 struct Body {
   static constexpr std::string_view name = "body";
@@ -38,12 +34,10 @@ struct Body {
   std::string prim = {};                             ///< which mesh of its file it is; for whoever reads that
   std::optional<Eigen::Vector3d> center = {};        ///< where the shape's origin is at 0 s; usually the world's [m]
   Eigen::Vector3d rotate = Eigen::Vector3d::Zero();  ///< about the fixed x axis, then y, then z [degrees]
-  double thickness = 0.01;                           ///< of the layer around it in which it pushes [m]
+  double thickness = 0.01;                           ///< distance that the cloth keeps from it [m]
 
-  std::optional<double> stiffness = {};   ///< of the push [1/s²]; absent: usual_stiffness, if anything pushes
-  std::optional<Response> response = {};  ///< absent: an explicit push with `stiffness`, else see response_or_usual()
-  double friction = 0.5;                  ///< Coulomb's coefficient
-  std::optional<double> restitution = 0;  ///< of impacts, 0 to 1; without one the push gives back what it takes
+  double friction = 0.5;   ///< Coulomb's coefficient
+  double restitution = 0;  ///< of impacts, 0 to 1
 
   std::optional<Eigen::Vector3d> velocity = {};   ///< straight on [m/s]
   std::optional<double> orbit_period = {};        ///< of a turn, not 0; negative: the other way round [s]
@@ -59,8 +53,6 @@ struct Body {
   void install(System& system) const;
 
  private:
-  /// @param impulses whether the method is explicit, see response_or_usual()
-  [[nodiscard]] ContactLaw law(bool impulses) const;
   [[nodiscard]] std::shared_ptr<const MovingBody> body() const;
   [[nodiscard]] std::shared_ptr<const SphereTrack> path(const std::optional<Orbit>& orbit) const;
 };

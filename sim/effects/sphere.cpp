@@ -1,52 +1,53 @@
 #include "sim/effects/sphere.hpp"
 
-#include <cmath>
+#include <fmt/format.h>
 
-#include "core/keys.hpp"
+#include <cmath>
+#include <utility>
+
 #include "sim/contact/obstacles.hpp"
 #include "sim/contact/surface_contacts.hpp"
 #include "sim/effects/contact.hpp"
 #include "sim/effects/motion_keys.hpp"
+#include "sim/parallel/vectors.hpp"
+#include "sim/settings.hpp"
+#include "sim/system.hpp"
 
 namespace drape {
 namespace {
 
-/// At the centre itself no direction leads outwards.
-struct Ball {
-  Eigen::Vector3d center;
-  double radius;
-
-  bool find(const Eigen::Vector3d& point, SurfaceContact& contact) const {
-    contact.outward = point - center;
-    const Eigen::Vector3d& d = contact.outward;
-    const double squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    if (squared >= radius * radius || squared == 0) return false;
-    contact.length = std::sqrt(squared);
-    contact.gap = contact.length - radius;
-    return true;
-  }
-  [[nodiscard]] double gap(const Eigen::Vector3d& point) const { return (point - center).norm() - radius; }
-  [[nodiscard]] Eigen::Vector3d normal(const Eigen::Vector3d& point) const { return (point - center).normalized(); }
-};
-
-/// How far beyond its centre a sphere pushes: scale·radius + thickness, of which one is 1 or 0.
+/// How far beyond its centre a sphere reaches: scale·radius + thickness, of which one is 1 or 0.
 struct Reach {
   double scale, thickness;
 
   [[nodiscard]] double of(double radius) const { return scale * radius + thickness; }
 };
 
-/// The homework's penalty, a = k·max(s·r − ‖x−c‖, 0)·(x−c)/‖x−c‖, comes from the ball of s·r around c.
-struct SphereSurface {
+/// The homework's penalty, a = k·max(s·r − ‖x−c‖, 0)·(x−c)/‖x−c‖. At the centre itself no direction leads outwards.
+struct PenaltyForce final : Force {
   std::shared_ptr<const SphereTrack> track;
   Reach reach;
+  double stiffness;
+  const Eigen::VectorXd& masses;
+  const Threads& threads;
 
-  [[nodiscard]] Ball at(double time) const {
+  PenaltyForce(std::shared_ptr<const SphereTrack> t, const Reach& r, double k, const System& system)
+      : track(std::move(t)), reach(r), stiffness(k), masses(system.cloth.masses), threads(system.threads) {}
+
+  [[nodiscard]] double stiffness_bound() const override { return stiffness; }
+  [[nodiscard]] bool of_contact() const override { return true; }
+
+  void add(const State& state, double time, Vertices& force) const override {
     const SphereShape shape = track->at(time);
-    return {shape.center, reach.of(shape.radius)};
-  }
-  [[nodiscard]] Eigen::Vector3d displacement(double from, double to) const {
-    return track->at(to).center - track->at(from).center;
+    const double radius = reach.of(shape.radius);
+    for_all(threads, state.x.rows(), [&](Eigen::Index i) {
+      const Eigen::Vector3d d = state.x.row(i).transpose() - shape.center;
+      const double squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+      if (squared >= radius * radius || squared == 0) return;
+      const double length = std::sqrt(squared), gap = length - radius;
+      const double pressure = -masses[i] * stiffness * gap / length;
+      force.row(i) += pressure * d.transpose();
+    });
   }
 };
 
@@ -69,10 +70,13 @@ struct TrackedSphere final : ColliderMotion {
 void Sphere::describe(Keys& keys) {
   keys.add("center", &center, "m", "Position of its centre at the start.").must_be_given_unless({"keyframes", "track"});
   keys.add("radius", &radius, "m", "Its radius, as drawn.").must_be_given_unless({"track"}).above(0);
-  keys.add("scale", &scale, "", "Reach of the push: within scale·radius of the centre. Default: 1.1.").at_least(1);
-  keys.add("thickness", &thickness, "m", "Or its reach beyond the radius, whatever that is, in place of `scale`.")
+  keys.add("scale", &scale, "", "The cloth keeps scale·radius from the centre. Default: 1.1.").at_least(1);
+  keys.add("thickness", &thickness, "m", "Or this distance from the drawn surface, whatever the radius.").at_least(0);
+  describe_obstacle(keys, friction, &restitution);
+  keys.add("stiffness", &stiffness, "1/s²",
+           "Of a push instead of contact, which is what a sphere without `friction`, `restitution` and `thickness` is: "
+           "outward acceleration per metre of depth within its reach, evaluated once per step. Default: 8000.")
       .at_least(0);
-  describe_contact(keys, stiffness, response, friction, restitution, "; if omitted, the push acts as a spring");
   describe_motion(keys, "center", velocity, orbit_period, orbit_center, orbit_axis, keyframes, interpolation);
   keys.add("track", OwnForm{"file", &track}, "",
            "ASCII USD file whose first moving Mesh or Sphere it follows, position and size. The file's start time code "
@@ -96,7 +100,25 @@ void Sphere::check(const SimulationSettings& settings, const ProblemSink& proble
     problem("track", "the moving object in this file has no size: also give the 'radius'");
   }
   check_orbit(orbit_period, orbit_axis, problem);
-  law(has_impulses(settings)).check(settings, problem);
+  if (pushes()) return check_push(settings, problem);
+  if (stiffness) {
+    problem("stiffness",
+            "is of a push, which has neither friction nor restitution nor thickness: omit it, or all of these");
+  }
+}
+
+void Sphere::check_push(const SimulationSettings& settings, const ProblemSink& problem) const {
+  // A vertex on the explicit penalty is a harmonic oscillator of frequency √k, which every step that evaluates the
+  // force at its start turns unstable beyond h·√k = 2, whatever the method does with the springs.
+  // Substeps are short enough, those of an accuracy and those that are chosen.
+  if (settings.accuracy || settings.integrator.method == Method::automatic) return;
+  const double h = settings.step / settings.integrator.substep_count();
+  const double k = stiffness.value_or(usual_stiffness), product = h * std::sqrt(k);
+  if (product <= 2) return;
+  problem("stiffness",
+          fmt::format("a push is unstable where step·√stiffness > 2, and here it is {:.3g}: with step = "
+                      "{:g} s the stiffness can be at most {:.4g}, or with this stiffness the step at most {:.3g} s",
+                      product, h, 4 / (h * h), 2 / std::sqrt(k)));
 }
 
 void Sphere::install(System& system) const {
@@ -104,20 +126,13 @@ void Sphere::install(System& system) const {
   const Reach reach = thickness ? Reach{1, *thickness} : Reach{scale.value_or(usual_scale), 0};
   const bool rests = !velocity && !orbit_period && keyframes.empty() && track == nullptr;
   system.colliders.push_back(std::make_unique<TrackedSphere>(moving, reach, rests));
-  const ContactLaw contact = law(system.impulses);
-  if (contact.response == Response::solved) {
-    const ContactTerms terms{reach.thickness, friction, restitution.value_or(0)};
-    system.contacts.push_back(
-        std::make_unique<SurfaceContacts<BallObstacle>>(BallObstacle{moving, reach.scale}, terms));
+  if (pushes()) {
+    const double k = stiffness.value_or(usual_stiffness);
+    system.forces.push_back(std::make_unique<PenaltyForce>(moving, reach, k, system));
     return;
   }
-  install_contact(SphereSurface{moving, reach}, contact, system);
-}
-
-ContactLaw Sphere::law(bool impulses) const {
-  // The homework's penalty is a push and nothing else.
-  const bool pushes = stiffness || (friction == 0 && !restitution && !thickness);
-  return {stiffness, response_or_usual(response, impulses && !pushes), friction, restitution};
+  const ContactTerms terms{reach.thickness, friction, restitution.value_or(0)};
+  system.contacts.push_back(std::make_unique<SurfaceContacts<BallObstacle>>(BallObstacle{moving, reach.scale}, terms));
 }
 
 std::shared_ptr<const SphereTrack> Sphere::motion() const {

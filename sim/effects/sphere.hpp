@@ -9,16 +9,14 @@
 #include <vector>
 
 #include "sim/effects/effect.hpp"
-#include "sim/effects/response.hpp"
 #include "sim/keyframes.hpp"
 #include "sim/sphere_track.hpp"
 
 namespace drape {
 
-struct ContactLaw;
-
-/// A sphere that pushes the cloth out of it with the acceleration stiffness·(reach − ‖x − center‖), the homework's
-/// penalty, whose reach is scale·radius or radius + thickness. It rests at `center`, or moves in one of four ways:
+/// A sphere that the cloth touches at its reach, which is scale·radius or radius + thickness. One without friction,
+/// restitution and thickness is the homework's penalty instead: it pushes the cloth out with the acceleration
+/// stiffness·(reach − ‖x − center‖). It rests at `center`, or moves in one of four ways:
 /// straight on, on an orbit, on keyframes, or on a track.
 struct Sphere {
   static constexpr std::string_view name = "sphere";
@@ -28,14 +26,12 @@ struct Sphere {
 
   std::optional<Eigen::Vector3d> center = {};  ///< at 0 s [m]; without one, keyframes or a track say where it is
   std::optional<double> radius = {};           ///< as it is drawn, above 0 [m]; may be left to a track
-  std::optional<double> scale = {};      ///< it pushes within scale·radius of the centre; at least 1, usually 1.1
+  std::optional<double> scale = {};      ///< it reaches to scale·radius from the centre; at least 1, usually 1.1
   std::optional<double> thickness = {};  ///< or this far beyond its radius [m]
 
-  std::optional<double> stiffness = {};  ///< of the push [1/s²]; absent: usual_stiffness, if anything pushes
-  std::optional<Response> response =
-      {};  ///< absent: an explicit push with `stiffness` or where it neither rubs nor bounces nor has a `thickness`
+  std::optional<double> stiffness = {};    ///< of the push, usually 8000 [1/s²]
   double friction = 0;                     ///< Coulomb's coefficient
-  std::optional<double> restitution = {};  ///< of impacts, 0 to 1; without one the push gives back what it takes
+  std::optional<double> restitution = {};  ///< of impacts, 0 to 1; contact has none without
 
   std::optional<Eigen::Vector3d> velocity = {};   ///< straight on [m/s]
   std::optional<double> orbit_period = {};        ///< of a turn, not 0; negative: the other way round [s]
@@ -49,11 +45,13 @@ struct Sphere {
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;
   void install(System& system) const;
 
-  static constexpr double usual_scale = 1.1;  ///< where neither scale nor thickness says how far it pushes
+  static constexpr double usual_scale = 1.1;       ///< where neither scale nor thickness says how far it reaches
+  static constexpr double usual_stiffness = 8000;  ///< of the push [1/s²]
 
  private:
-  /// @param impulses whether the method is explicit, see response_or_usual()
-  [[nodiscard]] ContactLaw law(bool impulses) const;
+  /// Returns true if it is the homework's push and no contact.
+  [[nodiscard]] bool pushes() const { return friction == 0 && !restitution && !thickness; }
+  void check_push(const SimulationSettings& settings, const ProblemSink& problem) const;
   [[nodiscard]] std::shared_ptr<const SphereTrack> motion() const;
 };
 

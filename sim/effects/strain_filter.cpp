@@ -92,6 +92,25 @@ void StrainFilter::apply(const Vertices& x, double /*time*/, double h, Vertices&
   for (const Index k : active_) restraint_.tensions[spring_[k]] = -limited_[k].push / (h * h);
 }
 
+bool StrainFilter::adjust(const Vertices& x, double time, double h, Vertices& v) {
+  const double most = (1 + limits_.tolerance) * (1 + limits_.tolerance);
+  const double least = (1 - limits_.tolerance) * (1 - limits_.tolerance);
+  target_ = x + h * v;
+  const bool hold = std::ranges::all_of(ranges_, [&](const Range& range) {
+    const double squared = (target_.row(range.i) - target_.row(range.j)).squaredNorm();
+    return squared <= most * range.most && squared >= least * range.least;
+  });
+  if (hold) return false;
+  // Its own impulses are what it begins with, from where the cloth would go without them.
+  for (const int i : moved_) v.row(i) -= change_[Index(i)].transpose() / h;
+  expected_.clear();
+  for (const Index k : active_) {
+    if (limited_[k].push != 0) expected_.push_back({k, -limited_[k].push / (h * h)});
+  }
+  apply(x, time, h, v);
+  return true;
+}
+
 /// Undoes what the last step has left.
 void StrainFilter::forget() {
   for (const int i : moved_) {

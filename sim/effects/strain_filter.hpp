@@ -40,8 +40,9 @@ class StrainFilter final : public MotionFilter {
 
   void begin(const State& state, double time) override;
   void apply(const Vertices& x, double time, double h, Vertices& v) override;
+  bool adjust(const Vertices& x, double time, double h, Vertices& v) override;
   [[nodiscard]] const Restraint* restraint() const override { return &restraint_; }
-  [[nodiscard]] bool converged() const override { return converged_; }
+  [[nodiscard]] bool done() const override { return converged_; }
 
  private:
   using Index = std::size_t;

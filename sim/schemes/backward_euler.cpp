@@ -5,7 +5,20 @@
 namespace drape {
 
 BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver)
-    : MinimisingScheme(system, system.step, make_solver), books_(system, objective_, *solver_) {}
+    : MinimisingScheme(system, system.step, make_solver), books_(system, objective_, *solver_) {
+  if (!system.contacts.empty()) contact_.emplace(system);
+}
+
+StepReport BackwardEuler::solve_step(const Vertices& steady, const std::function<bool()>& may_end) {
+  if (!contact_) return solver_->minimise(point_, may_end);
+  if (!contact_->touches(point_.x)) {
+    const StepReport report = solver_->minimise(point_, may_end);
+    if (!contact_->touches(point_.x)) return report;
+  }
+  if (!problem_) problem_.emplace(system_, objective_, solver_->constant_factor(), solver_->hessian());
+  contact_->choose_start(*problem_, steady, point_);
+  return contact_->solve(*problem_, solver_->accuracy(), solver_->max_iterations(), point_);
+}
 
 double BackwardEuler::shed(bool held) {
   if (!contact_ || held) return books_.shed(point_, held);
@@ -15,6 +28,21 @@ double BackwardEuler::shed(bool held) {
   if (!contact_->collides(point_.x)) return part;
   point_ = end;
   return books_.shed(point_, true);
+}
+
+double BackwardEuler::residual() {
+  return touched_ ? norm(system_.threads, contact_->residual()) : MinimisingScheme::residual();
+}
+
+double BackwardEuler::error() { return touched_ ? contact_->error() : MinimisingScheme::error(); }
+
+double BackwardEuler::unbalanced() {
+  return touched_ ? contact_->residual().rowwise().norm().sum() : MinimisingScheme::unbalanced();
+}
+
+bool BackwardEuler::would_touch(const State& from, const Vertices& x) {
+  contact_->begin(from.x, system_.time(from.step), system_.time(from.step + 1));
+  return contact_->touches(x);
 }
 
 StepReport BackwardEuler::advance(State& state, StepForces& forces) {
@@ -32,7 +60,7 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   const auto minimise = [&] { return solve_step(steady, [this] { return !books_.gains(point_, true); }); };
   StepReport report = solve_with_fields(state, force, system_.time(state.step + 1), expected.late, begun, minimise);
   if (fields_) forces.note(fields_->end());
-  const bool touches = contact_ && !contact_->contacts().empty();
+  const bool touches = touched_ = contact_ && !contact_->contacts().empty();
   const bool held = touches && contact_->touches_obstacles();
   if (free_ && !held) balance_momentum(system_.cloth, objective_, point_);
   // A step that a small change ended has been looked at, unless it has just been moved.

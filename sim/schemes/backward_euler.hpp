@@ -1,5 +1,10 @@
 #pragma once
 
+#include <functional>
+#include <optional>
+
+#include "sim/contact/contact_solver.hpp"
+#include "sim/schemes/energy_books.hpp"
 #include "sim/schemes/minimising_scheme.hpp"
 
 namespace drape {
@@ -14,12 +19,27 @@ class BackwardEuler final : public MinimisingScheme {
 
   StepReport advance(State& state, StepForces& forces) override;
 
+  [[nodiscard]] double residual() override;
+  [[nodiscard]] double error() override;
+  [[nodiscard]] double unbalanced() override;
+
+  /// Returns true if a cloth that goes straight from a state to x in the step that begins there touches anything. There
+  /// must be something that it can touch.
+  [[nodiscard]] bool would_touch(const State& from, const Vertices& x);
+
  private:
   /// Goes back until the step gains nothing, on a way that nothing is in; returns what part of it is left.
   /// @param held whether contacts hold the cloth
   double shed(bool held);
 
+  /// Minimises the objective from the point, under the contacts of a step that began at contact_->begin().
+  /// @param steady where cloth would go that keeps its velocities; empty without contacts
+  StepReport solve_step(const Vertices& steady, const std::function<bool()>& may_end);
+
   EnergyBooks books_;
+  std::optional<ContactSolver> contact_;    // where the cloth can touch something
+  std::optional<ImplicitProblem> problem_;  // of contact, once there is any
+  bool touched_ = false;                    // whether the last step had any
 };
 
 }  // namespace drape

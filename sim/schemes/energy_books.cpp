@@ -45,7 +45,7 @@ Eigen::RowVector3d mean(const Cloth& cloth, const Vertices& v) {
 }
 
 bool is_free(const System& system) {
-  return system.cloth.pins.empty() && system.all_internal() && system.drag == nullptr;
+  return system.cloth.pins.empty() && system.drag == nullptr;
 }
 
 void balance_momentum(const Cloth& cloth, const StepObjective& objective, Iterate& point) {
@@ -60,7 +60,7 @@ EnergyBooks::EnergyBooks(const System& system, const StepObjective& objective, c
     : system_(system),
       objective_(objective),
       minimiser_(minimiser),
-      steady_(system.pin_motions.empty() && system.all_internal() && system.drag == nullptr),
+      steady_(system.pin_motions.empty() && system.drag == nullptr),
       springs_(system.energies.empty()) {}
 
 void EnergyBooks::begin(const State& state, const Vertices& last_end) {
@@ -82,8 +82,6 @@ void EnergyBooks::begin(const State& state, const Vertices& last_end) {
 }
 
 bool EnergyBooks::gains(const Iterate& point, bool tolerant) {
-  // What pushes may be moved, and give energy as it curves away from the cloth: only stopping early is looked at there.
-  if (!system_.all_internal() && !(given(point) > lost(point))) return false;
   const auto too_much = [&] {
     const double surplus = gain(point) - rounding(point);
     return surplus > 0 && !(tolerant && surplus <= tolerated(point));
@@ -116,17 +114,6 @@ double EnergyBooks::gain(const Iterate& point) const {
 double EnergyBooks::rounding(const Iterate& point) const {
   // h⁻¹Δx·M v is at most K and what the inertia holds at either end together.
   return objective_.rounding(point.value) + objective_.rounding(start_.value) + objective_.rounding(start_kinetic_);
-}
-
-double EnergyBooks::given(const Iterate& point) const {
-  return sum_of(system_.threads, point.x.rows(), [&](Eigen::Index first, Eigen::Index count) {
-    const auto part = [&](const Vertices& v, int axis) { return v.col(axis).segment(first, count).array(); };
-    double sum = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      sum += (part(point.gradient, axis) * (part(point.x, axis) - part(state_->x, axis))).sum();
-    }
-    return sum;
-  });
 }
 
 double EnergyBooks::lost(const Iterate& point) const {

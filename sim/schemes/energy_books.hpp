@@ -18,7 +18,7 @@ namespace drape {
 /// or that the forces take as much, −W. In proportion to speed it is what a tenth of the forces' size would give if it
 /// pushed along the way; it has no share in what the cloth has, so it cannot compound. Who stops at a gradient
 /// is given what that can do, tolerance·‖Δx‖, and who stops at an error δ what the forces that it leaves can do,
-/// Σ m/h² δ ‖Δxᵢ‖. Where something solved for pushes the cloth, B is not looked at.
+/// Σ m/h² δ ‖Δxᵢ‖.
 class EnergyBooks {
  public:
   EnergyBooks(const System& system, const StepObjective& objective, const Minimiser& minimiser);
@@ -47,8 +47,7 @@ class EnergyBooks {
   [[nodiscard]] double gain(const Iterate& point) const;
   /// The error that rounding can be expected to make in it [J].
   [[nodiscard]] double rounding(const Iterate& point) const;
-  /// ∇g·Δx, and ½‖v' − v‖²_M [J].
-  [[nodiscard]] double given(const Iterate& point) const;
+  /// ½‖v' − v‖²_M [J].
   [[nodiscard]] double lost(const Iterate& point) const;
   /// What a step that meets its tolerance may gain, see above [J].
   [[nodiscard]] double tolerated(const Iterate& point) const;

@@ -1,17 +1,8 @@
 #include "sim/schemes/explicit_step.hpp"
 
-#include <fmt/format.h>
-
-#include "core/error.hpp"
-
 namespace drape {
 
-Eigen::VectorXd explicit_pull(const System& system, const char* name) {
-  if (!system.all_internal()) {
-    throw UsageError(fmt::format(
-        "{} solves for nothing: it cannot have an energy that is, such as a contact with response = \"implicit\"",
-        name));
-  }
+Eigen::VectorXd explicit_pull(const System& system) {
   Eigen::VectorXd pull = -system.step * system.cloth.masses.cwiseInverse();
   for (const int pin : system.cloth.pins) pull[pin] = 0;
   return pull;

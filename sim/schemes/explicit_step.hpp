@@ -7,8 +7,7 @@ namespace drape {
 /// What the explicit schemes share.
 
 /// −h/m of each vertex, 0 on pins [s/kg]: by how much a gradient changes a velocity in a step.
-/// @param name of the scheme. @throws UsageError if the system has energies that are solved for
-Eigen::VectorXd explicit_pull(const System& system, const char* name);
+Eigen::VectorXd explicit_pull(const System& system);
 
 /// `force` with that of the energies at x and a time [N].
 /// @param scratch holds the sum, if there are any

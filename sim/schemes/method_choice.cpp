@@ -65,7 +65,7 @@ MethodChoice choose_method(const SimulationSettings& settings) {
     return choice;
   }
   const bool pushed = settings.step <= safe_step_of_pushes(system);
-  if (!system.all_internal() || !allowed(settings, Method::verlet, choice.substeps)) {
+  if (!allowed(settings, Method::verlet, choice.substeps)) {
     choice.only = true;
     choice.reason = "velocity Verlet cannot have all that acts here";
     return choice;

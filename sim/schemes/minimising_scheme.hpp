@@ -6,7 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "sim/contact/contact_solver.hpp"
 #include "sim/parallel/vectors.hpp"
 #include "sim/schemes/energy_books.hpp"
 #include "sim/schemes/field_solve.hpp"
@@ -36,7 +35,6 @@ class MinimisingScheme : public Scheme {
         point_{.x = system.cloth.positions, .gradient = Vertices::Zero(system.cloth.vertex_count(), 3)},
         free_(is_free(system)),
         other_(point_) {
-    if (!system.contacts.empty()) contact_.emplace(system);
     if (system.drag != nullptr) fields_.emplace(system, objective_);
   }
 
@@ -73,21 +71,6 @@ class MinimisingScheme : public Scheme {
     return report;
   }
 
-  /// Minimises the objective from the point, under the contacts of a step that began at contact_->begin().
-  /// @param steady where cloth would go that keeps its velocities; empty without contacts
-  StepReport solve_step(const Vertices& steady, const std::function<bool()>& may_end) {
-    if (!contact_) return solver_->minimise(point_, may_end);
-    if (!contact_->touches(point_.x)) {
-      const StepReport report = solver_->minimise(point_, may_end);
-      if (!contact_->touches(point_.x)) return report;
-    }
-    if (!problem_) {
-      problem_.emplace(system_, objective_, solver_->constant_factor(), solver_->hessian());
-    }
-    contact_->choose_start(*problem_, steady, point_);
-    return contact_->solve(*problem_, solver_->accuracy(), solver_->max_iterations(), point_);
-  }
-
   struct Expected {
     const Vertices *early = nullptr, *late = nullptr;
   };
@@ -104,10 +87,8 @@ class MinimisingScheme : public Scheme {
   StepObjective objective_;
   std::unique_ptr<Minimiser> solver_;
   Iterate point_;
-  bool free_;                               // see is_free()
-  std::optional<FieldSolve> fields_;        // where there are velocity fields
-  std::optional<ContactSolver> contact_;    // where the cloth can touch something
-  std::optional<ImplicitProblem> problem_;  // of contact, once there is any
+  bool free_;                         // see is_free()
+  std::optional<FieldSolve> fields_;  // where there are velocity fields
 
  private:
   /// Sets the point to where a minimisation begins from a state: where an acceleration leads, or if null to the

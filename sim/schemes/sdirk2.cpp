@@ -15,9 +15,34 @@ constexpr double delta = 1 - 1 / (2 * gamma);
 }  // namespace
 
 Sdirk2::Sdirk2(const System& system, const MakeSolver& make_solver)
-    : MinimisingScheme(system, tableau::gamma * system.step, make_solver), pushes_(system) {}
+    : MinimisingScheme(system, tableau::gamma * system.step, make_solver) {
+  if (!system.contacts.empty()) touching_.emplace(system, make_solver);
+}
+
+void Sdirk2::expect(const Vertices& early, const Vertices& late) {
+  MinimisingScheme::expect(early, late);
+  if (touching_) touching_->expect(early, late);
+}
+
+double Sdirk2::residual() { return touched_ ? touching_->residual() : MinimisingScheme::residual(); }
+double Sdirk2::error() { return touched_ ? touching_->error() : MinimisingScheme::error(); }
+double Sdirk2::unbalanced() { return touched_ ? touching_->unbalanced() : MinimisingScheme::unbalanced(); }
 
 StepReport Sdirk2::advance(State& state, StepForces& forces) {
+  if (!touching_) return advance_freely(state, forces);
+  touched_ = touching_->would_touch(state, state.x + system_.step * state.v);
+  if (touched_) return touching_->advance(state, forces);
+  before_ = state;
+  const StepReport freely = advance_freely(state, forces);
+  touched_ = touching_->would_touch(before_, state.x);
+  if (!touched_) return freely;
+  state = before_;
+  StepReport report = touching_->advance(state, forces);
+  report.iterations += freely.iterations;
+  return report;
+}
+
+StepReport Sdirk2::advance_freely(State& state, StepForces& forces) {
   const double start = system_.time(state.step), end = system_.time(state.step + 1);
   const double first = start + tableau::gamma * system_.step;
   const Expected expected = take_expected();
@@ -26,10 +51,8 @@ StepReport Sdirk2::advance(State& state, StepForces& forces) {
   system_.correct_half(state);
   find_forces(state, forces);
   stage_ = state;
-  pushes_.begin(state.x, start);
   solve(first, expected.early, report);
   if (fields_) of_fields_ = (1 - tableau::gamma) * fields_->end();
-  pushes_.add(stage_.x, first, 1 - tableau::gamma);
   if (forces.any_of_velocity()) find_second_forces(first, forces);
   stage_.x = state.x + tableau::rest * (stage_.x - state.x);
   stage_.v = state.v + tableau::rest * (stage_.v - state.v);
@@ -38,8 +61,6 @@ StepReport Sdirk2::advance(State& state, StepForces& forces) {
     of_fields_ += tableau::gamma * fields_->end();
     forces.note(of_fields_);
   }
-  pushes_.add(stage_.x, end, tableau::gamma);
-  pushes_.limit(start, end, stage_.v);
   state.v = stage_.v;
   system_.move(state, stage_.x, way_);
   system_.correct_half(state);

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <numbers>
+#include <optional>
 
-#include "sim/schemes/minimising_scheme.hpp"
-#include "sim/schemes/push_limit.hpp"
+#include "sim/schemes/backward_euler.hpp"
 
 namespace drape {
 
@@ -20,8 +20,10 @@ namespace drape {
 /// largest stable step. Those that depend on velocities (air) are evaluated at the start of the step and in stage 1,
 /// with the weights δ = 1 − 1/(2γ) and 1 − δ (Ascher, Ruuth and Spiteri 1997, section 2.6). Velocity fields are in
 /// a(x), with the velocity V of each stage, see FieldSolve. What corrections do is halved. All of that is of second
-/// order, and leaves a cloth in equilibrium where it is. Filters change the way from x to X₂, and v' by as much. What
-/// pushes and is solved for has a PushLimit.
+/// order, and leaves a cloth in equilibrium where it is. Filters change the way from x to X₂, and v' by as much.
+///
+/// A step in which the cloth touches anything is one of backward Euler: an impact makes every scheme one of first order,
+/// and the force that ends it in stage 1 would go on in stage 2, where nothing is touched any more.
 ///
 /// Of a linear cloth no step gains energy. Of others it may: the method is not algebraically stable, since (1 − γ)(3γ −
 /// 1) < 0, so Sdirk2Guard keeps an eye on it.
@@ -33,8 +35,14 @@ class Sdirk2 final : public MinimisingScheme {
   Sdirk2(const System& system, const MakeSolver& make_solver);
 
   StepReport advance(State& state, StepForces& forces) override;
+  void expect(const Vertices& early, const Vertices& late) override;
+  [[nodiscard]] double residual() override;
+  [[nodiscard]] double error() override;
+  [[nodiscard]] double unbalanced() override;
 
  private:
+  /// A step in which nothing is touched.
+  StepReport advance_freely(State& state, StepForces& forces);
   /// The forces of the first stage: sets force_, and of those that depend on velocities of_start_.
   void find_forces(const State& state, StepForces& forces);
   /// Of the second: as force_ they give the step what the weights δ and 1 − δ do.
@@ -46,7 +54,9 @@ class Sdirk2 final : public MinimisingScheme {
   Vertices force_;                      // of a stage [N]
   Vertices of_start_, of_stage_, way_;  // of velocities [N]; scratch
   Vertices of_fields_;                  // velocity fields' force, on average [N]
-  PushLimit pushes_;
+  std::optional<BackwardEuler> touching_;  // for steps in which the cloth touches something, where it can
+  bool touched_ = false;                   // whether the last step was one of these
+  State before_;
 };
 
 }  // namespace drape

@@ -7,7 +7,7 @@ namespace drape {
 SemiImplicitEuler::SemiImplicitEuler(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count(), system.threads),
-      pull_(explicit_pull(system, "semi-implicit Euler")) {
+      pull_(explicit_pull(system)) {
   if (!system.fields.empty()) fields_.emplace(system);
 }
 

@@ -20,7 +20,7 @@ constexpr std::size_t most_kept = 4;              // attempts
 
 // How wrong the shorter substeps are, of how far the two motions are apart, and what is accepted of what is asked; see
 // docs/accuracy.md for the measurement.
-constexpr double error_of_verlet = 1.0 / 3, error_of_sdirk2 = 0.7;
+constexpr double error_of_verlet = 1.0 / 3, error_of_sdirk2 = 0.7, error_of_backward_euler = 1;
 constexpr double accepted = 0.8;
 constexpr double solve_share = 0.1;  // of the accuracy, that the solves of both motions together may do wrong
 constexpr double most_default_errors = 10;
@@ -114,7 +114,9 @@ class SubstepScheme::Attempt {
       : substeps(count),
         shorter_(owner, count, owner.integrator_, start),
         longer_(owner, count / 2, beside(owner.integrator_), start),
-        error_per_apart_(is_explicit(owner.integrator_.method) ? error_of_verlet : error_of_sdirk2) {}
+        error_per_apart_(is_explicit(owner.integrator_.method) ? error_of_verlet : error_of_sdirk2) {
+    if (!shorter_.system.contacts.empty()) error_per_apart_ = error_of_backward_euler;
+  }
 
   void begin(const State& start) {
     shorter_.begin(start);

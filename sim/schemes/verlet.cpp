@@ -8,7 +8,7 @@ namespace drape {
 Verlet::Verlet(const System& system)
     : system_(system),
       springs_(system.springs, system.cloth.vertex_count(), system.threads),
-      pull_(explicit_pull(system, "velocity Verlet")) {
+      pull_(explicit_pull(system)) {
   if (!system.fields.empty()) fields_.emplace(system);
 }
 

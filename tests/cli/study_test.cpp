@@ -224,7 +224,7 @@ TEST(Study, OfStabilityWritesEverything) {
   const Finished finished = drape(folder, "study stability --per-decade 1 --steps 5 -o results");
   EXPECT_NE(finished.text.find("semi-implicit: step and stiffness of the springs"), std::string::npos) << finished.text;
   expect_results(folder, finished, {"border.csv"},
-                 {"semi-implicit-springs", "liu13-springs", "implicit-explicit-push", "quasi-newton-implicit-push"});
+                 {"semi-implicit-springs", "liu13-springs", "implicit-push", "quasi-newton-push"});
 }
 
 TEST(Study, OfValidationWritesEverythingAndGoesOn) {

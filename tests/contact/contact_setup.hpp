@@ -90,17 +90,15 @@ inline Cloth plain_sheet(const Mesh& start, double stiffness = 180) {
 }
 
 inline Ground solved_ground(double friction = 0.5, double restitution = 0) {
-  return {.thickness = distance, .response = Response::solved, .friction = friction, .restitution = restitution};
+  return {.thickness = distance, .friction = friction, .restitution = restitution};
 }
 
 /// A box whose upper side is at that height.
 inline Body solved_box(const Eigen::Vector3d& size, double top) {
-  Body box{.box = size, .center = Eigen::Vector3d(0, 0, top - size.z() / 2), .thickness = distance};
-  box.response = Response::solved;
-  return box;
+  return {.box = size, .center = Eigen::Vector3d(0, 0, top - size.z() / 2), .thickness = distance};
 }
 
-inline SelfCollision solved_self() { return {.thickness = distance, .response = Response::solved}; }
+inline SelfCollision solved_self() { return {.thickness = distance}; }
 
 inline Eigen::RowVector3d mean_of(const Cloth& cloth, const Vertices& values) {
   return (cloth.masses.transpose() * values) / cloth.masses.sum();

@@ -105,7 +105,6 @@ void add_obstacle(Obstacle obstacle, Effects& effects) {
     effects.add(Sphere{.center = Vector3d(0, 0, -radius),
                        .radius = radius,
                        .thickness = distance,
-                       .response = Response::solved,
                        .friction = 0.3,
                        .restitution = 0.5});
   }

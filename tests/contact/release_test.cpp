@@ -61,7 +61,7 @@ constexpr double from_top = 5;                             // where things begin
 /// is then that of gravity [degrees].
 double leaving_angle(SimulationSettings settings) {
   settings.effects.add(
-      Sphere{.center = Vector3d(0, 0, 0), .radius = radius, .thickness = distance, .response = Response::solved});
+      Sphere{.center = Vector3d(0, 0, 0), .radius = radius, .thickness = distance});
   Simulation simulation(settings);
   const Cloth& cloth = settings.cloth;
   double angle = 0;

@@ -46,7 +46,6 @@ TEST_P(Symmetry, AClothThatFallsOnABallStaysSymmetric) {
   SimulationSettings scene = settings(plain_sheet(mesh), 0.01);
   Sphere ball{.center = Eigen::Vector3d(0, 0, 0), .radius = 0.2};
   ball.thickness = distance;
-  ball.response = Response::solved;
   ball.friction = 0.4;
   scene.effects.add(ball);
   Simulation simulation(scene);

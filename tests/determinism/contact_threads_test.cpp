@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "sim/collision/sheet_motion.hpp"
 #include "sim/effects/body.hpp"
 #include "sim/effects/ground.hpp"
 #include "sim/effects/self_collision.hpp"
@@ -77,32 +76,6 @@ TEST(ContactByThreads, OfAClothWithItselfHasTheSameBits) {
   expect_the_same_bits(settings);
 }
 
-// By which is known that nothing can touch: of a cloth that went as it was about to, and of one that did not.
-TEST(ContactByThreads, WhatIsMeasuredOfASheetHasTheSameBits) {
-  const Cloth cloth = flat_cloth();
-  const auto measured = [&](int count) {
-    const Threads threads(count);
-    SheetMotion motion(SheetBlocks::of(cloth).value(), threads);
-    const SheetBlocks::Level& finest = motion.sheet().levels().back();
-    Vertices x = cloth.positions;
-    std::vector<double> numbers;
-    for (int call = 0; call < 4; ++call) {
-      const Vertices v = test::random_vertices(x.rows(), call);
-      EXPECT_TRUE(motion.measure(x, 0.01, v));
-      numbers.push_back(motion.rounding());
-      for (int i = 0; i < x.rows(); ++i) numbers.push_back(motion.place(i)[call % 3] + motion.way(i)[call % 2]);
-      for (std::size_t block = 0; block < finest.columns() * finest.rows(); ++block) {
-        const auto [since, next] = motion.change_in(motion.sheet().levels().size() - 1, finest.part_of(block));
-        numbers.insert(numbers.end(), {since, next});
-      }
-      x += (call % 2 == 0 ? 0.01 : 0.02) * v;
-    }
-    return numbers;
-  };
-  const std::vector<double> alone = measured(1);
-  for (const int count : counts) EXPECT_EQ(measured(count), alone) << count << " threads";
-}
-
 /// Under most of the cloth, and through it where it is highest in the first step.
 Body hilly_body() {
   MeshMotion hills{.mesh = make_grid(9, 7)};
@@ -126,7 +99,6 @@ TEST(ContactByThreads, OfADeformingBodyHasTheSameBits) {
   motion.times = {0, 1};
   motion.samples = {motion.mesh.positions, 1.5 * motion.mesh.positions};
   body.mesh = std::make_shared<MeshMotion>(motion);
-  body.response = Response::implicit_energy;
   body.restitution = 0.5;
   SimulationSettings settings = setup(falling_cloth(), Method::liu13, 0.01);
   settings.effects = {Gravity{}, body};
@@ -138,7 +110,6 @@ TEST(ContactByThreads, OfASphereThatIsSolvedForHasTheSameBits) {
   settings.effects = {Gravity{}, Sphere{.center = Eigen::Vector3d(0.1, 0, -3),
                                         .radius = 2.98,
                                         .thickness = 0.02,
-                                        .response = Response::implicit_energy,
                                         .friction = 0.5}};
   expect_the_same_bits(settings);
 }

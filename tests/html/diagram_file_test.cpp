@@ -76,7 +76,7 @@ TEST_F(DiagramFile, IsLegibleWhateverTheAxesAre) {
 StabilityMap map_of(int per_decade) {
   StabilityMap map;
   map.method = Method::quasi_newton;
-  map.axis = StabilityAxis::explicit_push;
+  map.axis = StabilityAxis::push;
   map.limit_name = "step·√stiffness = 2";
   for (int i = 0; i <= 5 * per_decade; ++i) map.steps.push_back(std::pow(10, -5 + 1.0 * i / per_decade));
   for (int i = 0; i <= 9 * per_decade; ++i) map.stiffnesses.push_back(std::pow(10, 1.0 * i / per_decade));

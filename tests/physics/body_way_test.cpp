@@ -6,7 +6,7 @@
 
 #include "sim/effects/body.hpp"
 #include "sim/simulation.hpp"
-#include "tests/physics/contact_cases.hpp"
+#include "tests/physics/contact_settings.hpp"
 
 namespace drape::test {
 namespace {
@@ -22,8 +22,8 @@ Cloth square_of(double side, int cells, double height) {
   return cloth_of(mesh, 0.2, 10, {});
 }
 
-class BodiesOnTheWay : public testing::TestWithParam<ContactCase> {};
-INSTANTIATE_TEST_SUITE_P(With, BodiesOnTheWay, testing::ValuesIn(contact_cases()), contact_case_name);
+class BodiesOnTheWay : public testing::TestWithParam<NamedMethod> {};
+INSTANTIATE_TEST_SUITE_P(With, BodiesOnTheWay, testing::ValuesIn(all_methods), method_name);
 
 TEST_P(BodiesOnTheWay, WhatComesFromTheSideDoesNotGoThrough) {
   // In one step from beside a sheet, above it, to below it: where the step begins and where it ends nothing is near.
@@ -31,7 +31,7 @@ TEST_P(BodiesOnTheWay, WhatComesFromTheSideDoesNotGoThrough) {
   s.effects = {};
   s.cloth.positions.rowwise() += RowVector3d(-1.2, 0.03, 0.1);
   s.cloth.velocities.rowwise() = RowVector3d(80, 0, -20);
-  Body sheet{.thickness = 0.02, .stiffness = 4000, .response = GetParam().response};
+  Body sheet{.thickness = 0.02};
   sheet.mesh = std::make_shared<MeshMotion>(MeshMotion{.mesh = make_grid(1, 1)});
   sheet.friction = 0;
   s.effects.add(sheet);
@@ -45,7 +45,7 @@ TEST_P(BodiesOnTheWay, WhatComesFromTheSideDoesNotGoThrough) {
 TEST_P(BodiesOnTheWay, AStepDependsOnNothingButTheState) {
   SimulationSettings s = contact_settings(GetParam(), square_of(0.8, 8, 0.32), 0.01);
   s.integrator.tolerance = 1e-6;
-  Body box{.thickness = 0.02, .stiffness = 4000, .response = GetParam().response};
+  Body box{.thickness = 0.02};
   box.box = Vector3d(0.4, 0.4, 0.6);
   box.velocity = Vector3d(0.2, 0, 0);
   box.turns = {{1, {0, 0, 200}}};

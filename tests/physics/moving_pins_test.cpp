@@ -24,7 +24,7 @@ const std::vector<Keyframe> path{{0, {0, 0, 0}}, {0.1, {0.1, 0, 0.05}}, {0.3, {0
 /// A small cloth on which everything acts that changes velocities, too.
 SimulationSettings stormy(Solver solver, std::vector<int> pins) {
   SimulationSettings settings = setup(cloth_of(make_grid(6, 6), 1, 40, std::move(pins)), solver, h);
-  settings.effects = {Gravity{}, Ground{.height = -0.3, .stiffness = 4000, .friction = 0.4},
+  settings.effects = {Gravity{}, Ground{.height = -0.3, .friction = 0.4},
                       Sphere{.center = Vector3d(0, 0, -0.4), .radius = 0.3, .friction = 0.3}, Damping{.factor = 0.5}};
   return settings;
 }

@@ -10,7 +10,7 @@
 #include "sim/effects/ground.hpp"
 #include "sim/effects/moving_pins.hpp"
 #include "sim/simulation.hpp"
-#include "tests/physics/contact_cases.hpp"
+#include "tests/physics/contact_settings.hpp"
 #include "tests/support/plain_springs.hpp"
 
 namespace drape::test {
@@ -117,27 +117,16 @@ TEST_P(SecondOrder, HoldsForPinsThatMoveSmoothly) {
   expect_second(orders(settings, exact, duration, 400));
 }
 
-class SecondOrderContact : public testing::TestWithParam<ContactCase> {};
-INSTANTIATE_TEST_SUITE_P(With, SecondOrderContact, testing::ValuesIn([] {
-                           std::vector<ContactCase> cases;
-                           for (const ContactCase& c : contact_cases()) {
-                             if (c.method.second_order()) cases.push_back(c);
-                           }
-                           return cases;
-                         }()),
-                         contact_case_name);
+class SecondOrderPush : public testing::TestWithParam<NamedMethod> {};
+INSTANTIATE_TEST_SUITE_P(With, SecondOrderPush, testing::ValuesIn(second_order_methods), method_name);
 
-// In the layer of a ground that pushes with k·depth a vertex swings about the depth g/k, and the steps need not know
-// when it turns.
-TEST_P(SecondOrderContact, HoldsForAVertexThatSwingsOnAPush) {
-  constexpr double k = 500, g = 9.8, duration = 1;
-  SimulationSettings settings = setup(loose(RowVector3d(0, 0, -1.5 * g / k)), GetParam().method, 1);
-  settings.effects = {Gravity{}, Ground{.height = 0,
-                                        .thickness = 0,
-                                        .stiffness = k,
-                                        .response = GetParam().response,
-                                        .friction = 0,
-                                        .restitution = {}}};
+// On a sphere so large that it is a plane and pushes with k·depth a vertex swings about the depth g/k, and the steps
+// need not know when it turns.
+TEST_P(SecondOrderPush, HoldsForAVertexThatSwingsOnIt) {
+  constexpr double k = 500, g = 9.8, duration = 1, radius = 1e4;
+  SimulationSettings settings = setup(loose(RowVector3d(0, 0, -1.5 * g / k)), GetParam(), 1);
+  settings.effects = {
+      Gravity{}, Sphere{.center = Eigen::Vector3d(0, 0, -radius), .radius = radius, .scale = 1, .stiffness = k}};
   State exact{.x = settings.cloth.positions, .v = Vertices::Zero(1, 3)};
   exact.x(0, 2) = -g / k * (1 + 0.5 * std::cos(std::sqrt(k) * duration));
   exact.v(0, 2) = g / k * 0.5 * std::sqrt(k) * std::sin(std::sqrt(k) * duration);

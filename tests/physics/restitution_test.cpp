@@ -1,5 +1,4 @@
-// What bounces off a ground or a sphere leaves with its share of the speed, whatever the step, the stiffness, the
-// method and the response.
+// What bounces off a ground or a sphere leaves with its share of the speed, whatever the step and the method.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +7,7 @@
 
 #include "sim/effects/ground.hpp"
 #include "sim/simulation.hpp"
-#include "tests/physics/contact_cases.hpp"
+#include "tests/physics/contact_settings.hpp"
 
 namespace drape::test::restitution {
 namespace {
@@ -20,7 +19,7 @@ constexpr double g = 9.8;           // the default gravity [m/s²]
 constexpr double thickness = 0.02;  // [m]
 constexpr double fall = 0.5;        // [m]
 
-class Restitution : public testing::TestWithParam<ContactCase> {
+class Restitution : public testing::TestWithParam<NamedMethod> {
  protected:
   SimulationSettings settings(Cloth cloth, double step) const {
     SimulationSettings result = setup(std::move(cloth), GetParam().method, step);
@@ -28,20 +27,11 @@ class Restitution : public testing::TestWithParam<ContactCase> {
     return result;
   }
 
-  Ground ground(double restitution, double stiffness, double friction = 0.3) const {
-    return {.thickness = thickness,
-            .stiffness = stiffness,
-            .response = GetParam().response,
-            .friction = friction,
-            .restitution = restitution};
-  }
-
-  /// A soft stiffness and the hardest that this step takes, or one as hard as steel.
-  std::vector<double> stiffnesses(double step) const {
-    return {1000, GetParam().response == Response::explicit_force ? 3 / (step * step) : 1e9};
+  Ground ground(double restitution, double friction = 0.3) const {
+    return {.thickness = thickness, .friction = friction, .restitution = restitution};
   }
 };
-INSTANTIATE_TEST_SUITE_P(With, Restitution, testing::ValuesIn(contact_cases()), contact_case_name);
+INSTANTIATE_TEST_SUITE_P(With, Restitution, testing::ValuesIn(all_methods), method_name);
 
 /// Level, flat and strained by nothing, its vertices `fall` above a ground's layer. Soft enough for a step of 0.01 s.
 Cloth falling_sheet() {
@@ -74,21 +64,11 @@ Rebound rebound(const SimulationSettings& settings, double seconds) {
 
 TEST_P(Restitution, AFallingSheetRisesToItsSquareOfTheHeight) {
   for (const double step : {0.01, 0.002}) {
-    for (const double stiffness : stiffnesses(step)) {
-      for (const double e : {0.0, 0.25, 0.5, 0.75, 0.9, 1.0}) {
-        SimulationSettings s = settings(falling_sheet(), step);
-        s.effects.add(ground(e, stiffness));
-        // The top of a parabola lies at most gh²/8 above the nearest step. What stays lies in the ground's layer.
-        const double share = rebound(s, 1).highest / fall;
-        if (e > 0) {
-          EXPECT_NEAR(share, e * e, g * step * step / 4 / fall) << e << ", " << step << ", " << stiffness;
-          continue;
-        }
-        // SDIRK2 may end a stage outside before it has taken the speed away, γ√2 of a step's way at most.
-        const bool late = GetParam().method.scheme == TimeScheme::sdirk2;
-        const double outside = late ? 0.42 * step * std::sqrt(2 * g * fall) : 0;
-        EXPECT_LT(share, (outside + g * step * step) / fall) << step << ", " << stiffness;
-      }
+    for (const double e : {0.0, 0.25, 0.5, 0.75, 0.9, 1.0}) {
+      SimulationSettings s = settings(falling_sheet(), step);
+      s.effects.add(ground(e));
+      // The top of a parabola lies at most gh²/8 above the nearest step.
+      EXPECT_NEAR(rebound(s, 1).highest / fall, e * e, g * step * step / 4 / fall) << e << ", " << step;
     }
   }
 }
@@ -100,7 +80,6 @@ TEST_P(Restitution, AVertexRisesFromTheTopOfASphereToItsSquareOfTheHeight) {
       s.effects.add(Sphere{.center = Vector3d(0, 0, thickness - 0.3),
                            .radius = 0.2,
                            .scale = 1.5,
-                           .response = GetParam().response,
                            .friction = 0.3,
                            .restitution = e});
       EXPECT_NEAR(rebound(s, 1).highest / fall, e * e, g * step * step / 4 / fall) << e << ", " << step;
@@ -113,7 +92,7 @@ TEST_P(Restitution, AVertexRisesFromTheTopOfASphereToItsSquareOfTheHeight) {
 TEST_P(Restitution, OfOneNeitherGivesNorTakesHeight) {
   constexpr double step = 0.01;
   SimulationSettings s = settings(falling_sheet(), step);
-  s.effects.add(ground(1, 8000, 0));
+  s.effects.add(ground(1, 0));
   Simulation simulation(s);
   double last = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -137,13 +116,13 @@ TEST_P(Restitution, NeverGivesEnergyToASheetThatLandsOnACorner) {
     for (Spring& spring : s.cloth.springs) {
       spring.rest_length = (s.cloth.positions.row(spring.i) - s.cloth.positions.row(spring.j)).norm();
     }
-    s.effects.add(ground(e, 8000));
+    s.effects.add(ground(e));
     s.integrator.tolerance = 1e-9;
     s.integrator.max_iterations = 1000;
     Simulation simulation(s);
     const auto total = [&] {
       const Energies now = simulation.energies();
-      const double age = GetParam().method.second_order() ? 0 : step / 2;
+      const double age = GetParam().second_order() ? 0 : step / 2;
       const double swing = -age * g * s.cloth.masses.dot(simulation.state().v.col(2));
       return now.kinetic + now.gravity + now.elastic + swing;
     };
@@ -161,32 +140,29 @@ TEST_P(Restitution, NeverGivesEnergyToASheetThatLandsOnACorner) {
 }
 
 TEST_P(Restitution, EndsInRest) {
-  constexpr double stiffness = 4000;
   SimulationSettings s = settings(falling_sheet(), 0.005);
-  s.effects.add(ground(0.6, stiffness));
+  s.effects.add(ground(0.6));
   Simulation simulation(s);
   while (simulation.time() < 4) simulation.step();
   for (int i = 0; i < 100; ++i) {
     simulation.step();
     EXPECT_LT(simulation.state().v.cwiseAbs().maxCoeff(), 1e-6);
   }
-  const Eigen::VectorXd depth = thickness - simulation.state().x.col(2).array();
-  EXPECT_NEAR(depth.minCoeff(), g / stiffness, 1e-6);
-  EXPECT_NEAR(depth.maxCoeff(), g / stiffness, 1e-6);
+  EXPECT_LT((simulation.state().x.col(2).array() - thickness).abs().maxCoeff(), 1e-6);
 }
 
 // Coulomb's cone holds for impacts: along the ground at most µ times what is taken and given back across it.
 TEST_P(Restitution, FrictionOfAnImpactIsCoulombs) {
   constexpr double e = 0.6, friction = 0.25, step = 0.01;
   // Euler's first step begins a little higher.
-  const double above = GetParam().method.second_order() ? 0 : g * step * step / 8;
+  const double above = GetParam().second_order() ? 0 : g * step * step / 8;
   const double arrival = std::sqrt(2 * g * (fall + above));
   const double lost = friction * (1 + e) * arrival;
   for (const double speed : {3.0, 0.5}) {
     Cloth cloth = loose(RowVector3d(0, 0, thickness + fall));
     cloth.velocities.row(0) << 0.6 * speed, -0.8 * speed, 0;
     SimulationSettings s = settings(cloth, step);
-    s.effects.add(ground(e, 8000, friction));
+    s.effects.add(ground(e, friction));
     Simulation simulation(s);
     while (simulation.time() < 0.4) simulation.step();
     const double expected = std::max(0.0, speed - lost);
@@ -202,7 +178,7 @@ TEST_P(Restitution, TurnsTheSpeedAcrossASlope) {
   Cloth cloth = loose(RowVector3d(0.4 * n.transpose()));
   cloth.velocities.row(0) = -2 * n.transpose() + RowVector3d(0.8, 0.3, -0.6);
   SimulationSettings s = settings(cloth, step);
-  Ground slope = ground(e, 8000, 0);
+  Ground slope = ground(e, 0);
   slope.normal = n;
   slope.thickness = 0;
   s.effects = {slope};
@@ -218,7 +194,6 @@ TEST_P(Restitution, IsRelativeToASphereThatMoves) {
   s.effects = {Sphere{.center = Vector3d(0, 0, -1.013),
                       .radius = 1,
                       .scale = 1,
-                      .response = GetParam().response,
                       .restitution = e,
                       .velocity = Vector3d(0, 0, 1.5)}};
   Simulation simulation(s);
@@ -228,7 +203,7 @@ TEST_P(Restitution, IsRelativeToASphereThatMoves) {
 
 TEST_P(Restitution, DependsOnTheStateOnly) {
   SimulationSettings s = settings(falling_sheet(), 0.01);
-  s.effects.add(ground(0.8, 8000));
+  s.effects.add(ground(0.8));
   Simulation first(s), second(s);
   for (int i = 0; i < 25; ++i) first.step();
   const State middle = first.state();  // shortly before the impact

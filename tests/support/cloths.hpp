@@ -54,10 +54,6 @@ inline Cloth disturbed(Cloth cloth) {
 }
 
 /// The homework's sphere under the cloth.
-inline Sphere sphere(bool implicit) {
-  return {.center = Eigen::Vector3d(0, 0, -0.5),
-          .radius = 0.4,
-          .response = implicit ? Response::implicit_energy : Response::explicit_force};
-}
+inline Sphere sphere() { return {.center = Eigen::Vector3d(0, 0, -0.5), .radius = 0.4}; }
 
 }  // namespace drape::test

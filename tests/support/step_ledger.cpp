@@ -121,7 +121,6 @@ StepBalance StepLedger::balance(const State& before, const State& after) const {
   // The momentum of a cloth that nothing holds is kept by sums over all vertices, which round more.
   b.kinetic_rounding = 128 * unit * std::sqrt(squared(reach, masses_) * squared(change, masses_)) / (h * h);
   b.tolerated = tolerated(b, f, change, tolerance(before, after));
-  if (!system_.all_internal()) b.pushed = std::max(Real(0), -b.convexity_loss);
   return b;
 }
 

@@ -33,7 +33,6 @@ struct StepBalance {
   /// Σ m/h² δ ‖Δxᵢ‖; at a change, a tenth of
   /// ‖h M⁻¹f‖_M ‖w‖_M, and no more than the inertial loss or than the forces took, −W_ext.
   Real tolerated = 0;
-  Real pushed = 0;  ///< what it may gain where E is concave and something solved for pushes, which may be moved, −B [J]
   /// What one rounding of every position changes at most in ‖∇g‖ [N], in E and g, and in K [J].
   Real gradient_rounding = 0, energy_rounding = 0, kinetic_rounding = 0;
 

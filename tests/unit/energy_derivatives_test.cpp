@@ -35,8 +35,6 @@ Mesh bowl() {
   return mesh;
 }
 const Bending bending{.rigidity = 0.3};
-const Sphere implicit_sphere{
-    .center = Eigen::Vector3d(0.1, 0, -0.5), .radius = 0.7, .response = Response::implicit_energy};
 
 /// The one energy of an effect.
 class Term {
@@ -121,8 +119,7 @@ class EveryEnergy : public testing::TestWithParam<Case> {
 INSTANTIATE_TEST_SUITE_P(, EveryEnergy,
                          testing::Values(Case{"BendingFromFlat", flat_mesh, bending},
                                          Case{"BendingFromABowl", bowl, bending},
-                                         Case{"BendingOfThreeSheets", [] { return three_sheets(4); }, bending},
-                                         Case{"ImplicitSphere", flat_mesh, implicit_sphere}),
+                                         Case{"BendingOfThreeSheets", [] { return three_sheets(4); }, bending}),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST_P(EveryEnergy, HasTheSlopeItsGradientSays) {
@@ -153,22 +150,6 @@ TEST_P(EveryEnergy, HasTheCurvatureItsHessianSaysOrLess) {
   }
 }
 
-// A plane pushes with a constant Hessian, so nothing of it is left out, whichever way it is tilted.
-TEST(PushOfAPlane, HasTheHessianThatIsTheSlopeOfItsGradient) {
-  Term term(flat_mesh(), Ground{.height = 0.2, .normal = {1, -2, 5}, .response = Response::implicit_energy});
-  const Eigen::Index count = term.cloth().vertex_count();
-  const Vertices x = term.cloth().positions;
-  ASSERT_LT((x * Eigen::Vector3d(1, -2, 5).normalized()).maxCoeff(), 2.0);
-  for (const int seed : {1, 2, 3}) {
-    constexpr double e = 1e-6;
-    const Vertices d = random_vertices(count, seed);
-    const Vertices slope = (term.gradient(x + e * d) - term.gradient(x - e * d)) / (2 * e);
-    ASSERT_GT(slope.norm(), 1);
-    EXPECT_LT((term.product(x, d) - slope).norm(), 1e-6 * slope.norm());
-    EXPECT_LT((term.product_of_blocks(x, d) - slope).norm(), 1e-6 * slope.norm());
-  }
-}
-
 // What lets Liu13 do without a line search: E(x + d) ≤ E(x) + ∇E·d + ½ dᵀBd, however far d goes.
 TEST_P(EveryEnergy, StaysBelowTheParabolaOfItsBound) {
   for (const int seed : {1, 2, 3}) {
@@ -181,7 +162,6 @@ TEST_P(EveryEnergy, StaysBelowTheParabolaOfItsBound) {
 }
 
 TEST_P(EveryEnergy, PullsNowhereAsAWhole) {
-  if (!term_.system().all_internal()) GTEST_SKIP() << "something else pushes";
   const Vertices x = crumpled(0.1, 1), g = term_.gradient(x);
   EXPECT_LT(g.colwise().sum().norm(), 1e-12 * g.norm() * std::sqrt(static_cast<double>(g.rows())));
 }

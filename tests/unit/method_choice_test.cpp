@@ -51,9 +51,6 @@ TEST(MethodChoice, IsQuasiNewtonWhereVerletCannotHaveWhatActs) {
   steep = unnamed(0.01);
   steep.effects.add(Field{.acceleration = {"-x", "0", "0"}, .stiffness_bound = 1});
   EXPECT_EQ(choose_method(steep).method, Method::verlet);
-  SimulationSettings pushed = unnamed(0.01);
-  pushed.effects.add(Ground{.response = Response::implicit_energy});
-  EXPECT_EQ(choose_method(pushed).method, Method::quasi_newton);
 }
 
 TEST(MethodChoice, FollowsFromWhatSettingsSayOfTheSolve) {

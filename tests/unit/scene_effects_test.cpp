@@ -109,14 +109,6 @@ TEST(SceneEffects, AGroundNeedsANormal) {
   EXPECT_EQ(shape.height, 2);
 }
 
-TEST(SceneEffects, AnImplicitPushNeedsAMethodThatSolves) {
-  const SceneFolder folder;
-  const std::string text = with("ground", "height = 0\nresponse = \"implicit\"");
-  EXPECT_EQ(folder.problems(text, {"integrator.method=liu13"}), "(no error)");
-  EXPECT_EQ(folder.problems(text, {"integrator.method=semi-implicit"}).substr(0, 68),
-            "scene.toml:8:12: response: semi-implicit Euler evaluates every force");
-}
-
 TEST(SceneEffects, ASphereFollowsAUsdFile) {
   const SceneFolder folder;
   const std::string header =

@@ -261,7 +261,7 @@ TEST(SceneErrors, EffectsCheckTheirValuesAgainstTheScene) {
   const std::string sphere = "[effects.sphere]\ncenter = [0, 0, 1]\nradius = 1\nstiffness = 160000\n";
   const std::vector<std::string> solved{"integrator.method=liu13"};
   const std::string problem = folder.problems(least_scene + sphere, solved);
-  EXPECT_EQ(problem.substr(0, problem.find(" where")), "scene.toml:9:13: stiffness: an explicit push is unstable");
+  EXPECT_EQ(problem.substr(0, problem.find(" where")), "scene.toml:9:13: stiffness: a push is unstable");
   EXPECT_EQ(folder.problems(least_scene + sphere, {solved[0], "time.step=0.005"}), "(no error)");
   EXPECT_EQ(folder.problems(least_scene + sphere), "(no error)") << "shorter steps are chosen";
 }

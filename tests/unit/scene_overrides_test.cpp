@@ -83,7 +83,7 @@ TEST(SceneOverrides, MustSayWhichOfSeveralTables) {
             "--set effects.sphere.2.radius=2: effects.sphere has the items 0 to 1");
   EXPECT_EQ(folder.problems(one_sphere, {"effects.sphere.1.radius=2"}),
             "--set effects.sphere.1.radius=2: unknown key '1' in [effects.sphere]; the keys are 'center', 'radius', "
-            "'scale', 'thickness', 'stiffness', 'response', 'friction', 'restitution', 'velocity', 'orbit_period', "
+            "'scale', 'thickness', 'friction', 'restitution', 'stiffness', 'velocity', 'orbit_period', "
             "'orbit_center', 'orbit_axis', 'keyframes', 'interpolation', 'track'");
 }
 

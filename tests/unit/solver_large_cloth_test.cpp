@@ -72,7 +72,6 @@ struct Nothing final : Energy {
   double add_gradient(const Vertices&, double, Vertices&) const override { return 0; }
   void add_bound(StiffnessBound&) const override {}
   [[nodiscard]] std::unique_ptr<EnergyHessian> make_hessian() const override { return std::make_unique<Hessian>(); }
-  [[nodiscard]] bool internal() const override { return true; }
 };
 
 TEST(PatchNewton, BringsAStrayVertexBackAndLeavesTheRestAlone) {
