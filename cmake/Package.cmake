@@ -33,7 +33,7 @@ set(public_headers
   render/backend.hpp render/image.hpp render/renderer.hpp render/settings.hpp render/view.hpp)
 set(included_headers
   core/keyframe.hpp core/rgb.hpp overlay/fonts.hpp overlay/pen.hpp overlay/settings.hpp overlay/text_template.hpp scene/check_settings.hpp
-  scene/document.hpp scene/portable.hpp sim/effects/gusts.hpp sim/effects/response.hpp sim/schemes/method_choice.hpp sim/solvers/accuracy.hpp)
+  scene/document.hpp scene/portable.hpp sim/effects/gusts.hpp sim/schemes/method_choice.hpp sim/solvers/accuracy.hpp)
 install(CODE "
   foreach(header ${public_headers} ${included_headers})
     file(READ \"${PROJECT_SOURCE_DIR}/\${header}\" text)

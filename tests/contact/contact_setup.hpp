@@ -34,13 +34,14 @@ inline constexpr std::array solving_methods{
     NamedMethod{Method::quasi_newton, "QuasiNewton"},
 };
 
-/// Those and the methods that give impulses.
+/// Those, the methods that give impulses, and the scheme that leaves contact to backward Euler.
 inline constexpr std::array contact_methods{
     solving_methods[0],
     solving_methods[1],
     solving_methods[2],
     NamedMethod{Method::verlet, "Verlet"},
     NamedMethod{Method::semi_implicit, "SemiImplicit"},
+    NamedMethod{{Method::quasi_newton, TimeScheme::sdirk2}, "QuasiNewtonSdirk2"},
 };
 
 /// Has an explicit method cut its steps into the fewest that are stable.
@@ -69,6 +70,7 @@ class Solved : public testing::TestWithParam<NamedMethod> {
     result.cloth = std::move(cloth);
     result.step = step;
     result.integrator.method = GetParam().method;
+    result.integrator.scheme = GetParam().scheme;
     result.effects = {Gravity{}};
     return divided(result);
   }
