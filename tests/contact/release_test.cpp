@@ -54,6 +54,18 @@ TEST_P(Release, ASheetThatIsLiftedLeavesTheGroundAndABoxWithinTwoSteps) {
   }
 }
 
+// What a step leaves out of balance has the forces of contact: they bear the whole weight here.
+TEST_P(Release, ASheetThatLiesIsInBalance) {
+  SimulationSettings s = settings(plain_sheet(level_square(0.5, 5, distance + 0.002)), 0.01);
+  s.effects.add(solved_ground());
+  Simulation simulation(s);
+  run(simulation, 0.5);
+  if (GetParam().is_explicit()) return;  // they leave nothing
+  EXPECT_LT(simulation.unbalanced(), 0.01 * simulation.weight());
+  EXPECT_LT(simulation.residual(), 0.01 * simulation.weight());
+  EXPECT_LT(simulation.error(), 1e-4);
+}
+
 constexpr double radius = 0.5, reach = radius + distance;  // of a ball around the origin [m]
 constexpr double from_top = 5;                             // where things begin to slide [degrees]
 
