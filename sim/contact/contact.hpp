@@ -34,6 +34,7 @@ struct ContactConstraint {
   double distance = 0;                 ///< the least n·d at the end of the step [m]
   double friction = 0;                 ///< Coulomb's coefficient µ
   double restitution = 0;              ///< fraction of the speed of an impact with which the features part
+  double beyond = 0;                   ///< how much further apart the features end that bounce [m]
   bool collides = false;               ///< whether the features pass through each other on the straight way
   double radius = -1;                  ///< largest friction force, µ times a normal one; negative: not known yet [N]
   double stiffness = 0;                ///< κ of the augmented Lagrangian [N/m]

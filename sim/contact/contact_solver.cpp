@@ -16,6 +16,7 @@ constexpr double relative_stiffness = 10;     // of a contact, of what holds its
 constexpr double sufficient_decrease = 1e-4;  // Armijo's constant (Nocedal and Wright 2006, section 3.1)
 constexpr double shortest_move = 1e-6;        // of a direction
 constexpr double share_of_change = 0.01;      // tolerance of a step, of how far its forces move a vertex in it at most
+constexpr double share_of_way = 1e-6;         // and of how far it goes, where forces do next to nothing
 constexpr double contact_share = 0.1;  // of the tolerance, that gaps and slips may have: κ makes large forces of them
 constexpr double linear_tolerance = 0.05;  // of conjugate gradients, in the norm of their preconditioner
 constexpr int most_linear_iterations = 300;
@@ -48,15 +49,27 @@ ContactSolver::ContactSolver(const System& system)
   if (system.cloth.springs.empty()) longest_move_ = std::numeric_limits<double>::infinity();
 }
 
-void ContactSolver::begin(const Vertices& x, double start, double end) {
+void ContactSolver::begin(const State& from, double start, double end, bool of_the_moment) {
   contacts_.clear();
-  start_ = x;
-  for (const auto& source : system_.contacts) source->begin(x, start, end);
+  const Vertices& x = start_ = from.x;
+  flight_.h = end - start;
+  flight_.gravity = system_.gravity;
+  flight_.start_v = from.v;
+  flight_.mean = from.v.rowwise() + (of_the_moment ? 0.5 : 1.0) * flight_.h * system_.gravity.transpose();
+  flight_.target = x + flight_.h * flight_.mean;
+  for (const auto& source : system_.contacts) source->begin(start_, start, end);
 }
 
 bool ContactSolver::touches(const Vertices& target) {
   find(target, true);
   return !contacts_.empty();
+}
+
+bool ContactSolver::hinders(const Vertices& target) {
+  find(target, true);
+  return std::ranges::any_of(contacts_, [&](const ContactConstraint& contact) {
+    return contact.collides || contact.place(target).dot(contact.normal) < contact.distance;
+  });
 }
 
 bool ContactSolver::collides(const Vertices& target) {
@@ -76,13 +89,14 @@ void ContactSolver::find(const Vertices& target, bool turn) {
   for (int source = 0; source < static_cast<int>(system_.contacts.size()); ++source) {
     held_.clear();
     for (; from != before_.end() && from->key.source == source; ++from) {
-      if (!from->force.isZero(0)) held_.push_back(*from);
+      if (!from->force.isZero(0) || from->beyond > 0) held_.push_back(*from);
     }
     system_.contacts[static_cast<Index>(source)]->find(target, source, held_, contacts_);
   }
   std::erase_if(contacts_, [&](const ContactConstraint& contact) { return !contact.can_move(free_); });
   auto known = before_.begin();
   for (ContactConstraint& contact : contacts_) {
+    contact.beyond = bounce_of(contact, flight_).gap;
     while (known != before_.end() && known->key < contact.key) ++known;
     if (known == before_.end() || known->key != contact.key) continue;
     if (turn) {
@@ -114,7 +128,7 @@ ContactSolver::Response ContactSolver::respond(const ContactConstraint& contact,
   const Eigen::Vector3d& n = contact.normal;
   const Eigen::Vector3d place = contact.place(x), slip = place - contact.start;
   const double k = contact.stiffness, before = contact.force.dot(n), radius = contact.radius;
-  const double normal = std::max(0.0, before - k * (place.dot(n) - contact.distance));
+  const double normal = std::max(0.0, before - k * (place.dot(n) - contact.distance - contact.beyond));
   Response response;
   response.force = normal * n;
   response.stiffness.setZero();
@@ -143,7 +157,7 @@ ContactSolver::Response ContactSolver::respond(const ContactConstraint& contact,
 void ContactSolver::find_radii(const Vertices& x, bool all) {
   for (ContactConstraint& contact : contacts_) {
     if (!all && contact.radius >= 0) continue;
-    const double gap = contact.place(x).dot(contact.normal) - contact.distance;
+    const double gap = contact.place(x).dot(contact.normal) - contact.distance - contact.beyond;
     contact.radius = contact.friction * std::max(0.0, contact.force.dot(contact.normal) - contact.stiffness * gap);
   }
 }
@@ -307,7 +321,9 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
     find_radii(point.x, updated);
     const Standing now = assess(problem, point);
     const bool by_gradient = accuracy.rule == StoppingRule::gradient;
-    const double usual = accuracy.usual || by_gradient ? share_of_change * longest(point.x - steady_) : 0;
+    const double usual = accuracy.usual || by_gradient ? std::max(share_of_change * longest(point.x - steady_),
+                                                                  share_of_way * longest(point.x - start_))
+                                                       : 0;
     const double tolerance = by_gradient ? usual : std::max(accuracy.tolerance, usual);
     const bool at_a_change = problem.exact() || accuracy.rule == StoppingRule::change;
     const bool balanced = by_gradient ? norm(system_.threads, gradient_) <= accuracy.tolerance
@@ -390,25 +406,29 @@ bool ContactSolver::carried() const {
   return std::ranges::any_of(contacts_, [](const ContactConstraint& contact) { return !contact.carried.isZero(0); });
 }
 
-void ContactSolver::rebound(const Vertices& before, double h, Vertices& v) const {
+void ContactSolver::rebound(bool of_the_moment, Vertices& v) const {
   const Eigen::VectorXd& masses = system_.cloth.masses;
   for (const ContactConstraint& contact : contacts_) {
-    if (!(contact.restitution > 0) || !(contact.force.dot(contact.normal) > 0)) continue;
-    const Eigen::Vector3d drift = contact.carried / h;
-    const double arriving = (contact.gather(before) + drift).dot(contact.normal);
-    const double leaving = (contact.gather(v) + drift).dot(contact.normal);
-    if (!(arriving < 0) || leaving >= -contact.restitution * arriving) continue;
-    double compliance = 0;
-    for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
-      const int vertex = contact.vertices[i];
-      if (free_[static_cast<Index>(vertex)] != 0)
-        compliance += contact.weights[i] * contact.weights[i] / masses[vertex];
-    }
-    const double impulse = (-contact.restitution * arriving - leaving) / compliance;
+    const Eigen::Vector3d& n = contact.normal;
+    if (!(contact.restitution > 0) || !(contact.force.dot(n) > 0)) continue;
+    Bounce bounce = bounce_of(contact, flight_);
+    if (!(bounce.struck > 0)) continue;
+    double compliance = 0, weight = 0;
     for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
       const int vertex = contact.vertices[i];
       if (free_[static_cast<Index>(vertex)] == 0) continue;
-      v.row(vertex) += contact.weights[i] * impulse / masses[vertex] * contact.normal.transpose();
+      weight += contact.weights[i];
+      compliance += contact.weights[i] * contact.weights[i] / masses[vertex];
+    }
+    const Eigen::Vector3d slip = contact.gather(v) + contact.carried / flight_.h;
+    bounce.turned = bounce.leaves - slip.dot(n);  // whatever the solve has left of the gap
+    if (of_the_moment) bounce.turned += flight_.h / 2 * weight * flight_.gravity.dot(n);
+    const Eigen::Vector3d rubbed = flight_.h * compliance * (contact.force - contact.force.dot(n) * n);
+    const Eigen::Vector3d impulse = change_by(bounce, contact, slip, rubbed) / compliance;
+    for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
+      const int vertex = contact.vertices[i];
+      if (free_[static_cast<Index>(vertex)] == 0) continue;
+      v.row(vertex) += contact.weights[i] / masses[vertex] * impulse.transpose();
     }
   }
 }

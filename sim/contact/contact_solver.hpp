@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "sim/contact/bounce.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/contact/contact_preconditioner.hpp"
 #include "sim/contact/contact_problem.hpp"
@@ -26,8 +27,9 @@ class ContactSolver {
  public:
   explicit ContactSolver(const System& system);
 
-  /// Begins a step from x, n×3 [m], between two times [s].
-  void begin(const Vertices& x, double start, double end);
+  /// Begins a step from a state, between two times [s].
+  /// @param of_the_moment whether its velocities are those of the moment, not those with which the cloth has gone
+  void begin(const State& from, double start, double end, bool of_the_moment);
 
   /// Finds the contacts of a cloth that goes straight to `target`. Returns whether there are any.
   [[nodiscard]] bool touches(const Vertices& target);
@@ -51,15 +53,17 @@ class ContactSolver {
   /// not converged may do more. That would be energy out of nothing, and is left out.
   [[nodiscard]] double work(const Vertices& x, bool converged) const;
 
+  /// Returns true if a cloth that goes straight to `target` is kept from that.
+  [[nodiscard]] bool hinders(const Vertices& target);
+
   /// Whether the cloth touches anything but itself.
   [[nodiscard]] bool touches_obstacles() const;
   /// Whether an obstacle that the cloth touches moves.
   [[nodiscard]] bool carried() const;
 
-  /// Gives v, the velocities at the end of the step n×3 [m/s], the rebound of what arrived in it: features that bear a
-  /// force part with `restitution` times the speed with which they came (Newton's law), by an impulse along the normal.
-  /// @param before velocities at its start, n×3 [m/s]
-  void rebound(const Vertices& before, double h, Vertices& v) const;
+  /// Gives v, the velocities at the end of the step n×3 [m/s], those of what has bounced in it, see Bounce.
+  /// @param of_the_moment whether v are those of the end of the step, and not those with which it has gone there
+  void rebound(bool of_the_moment, Vertices& v) const;
 
   [[nodiscard]] const std::vector<ContactConstraint>& contacts() const { return contacts_; }
   /// What the last solve has left out of balance, the contacts' forces included, n×3 [N].
@@ -122,6 +126,7 @@ class ContactSolver {
   double concavity_ = 0;     // share of the Hessian's negative eigenvalues
   std::vector<ContactConstraint> contacts_, before_, held_;
   std::vector<Response> responses_;
+  FreeFlight flight_;
   Vertices start_, steady_;  // of the step, and where steady velocities lead
   Vertices gradient_, direction_, residual_, preconditioned_, search_, product_;
   Iterate trial_;

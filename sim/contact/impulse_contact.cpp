@@ -27,34 +27,35 @@ Eigen::Vector3d limited(const Eigen::Vector3d& across, double most) {
 
 ImpulseContact::ImpulseContact(std::vector<std::shared_ptr<ContactSource>> sources, const Cloth& cloth,
                                const Eigen::Vector3d& gravity)
-    : sources_(std::move(sources)), gravity_(gravity) {
+    : sources_(std::move(sources)) {
+  flight_.gravity = gravity;
   for (const double mass : cloth.masses) inverse_masses_.push_back(1 / mass);
   free_.assign(inverse_masses_.size(), 1);
   for (const int pin : cloth.pins) inverse_masses_[Index(pin)] = free_[Index(pin)] = 0;
 }
 
-void ImpulseContact::begin(const State& state, double) { start_v_ = state.v; }
+void ImpulseContact::begin(const State& state, double) { flight_.start_v = state.v; }
 
 void ImpulseContact::apply(const Vertices& x, double time, double h, Vertices& v) {
   converged_ = true;
   impulses_.clear();
   x_ = &x;
-  h_ = h;
-  unhindered_ = x + h * v;
-  if (!unhindered_.allFinite()) return;
+  flight_.h = h;
+  flight_.target = x + h * v;
+  if (!flight_.target.allFinite()) return;
   for (const auto& source : sources_) source->begin(x, time, time + h);
-  target_ = unhindered_;
-  mean_ = v;
+  target_ = flight_.target;
+  flight_.mean = v;
   find();
   if (!impulses_.empty()) settle(v);
 }
 
 bool ImpulseContact::adjust(const Vertices& x, double, double h, Vertices& v) {
-  const Vertices own = target_ - unhindered_;
+  const Vertices own = target_ - flight_.target;
   target_ = x + h * v;
-  unhindered_ = target_ - own;
+  flight_.target = target_ - own;
   if (!target_.allFinite()) return false;
-  mean_ = (unhindered_ - x) / h;
+  flight_.mean = (flight_.target - x) / h;
   find();
   if (!violated()) return false;
   settle(v);
@@ -64,7 +65,7 @@ bool ImpulseContact::adjust(const Vertices& x, double, double h, Vertices& v) {
 bool ImpulseContact::violated() const {
   return std::ranges::any_of(impulses_, [&](const Impulse& impulse) {
     const ContactConstraint& contact = impulse.contact;
-    const double missing = contact.distance + impulse.gap_at_end - contact.place(target_).dot(contact.normal);
+    const double missing = contact.distance + impulse.bounce.gap - contact.place(target_).dot(contact.normal);
     return contact.collides || missing > settled_share * contact.distance + least_correction;
   });
 }
@@ -85,7 +86,7 @@ void ImpulseContact::settle(Vertices& v) {
   }
   if (!found) hold();
   for (Eigen::Index i = 0; i < v.rows(); ++i) {
-    if (target_.row(i) != unhindered_.row(i)) v.row(i) = (target_.row(i) - x_->row(i)) / h_;
+    if (target_.row(i) != flight_.target.row(i)) v.row(i) = (target_.row(i) - x_->row(i)) / flight_.h;
   }
 }
 
@@ -108,7 +109,7 @@ void ImpulseContact::find() {
     for (Index i = 0; i < Index(contact.count); ++i) {
       compliance += contact.weights[i] * contact.weights[i] * inverse_masses_[Index(contact.vertices[i])];
     }
-    Impulse impulse{.contact = contact, .compliance = compliance, .gap_at_end = 0, .turned = 0};
+    Impulse impulse{.contact = contact, .compliance = compliance, .bounce = {}};
     while (known != before_.end() && known->contact.key < contact.key) ++known;
     if (known != before_.end() && known->contact.key == contact.key) {
       // The same push along the normal that it has now.
@@ -116,29 +117,9 @@ void ImpulseContact::find() {
       const double normal = force.dot(known->contact.normal);
       impulse.contact.force = normal * n + limited(force - force.dot(n) * n, contact.friction * normal);
     }
-    if (contact.restitution > 0) plan_bounce(impulse);
+    impulse.bounce = bounce_of(contact, flight_);
     impulses_.push_back(impulse);
   }
-}
-
-void ImpulseContact::plan_bounce(Impulse& impulse) const {
-  const ContactConstraint& contact = impulse.contact;
-  const Eigen::Vector3d& n = contact.normal;
-  double weight = 0;
-  for (Index i = 0; i < Index(contact.count); ++i) weight += contact.weights[i];
-  const double fall = weight * gravity_.dot(n);
-  const double c = std::max(0.0, contact.start.dot(n) - contact.distance);
-  const double end = contact.place(unhindered_).dot(n) - contact.distance;
-  if (!(end < 0) || !(c > 0)) return;
-  const double mean = (end - c) / h_, b = mean - 0.5 * fall * h_;
-  const double steepness = std::sqrt(std::max(0.0, b * b - 2 * fall * c)) - b;
-  const double hit = steepness > 0 ? std::min(h_, 2 * c / steepness) : h_;
-  const double speed = -(b + fall * hit), left = h_ - hit;
-  const Eigen::Vector3d before = contact.gather(start_v_) - contact.gather(mean_);
-  const double pressed = std::max(0.0, before.dot(n)), back = contact.restitution * speed;
-  if (!(back > pressed)) return;
-  impulse.gap_at_end = std::max(0.0, left * (back + 0.5 * fall * left));
-  impulse.turned = back + (left - 0.5 * h_) * fall - (impulse.gap_at_end - c) / h_;
 }
 
 void ImpulseContact::push(const ContactConstraint& contact, const Eigen::Vector3d& change, Vertices& to) const {
@@ -149,7 +130,7 @@ void ImpulseContact::push(const ContactConstraint& contact, const Eigen::Vector3
 }
 
 void ImpulseContact::apply_known() {
-  target_ = unhindered_;
+  target_ = flight_.target;
   for (const Impulse& impulse : impulses_) {
     if (!impulse.contact.force.isZero(0)) push(impulse.contact, impulse.contact.force, target_);
   }
@@ -176,7 +157,7 @@ void ImpulseContact::solve() {
     for (Impulse& impulse : impulses_) {
       ContactConstraint& contact = impulse.contact;
       const Eigen::Vector3d place = contact.place(target_);
-      const double missing = contact.distance + impulse.gap_at_end - place.dot(contact.normal);
+      const double missing = contact.distance + impulse.bounce.gap - place.dot(contact.normal);
       const Eigen::Vector3d change = change_of(impulse, missing, place - contact.start);
       if (change.isZero(0)) continue;
       contact.force += change;
@@ -204,7 +185,7 @@ void ImpulseContact::hold() {
   places_.resize(count);
   for (Index i = 0; i < count; ++i) {
     places_[i] = x_->row(static_cast<Eigen::Index>(i)).transpose();
-    velocities[i] = (target_.row(static_cast<Eigen::Index>(i)).transpose() - places_[i]) / h_;
+    velocities[i] = (target_.row(static_cast<Eigen::Index>(i)).transpose() - places_[i]) / flight_.h;
   }
   moving_.inverse_masses = inverse_masses_;
   converged_ = false;
@@ -228,7 +209,7 @@ void ImpulseContact::hold() {
     zones_.apply(places_, moving_);
     for (Index i = 0; i < count; ++i) {
       if (inverse_masses_[i] > 0) {
-        target_.row(static_cast<Eigen::Index>(i)) = (places_[i] + h_ * moving_.velocities[i]).transpose();
+        target_.row(static_cast<Eigen::Index>(i)) = (places_[i] + flight_.h * moving_.velocities[i]).transpose();
       }
     }
     find();
@@ -243,7 +224,7 @@ bool ImpulseContact::hold_with_obstacle(const ContactConstraint& contact, std::v
     const auto vertex = Index(contact.vertices[i]);
     if (moving_.inverse_masses[vertex] == 0) continue;
     moving_.inverse_masses[vertex] = 0;
-    velocities[vertex] = -contact.carried / (h_ * weight);
+    velocities[vertex] = -contact.carried / (flight_.h * weight);
     more = true;
   }
   return more;
@@ -254,28 +235,30 @@ void ImpulseContact::finish(Vertices& v) {
     const ContactConstraint& contact = impulse.contact;
     if (contact.force.isZero(0)) continue;
     const Eigen::Vector3d& n = contact.normal;
-    if (impulse.turned != 0) {
-      push(contact, impulse.turned / impulse.compliance * n, v);
+    const Eigen::Vector3d drift = contact.carried / flight_.h;
+    if (impulse.bounce.struck > 0) {
+      const Eigen::Vector3d rubbed = impulse.compliance / flight_.h * (contact.force - contact.force.dot(n) * n);
+      push(contact, change_by(impulse.bounce, contact, contact.gather(v) + drift, rubbed) / impulse.compliance, v);
       continue;
     }
-    const Eigen::Vector3d drift = contact.carried / h_;
-    const double unhindered = (contact.gather(mean_) + drift).dot(n), now = (contact.gather(v) + drift).dot(n);
+    const double unhindered = (contact.gather(flight_.mean) + drift).dot(n), now = (contact.gather(v) + drift).dot(n);
     const double most = std::max(0.0, unhindered);
     if (now > most) push(contact, (most - now) / impulse.compliance * n, v);
   }
   std::erase_if(impulses_,
-                [](const Impulse& impulse) { return impulse.contact.force.isZero(0) || impulse.turned != 0; });
+                [](const Impulse& impulse) { return impulse.contact.force.isZero(0) || impulse.bounce.struck > 0; });
   for (Impulse& impulse : impulses_) impulse.contact.force.setZero();
   for (int pass = 0; pass < most_impulse_passes; ++pass) {
     bool moved = false;
     for (Impulse& impulse : impulses_) {
       ContactConstraint& contact = impulse.contact;
-      const Eigen::Vector3d speed = contact.gather(v) + contact.carried / h_;
+      const Eigen::Vector3d speed = contact.gather(v) + contact.carried / flight_.h;
       const Eigen::Vector3d change = change_of(impulse, -speed.dot(contact.normal), speed);
       if (change.isZero(0)) continue;
       contact.force += change;
       push(contact, change, v);
-      if (h_ * impulse.compliance * change.norm() > settled_share * contact.distance + least_correction) moved = true;
+      if (flight_.h * impulse.compliance * change.norm() > settled_share * contact.distance + least_correction)
+        moved = true;
     }
     if (!moved) return;
   }

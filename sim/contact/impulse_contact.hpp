@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/collision/rigid_zones.hpp"
+#include "sim/contact/bounce.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/system.hpp"
 
@@ -19,8 +20,7 @@ namespace drape {
 /// that bear a force do not approach, under the same law of friction. What separates features that were too near moves
 /// them and gives no speed.
 ///
-/// Restitution is Newton's law: features that arrive at the speed s leave with e·s at the moment of the impact, which
-/// gravity's parabola tells. Free fall thus rises to e² of its height, whatever the step.
+/// Restitution is Newton's law, see Bounce.
 ///
 /// What still collides after a few rounds goes with the obstacle, or moves as a rigid body, see RigidZones; the step
 /// counts as not converged then.
@@ -41,16 +41,13 @@ class ImpulseContact final : public MotionFilter {
   struct Impulse {
     ContactConstraint contact;  ///< its force is f [kg·m]
     double compliance;          ///< Σ weights²/m of vertices that can move [1/kg]
-    double gap_at_end;          ///< of what bounces: how far beyond the distance it ends [m]
-    double turned;              ///< by how much its bounce changes the mean velocity afterwards [m/s]
+    Bounce bounce;
   };
   void find();
   /// Solves from the contacts that are found, and finds more, until none is missed; has the vertices end there.
   void settle(Vertices& v);
   /// Returns true if the target lies where a contact forbids it.
   [[nodiscard]] bool violated() const;
-  /// Prepares the bounce of a contact that arrives.
-  void plan_bounce(Impulse& impulse) const;
   /// Starts from the unhindered target with the forces that are known.
   void apply_known();
   void push(const ContactConstraint& contact, const Eigen::Vector3d& change, Vertices& to) const;
@@ -66,7 +63,6 @@ class ImpulseContact final : public MotionFilter {
   bool hold_with_obstacle(const ContactConstraint& contact, std::vector<Point>& velocities);
 
   std::vector<std::shared_ptr<ContactSource>> sources_;
-  Eigen::Vector3d gravity_;
   std::vector<double> inverse_masses_;  // 0 on pins [1/kg]
   std::vector<char> free_;              // whether each vertex can move
   std::vector<Impulse> impulses_, before_;
@@ -75,8 +71,8 @@ class ImpulseContact final : public MotionFilter {
   MovingVertices moving_;
   std::vector<Point> places_;
   const Vertices* x_ = nullptr;
-  double h_ = 0;
-  Vertices start_v_, mean_, unhindered_, target_, before_target_;
+  FreeFlight flight_;
+  Vertices target_, before_target_;
   bool converged_ = true;
 };
 

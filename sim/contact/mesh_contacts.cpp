@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <span>
 #include <utility>
 
 #include "sim/collision/impact.hpp"
@@ -203,10 +205,30 @@ void BodyContacts::find(const Vertices& target, int source, const std::vector<Co
     found_for_ = target_;
     searched_ = true;
   }
+  const auto before = static_cast<std::ptrdiff_t>(contacts.size());
   find_vertices(target, source, held, contacts);
   const auto first = static_cast<std::ptrdiff_t>(contacts.size());
   find_pairs(source, held, contacts);
   std::ranges::sort(contacts.begin() + first, contacts.end(), {}, &ContactConstraint::key);
+  leave_wrong_sides(contacts, before, first);
+}
+
+void BodyContacts::leave_wrong_sides(std::vector<ContactConstraint>& contacts, std::ptrdiff_t begin,
+                                     std::ptrdiff_t pairs) {
+  std::vector<ContactConstraint> passing;  // vertices through triangles
+  std::copy_if(contacts.begin() + pairs, contacts.end(), std::back_inserter(passing),
+               [](const ContactConstraint& contact) { return contact.collides && contact.count == 1; });
+  if (passing.empty()) return;
+  std::ranges::sort(passing, {}, [](const ContactConstraint& contact) { return contact.vertices[0]; });
+  const auto wrong = [&](const ContactConstraint& contact) {
+    const auto same = std::ranges::equal_range(passing, contact.vertices[0], {},
+                                               [](const ContactConstraint& one) { return one.vertices[0]; });
+    return std::ranges::any_of(same, [&](const ContactConstraint& one) { return one.normal.dot(contact.normal) < 0; });
+  };
+  const auto vertices = std::span(contacts).subspan(static_cast<Index>(begin), static_cast<Index>(pairs - begin));
+  const auto removed = std::ranges::remove_if(vertices, wrong);
+  const auto kept = pairs - static_cast<std::ptrdiff_t>(removed.size());
+  contacts.erase(contacts.begin() + kept, contacts.begin() + pairs);
 }
 
 void BodyContacts::find_vertices(const Vertices&, int source, const std::vector<ContactConstraint>& held,

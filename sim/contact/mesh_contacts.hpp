@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -73,6 +74,9 @@ class BodyContacts final : public ContactSource {
   void find_vertices(const Vertices& target, int source, const std::vector<ContactConstraint>& held,
                      std::vector<ContactConstraint>& contacts);
   void find_pairs(int source, const std::vector<ContactConstraint>& held, std::vector<ContactConstraint>& contacts);
+  /// Takes out those of the vertices' contacts, from `begin` to `pairs`, that would hold a vertex on the side of a
+  /// shell to which it has passed.
+  static void leave_wrong_sides(std::vector<ContactConstraint>& contacts, std::ptrdiff_t begin, std::ptrdiff_t pairs);
   /// The contact of features whose touch is known in the body's coordinates.
   [[nodiscard]] ContactConstraint make(const std::array<int, 4>& vertices, const std::array<double, 4>& weights,
                                        const Point& normal) const;

@@ -4,8 +4,10 @@
 
 namespace drape {
 
-BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver)
-    : MinimisingScheme(system, system.step, make_solver), books_(system, objective_, *solver_) {
+BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver, bool of_the_moment)
+    : MinimisingScheme(system, system.step, make_solver),
+      of_the_moment_(of_the_moment),
+      books_(system, objective_, *solver_) {
   if (!system.contacts.empty()) contact_.emplace(system);
 }
 
@@ -40,19 +42,18 @@ double BackwardEuler::unbalanced() {
   return touched_ ? contact_->residual().rowwise().norm().sum() : MinimisingScheme::unbalanced();
 }
 
-bool BackwardEuler::would_touch(const State& from, const Vertices& x) {
-  contact_->begin(from.x, system_.time(from.step), system_.time(from.step + 1));
-  return contact_->touches(x);
+bool BackwardEuler::is_hindered(const State& from, const Vertices& x) {
+  contact_->begin(from, system_.time(from.step), system_.time(from.step + 1), of_the_moment_);
+  return contact_->hinders(x);
 }
 
 StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   const Expected expected = take_expected();
   system_.begin(state);
   const Vertices& force = forces.all(state, system_.time(state.step));
-  const Vertices before = contact_ ? state.v : Vertices();
   Vertices steady;
   if (contact_) {
-    contact_->begin(state.x, system_.time(state.step), system_.time(state.step + 1));
+    contact_->begin(state, system_.time(state.step), system_.time(state.step + 1), of_the_moment_);
     steady = state.x + system_.step * state.v;
     system_.place_pins(system_.time(state.step + 1), steady);
   }
@@ -75,7 +76,7 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   }
   books_.end(point_);
   divided_difference(system_.threads, point_.x, state.x, system_.step, state.v);
-  if (touches) contact_->rebound(before, system_.step, state.v);
+  if (touches) contact_->rebound(of_the_moment_, state.v);
   system_.move(state, &point_.x);
   system_.correct(state);
   return report;

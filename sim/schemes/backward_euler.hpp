@@ -15,7 +15,9 @@ namespace drape {
 /// Of a cloth that nothing holds every solve ends with balance_momentum().
 class BackwardEuler final : public MinimisingScheme {
  public:
-  BackwardEuler(const System& system, const MakeSolver& make_solver);
+  /// @param of_the_moment whether the velocities that it gets and leaves are those of the moment, not those with which
+  ///                      the cloth goes: of steps among those of another scheme
+  BackwardEuler(const System& system, const MakeSolver& make_solver, bool of_the_moment = false);
 
   StepReport advance(State& state, StepForces& forces) override;
 
@@ -23,9 +25,9 @@ class BackwardEuler final : public MinimisingScheme {
   [[nodiscard]] double error() override;
   [[nodiscard]] double unbalanced() override;
 
-  /// Returns true if a cloth that goes straight from a state to x in the step that begins there touches anything. There
+  /// Returns true if something keeps a cloth from going straight from a state to x in the step that begins there. There
   /// must be something that it can touch.
-  [[nodiscard]] bool would_touch(const State& from, const Vertices& x);
+  [[nodiscard]] bool is_hindered(const State& from, const Vertices& x);
 
  private:
   /// Goes back until the step gains nothing, on a way that nothing is in; returns what part of it is left.
@@ -36,6 +38,7 @@ class BackwardEuler final : public MinimisingScheme {
   /// @param steady where cloth would go that keeps its velocities; empty without contacts
   StepReport solve_step(const Vertices& steady, const std::function<bool()>& may_end);
 
+  bool of_the_moment_;
   EnergyBooks books_;
   std::optional<ContactSolver> contact_;    // where the cloth can touch something
   std::optional<ImplicitProblem> problem_;  // of contact, once there is any

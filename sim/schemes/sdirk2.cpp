@@ -16,7 +16,7 @@ constexpr double delta = 1 - 1 / (2 * gamma);
 
 Sdirk2::Sdirk2(const System& system, const MakeSolver& make_solver)
     : MinimisingScheme(system, tableau::gamma * system.step, make_solver) {
-  if (!system.contacts.empty()) touching_.emplace(system, make_solver);
+  if (!system.contacts.empty()) touching_.emplace(system, make_solver, true);
 }
 
 void Sdirk2::expect(const Vertices& early, const Vertices& late) {
@@ -30,11 +30,11 @@ double Sdirk2::unbalanced() { return touched_ ? touching_->unbalanced() : Minimi
 
 StepReport Sdirk2::advance(State& state, StepForces& forces) {
   if (!touching_) return advance_freely(state, forces);
-  touched_ = touching_->would_touch(state, state.x + system_.step * state.v);
+  touched_ = touching_->is_hindered(state, state.x + system_.step * state.v);
   if (touched_) return touching_->advance(state, forces);
   before_ = state;
   const StepReport freely = advance_freely(state, forces);
-  touched_ = touching_->would_touch(before_, state.x);
+  touched_ = touching_->is_hindered(before_, state.x);
   if (!touched_) return freely;
   state = before_;
   StepReport report = touching_->advance(state, forces);

@@ -22,8 +22,8 @@ constexpr double fall = 0.5;        // [m]
 class Restitution : public testing::TestWithParam<NamedMethod> {
  protected:
   SimulationSettings settings(Cloth cloth, double step) const {
-    SimulationSettings result = setup(std::move(cloth), GetParam().method, step);
-    result.effects = {Gravity{}};
+    SimulationSettings result = contact_settings(GetParam(), std::move(cloth), step);
+    result.integrator.tolerance = 1e-11;
     return result;
   }
 
@@ -67,8 +67,13 @@ TEST_P(Restitution, AFallingSheetRisesToItsSquareOfTheHeight) {
     for (const double e : {0.0, 0.25, 0.5, 0.75, 0.9, 1.0}) {
       SimulationSettings s = settings(falling_sheet(), step);
       s.effects.add(ground(e));
-      // The top of a parabola lies at most gh²/8 above the nearest step.
-      EXPECT_NEAR(rebound(s, 1).highest / fall, e * e, g * step * step / 4 / fall) << e << ", " << step;
+      const double share = rebound(s, 1).highest / fall;
+      if (e > 0) {
+        // The top of a parabola lies at most gh²/8 above the nearest step.
+        EXPECT_NEAR(share, e * e, g * step * step / 4 / fall) << e << ", " << step;
+      } else {
+        EXPECT_LT(share, g * step * step / fall) << step;
+      }
     }
   }
 }
@@ -77,11 +82,8 @@ TEST_P(Restitution, AVertexRisesFromTheTopOfASphereToItsSquareOfTheHeight) {
   for (const double step : {0.01, 0.002}) {
     for (const double e : {0.25, 0.5, 0.9, 1.0}) {
       SimulationSettings s = settings(loose(RowVector3d(0, 0, thickness + fall)), step);
-      s.effects.add(Sphere{.center = Vector3d(0, 0, thickness - 0.3),
-                           .radius = 0.2,
-                           .scale = 1.5,
-                           .friction = 0.3,
-                           .restitution = e});
+      s.effects.add(Sphere{
+          .center = Vector3d(0, 0, thickness - 0.3), .radius = 0.2, .scale = 1.5, .friction = 0.3, .restitution = e});
       EXPECT_NEAR(rebound(s, 1).highest / fall, e * e, g * step * step / 4 / fall) << e << ", " << step;
     }
   }
@@ -191,11 +193,8 @@ TEST_P(Restitution, TurnsTheSpeedAcrossASlope) {
 TEST_P(Restitution, IsRelativeToASphereThatMoves) {
   constexpr double e = 0.7;
   SimulationSettings s = settings(loose(RowVector3d(0, 0, 0)), 0.01);
-  s.effects = {Sphere{.center = Vector3d(0, 0, -1.013),
-                      .radius = 1,
-                      .scale = 1,
-                      .restitution = e,
-                      .velocity = Vector3d(0, 0, 1.5)}};
+  s.effects = {Sphere{
+      .center = Vector3d(0, 0, -1.013), .radius = 1, .scale = 1, .restitution = e, .velocity = Vector3d(0, 0, 1.5)}};
   Simulation simulation(s);
   for (int i = 0; i < 10; ++i) simulation.step();
   EXPECT_NEAR(simulation.state().v(0, 2), 1.5 * (1 + e), 1e-9);

@@ -100,7 +100,7 @@ class Writer {
         (table == "effects.moving_pins" && key.name == "keyframes"))
       return true;
     if (key.name == "scheme" && explicit_) return false;
-    if (table == "effects.self_collision" && key.name == "response") return false;
+    if (table == "effects.sphere" && key.name == "stiffness") return false;
     if (key.name == "samples" || key.name == "frames" || key.name == "ignore_frames") return false;
     return key.required || random_.number() < 0.35;
   }
