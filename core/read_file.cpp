@@ -75,6 +75,32 @@ std::string read_file(const std::filesystem::path& file, std::size_t limit) {
   fail(file, fmt::format("the file is too large: expected at most {} bytes", limit));
 }
 
+FilePieces::FilePieces(const std::filesystem::path& file) : file_(file) {
+  require_readable_kind(file);
+  descriptor_ = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor_ < 0) fail_by_system(file);
+}
+
+FilePieces::~FilePieces() { close(descriptor_); }
+
+bool FilePieces::possible(const std::filesystem::path& file) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(file, error);
+}
+
+void FilePieces::read(std::size_t offset, std::size_t most, std::string& bytes) const {
+  bytes.resize(most);
+  std::size_t size = 0;
+  while (size < most) {
+    const ssize_t got = pread(descriptor_, bytes.data() + size, most - size, static_cast<off_t>(offset + size));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail_by_system(file_);
+    if (got == 0) break;
+    size += static_cast<std::size_t>(got);
+  }
+  bytes.resize(size);
+}
+
 std::string text_of(const std::filesystem::path& file, std::string text) {
   constexpr std::string_view utf8 = "\xEF\xBB\xBF", utf16_little = "\xFF\xFE", utf16_big = "\xFE\xFF";
   if (text.starts_with(utf16_little) || text.starts_with(utf16_big)) {

@@ -18,4 +18,25 @@ std::string read_text(const std::filesystem::path& file, std::size_t limit);
 /// The same of bytes that have been read from it.
 std::string text_of(const std::filesystem::path& file, std::string text);
 
+/// A file that is read a piece at a time.
+class FilePieces {
+ public:
+  /// @throws UsageError as read_file()
+  explicit FilePieces(const std::filesystem::path& file);
+  ~FilePieces();
+  FilePieces(const FilePieces&) = delete;
+  FilePieces& operator=(const FilePieces&) = delete;
+
+  /// Returns true for a plain file, whose pieces can be read in any order. A pipe has to be read whole.
+  static bool possible(const std::filesystem::path& file);
+
+  /// Reads from an offset on into `bytes`: up to `most` of them, fewer only at the end of the file.
+  /// @throws UsageError if they cannot be read
+  void read(std::size_t offset, std::size_t most, std::string& bytes) const;
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_;
+};
+
 }  // namespace drape

@@ -14,6 +14,7 @@ Markup strip(const Strip& strip) {
                   {"data-columns", std::to_string(strip.columns)},
                   {"data-rows", std::to_string(rows)},
                   {"data-count", std::to_string(strip.count)},
+                  {"data-poster", std::to_string(strip.poster)},
                   {"style", fmt::format("--columns: {}; aspect-ratio: {} / {}", strip.columns, width, height)}},
                  picture("image/png", strip.bytes, strip.alt));
 }

@@ -16,14 +16,16 @@ struct Strip {
   int columns = 1;                ///< pictures in a row
   int count = 1;                  ///< pictures
   std::array<int, 2> size{1, 1};  ///< of one [pixels]
+  int poster = 0;                 ///< the picture that tells most
   std::string alt;                ///< what it shows, for who cannot see it
 };
 
 /// One of its pictures, or all of them, as the strips() around it say.
 Markup strip(const Strip& strip);
 
-/// Whatever has strips in it, which show the same moment: it plays, and a slider or the arrow keys choose it; or they
-/// are seen as contact sheets, as they are on paper. Without a script they show the first.
+/// Whatever has strips in it. Each shows its poster, until they show the same moment: it plays, and a slider or the
+/// arrow keys choose it; or they are seen as contact sheets, as they are on paper. Without a script they show the
+/// first.
 /// @param moments their names, at least one: "t = 0.40 s"
 Markup strips(const std::string& id, const std::vector<std::string>& moments, const Markup& content);
 

@@ -42,15 +42,18 @@
 
   for (const root of document.querySelectorAll(".strips")) {
     const strips = [...root.querySelectorAll(".strip")];
+    const place = (strip, moment) => {
+      const { columns, rows, count } = strip.dataset;
+      const shown = Math.min(moment, count - 1);
+      const across = (-100 * (shown % columns)) / columns;
+      const down = (-100 * Math.floor(shown / columns)) / rows;
+      strip.firstElementChild.style.transform = `translate(${across}%, ${down}%)`;
+    };
     player(root, 350, (moment) => {
-      for (const strip of strips) {
-        const { columns, rows, count } = strip.dataset;
-        const shown = Math.min(moment, count - 1);
-        const across = (-100 * (shown % columns)) / columns;
-        const down = (-100 * Math.floor(shown / columns)) / rows;
-        strip.firstElementChild.style.transform = `translate(${across}%, ${down}%)`;
-      }
+      for (const strip of strips) place(strip, moment);
     });
+    for (const strip of strips) place(strip, Number(strip.dataset.poster));
+    root.querySelector("output").textContent = "each at its most telling moment";
     const sheets = root.querySelector(".as-sheets");
     sheets.addEventListener("change", () => root.classList.toggle("sheets", sheets.checked));
   }

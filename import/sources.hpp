@@ -24,7 +24,8 @@ std::unique_ptr<MotionSource> open_npz(const std::filesystem::path& file);
 /// @param mesh empty: the .obj of the same name beside it
 std::unique_ptr<MotionSource> open_pc2(const std::filesystem::path& file, const std::filesystem::path& mesh);
 
-/// A Mesh of an ASCII USD file, in metres with z up. The text is in memory, its samples of points are read one by one.
+/// A Mesh of an ASCII USD file, in metres with z up. Of its samples of points only the places are in memory. Spheres
+/// and Planes are spheres and grounds.
 /// @param prim its path; empty: the one that is called Cloth, or the only one. Other meshes are bodies then.
 std::unique_ptr<MotionSource> open_usd(const std::filesystem::path& file, const std::string& prim);
 

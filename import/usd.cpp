@@ -11,29 +11,57 @@ namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
-/// The spheres of a stage at the times of a motion. One keeps the radius that it has first.
-ImportedShapes spheres_of(const UsdStage& stage, const std::vector<double>& times) {
-  ImportedShapes spheres;
-  std::vector<TransformTrack> tracks;
-  for (const UsdPath& path : find_prims(stage, {"Sphere"})) tracks.push_back(read_usd_track(stage, path));
-  if (tracks.empty()) return spheres;
+/// Where the prims of a type are at the times of a motion.
+template <class Row>
+ImportedShapes shapes_of(const UsdStage& stage, const char* type, const std::vector<double>& times, Row row_of) {
+  ImportedShapes shapes;
+  std::vector<std::pair<UsdPath, TransformTrack>> tracks;
+  for (const UsdPath& path : find_prims(stage, {type})) tracks.emplace_back(path, read_usd_track(stage, path));
+  if (tracks.empty()) return shapes;
   for (const double time : times) {
-    auto& row = spheres.by_moment.emplace_back();
-    for (const TransformTrack& track : tracks) {
-      const SphereShape sphere = track.sphere_at(time);
-      row.emplace_back(sphere.center.x(), sphere.center.y(), sphere.center.z(), sphere.radius);
-    }
+    auto& row = shapes.by_moment.emplace_back();
+    for (const auto& [path, track] : tracks) row.push_back(row_of(*path.back(), track, time));
   }
-  return spheres;
+  return shapes;
 }
 
-/// A file that is open: its text, and what it says beside the samples of points.
+/// The spheres of a stage. One keeps the radius that it has first.
+ImportedShapes spheres_of(const UsdStage& stage, const std::vector<double>& times) {
+  return shapes_of(stage, "Sphere", times, [](const UsdPrim&, const TransformTrack& track, double time) {
+    const SphereShape sphere = track.sphere_at(time);
+    return Eigen::Vector4d(sphere.center.x(), sphere.center.y(), sphere.center.z(), sphere.radius);
+  });
+}
+
+/// Which of its own axes a Plane is perpendicular to.
+Eigen::Vector3d axis_of(const UsdPrim& plane) {
+  const UsdAttribute* axis = plane.find("axis");
+  if (axis == nullptr || axis->first() == nullptr) return Eigen::Vector3d::UnitZ();
+  const std::vector<std::string>& names = axis->first()->strings;
+  for (int i = 0; i < 3; ++i) {
+    if (names.size() == 1 && names[0] == std::string(1, "XYZ"[i])) return Eigen::Vector3d::Unit(i);
+  }
+  axis->first()->place.fail("axis: expected \"X\", \"Y\" or \"Z\"");
+}
+
+/// The planes of a stage, each as a ground without end, as simulators of rigid bodies take them.
+ImportedShapes grounds_of(const UsdStage& stage, const std::vector<double>& times) {
+  return shapes_of(stage, "Plane", times, [](const UsdPrim& plane, const TransformTrack& track, double time) {
+    const Eigen::Affine3d to_world = track.at(time);
+    // A normal goes by the inverse transpose.
+    const Eigen::Vector3d normal = (to_world.linear().inverse().transpose() * axis_of(plane)).normalized();
+    if (!normal.allFinite()) plane.place.fail("its transform leaves no plane of it");
+    return Eigen::Vector4d(normal.x(), normal.y(), normal.z(), normal.dot(to_world.translation()));
+  });
+}
+
+/// A file that is open: what it says beside the samples of points, which stay in it.
 struct OpenStage {
   SourceText source;
   UsdStage stage;
 
   explicit OpenStage(const fs::path& file)
-      : source(SourceText::read(file)), stage(source, {.moving_points = true, .located_points = true}) {}
+      : source(SourceText::open(file)), stage(source, {.moving_points = true, .located_points = true}) {}
 };
 
 /// A mesh whose points are read a sample at a time.
@@ -45,7 +73,7 @@ class UsdMotion final : public MotionSource {
   }
 
   std::vector<std::shared_ptr<MotionSource>> bodies;
-  ImportedShapes spheres;
+  ImportedShapes spheres, grounds;
 
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] const Mesh& mesh() const override { return moving_.mesh(); }
@@ -58,7 +86,9 @@ class UsdMotion final : public MotionSource {
     require_finite(fmt::format("{}: sample {}", name_, i), moment.x);
     return moment;
   }
-  [[nodiscard]] ImportedColliders colliders() override { return {.spheres = spheres, .grounds = {}, .bodies = bodies}; }
+  [[nodiscard]] ImportedColliders colliders() override {
+    return {.spheres = spheres, .grounds = grounds, .bodies = bodies};
+  }
 
  private:
   std::string name_;
@@ -78,8 +108,10 @@ std::unique_ptr<MotionSource> open_usd(const fs::path& file, const std::string& 
     if (chosen.empty() && meshes.size() > 1 && mesh.back()->name == "Cloth") chosen = mesh.back()->path;
   }
   auto motion = std::make_unique<UsdMotion>(name, open, chosen);
-  const std::vector<double> times = motion->times();
-  motion->spheres = spheres_of(stage, times.empty() ? std::vector<double>{0} : times);
+  std::vector<double> times = motion->times();
+  if (times.empty()) times.push_back(0);
+  motion->spheres = spheres_of(stage, times);
+  motion->grounds = grounds_of(stage, times);
   if (!prim.empty() || chosen.empty()) return motion;
   for (const UsdPath& mesh : meshes) {
     const std::string& path = mesh.back()->path;

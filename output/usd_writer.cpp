@@ -167,7 +167,9 @@ void UsdWriter::write_colliders() {
   write_bodies(usd_color(look.body_color));
   for (std::size_t i = 0; i < grounds_.size(); ++i) {
     const GroundShape& ground = grounds_[i];
-    const Eigen::Vector3d middle = ground_corners(ground, patch_).colwise().mean().transpose();
+    const Vertices corners = ground_corners(ground, patch_);
+    Eigen::Vector3d middle = corners.colwise().mean().transpose();
+    middle += (ground.height - ground.normal.dot(middle)) * ground.normal;  // so that a level one is read back as it is
     file_.write(fmt::format("\n    def Plane \"Ground{}\"\n    {{\n", i + 1));
     file_.write(fmt::format(
         "{0}uniform token axis = \"Z\"\n{0}double width = {1}\n{0}double length = {1}\n"

@@ -98,6 +98,10 @@ std::optional<StudyPicture> animate_accuracy(const SceneAccuracy& accuracy, Anim
   if (!animation) return std::nullopt;
   picture.bytes = std::move(animation->gif);
   picture.stills = std::move(animation->stills);
+  const AnimationPanel& worst = panels[animation->worst_panel];
+  picture.motions = {{"the reference", {}, std::move(animation->reference)},
+                     {worst.label + ", which ends furthest from the reference", worst.what.film_command("motion.html"),
+                      std::move(animation->worst)}};
   return picture;
 }
 

@@ -108,6 +108,20 @@ class PanelPainter {
   Renderer renderer_;
 };
 
+/// The motion whose last frame is furthest from a frame.
+std::size_t furthest(const std::vector<std::vector<Frame>>& motions, const Frame& end) {
+  std::size_t worst = 0;
+  double most = 0;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const double distance = (motions[i].back().positions - end.positions).rowwise().norm().maxCoeff();
+    if (distance > most) {
+      most = distance;
+      worst = i;
+    }
+  }
+  return worst;
+}
+
 /// A view that stays, of all motions.
 View view_of(const Scene& scene, const Eigen::Vector2i& size, const std::vector<std::vector<Frame>>& motions) {
   Camera still = scene.camera;
@@ -168,7 +182,9 @@ std::optional<Animation> animate_errors(const Scene& scene, const SimulationSett
   for (const Image& still : stills) moments.push_back(&still);
   const std::string picture = encode_png(montage(moments, stills_in_a_row, gap, paper));
   write_file_atomically(std::filesystem::path(file).replace_extension(".png"), picture);
-  return Animation{read_file(file, std::filesystem::file_size(file)), picture};
+  const std::size_t worst = furthest(motions, exact.back());
+  return Animation{read_file(file, std::filesystem::file_size(file)), picture, pack_for_page(scene, exact),
+                   pack_for_page(scene, motions[worst]), worst};
 }
 
 }  // namespace drape

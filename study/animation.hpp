@@ -8,7 +8,7 @@
 
 #include "render/backend.hpp"
 #include "run/progress.hpp"
-#include "study/case.hpp"
+#include "study/study_motion.hpp"
 
 namespace drape {
 
@@ -18,9 +18,11 @@ struct AnimationPanel {
   std::string label;  ///< "liu13, tolerance 0.001: 190 µs per step"
 };
 
-/// The bytes of a GIF, and of a PNG that shows some of its moments in rows.
+/// The bytes of a GIF, and of a PNG that shows some of its moments in rows; and two of its motions to turn.
 struct Animation {
   std::string gif, stills;
+  html::PlayedMotion reference = {}, worst = {};
+  std::size_t worst_panel = 0;  ///< which ends furthest from the reference
 };
 
 /// A GIF in which several motions of a scene run side by side, each vertex in the colour of its distance to a reference

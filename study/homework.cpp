@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -169,6 +170,23 @@ void add_charts(HomeworkStudy& study, const std::vector<HomeworkRow>& rows, cons
           [](const Measured& m) { return m.time().median; }, [](const Reported& r) { return r.microseconds; })};
 }
 
+/// Runs each method of tables 1 and 2 once more, for its motion.
+/// @returns false if it was stopped
+bool add_motions(HomeworkStudy& study, const std::vector<HomeworkRow>& rows, const std::stop_token& stop,
+                 Progress& progress) {
+  progress.begin("running for the motions", "motions",
+                 std::ranges::count_if(rows, [](const HomeworkRow& row) { return row.table < 3; }));
+  for (const HomeworkRow& row : rows) {
+    if (row.table == 3) continue;
+    auto motion = record_study_motion(
+        row.what, row.method + (row.table == 1 ? ", no sphere, k = 18 N/m" : ", with the sphere, k = 180 N/m"), stop);
+    if (!motion) return false;
+    study.motions.push_back(std::move(*motion));
+    ++progress.done;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<HomeworkStudy> study_homework(RunCount runs, const std::stop_token& stop, Progress& progress) {
@@ -187,6 +205,7 @@ std::optional<HomeworkStudy> study_homework(RunCount runs, const std::stop_token
   for (const int table : {1, 2, 3}) study.tables.push_back(make_table(table, rows, measured));
   add_energies(study);
   add_charts(study, rows, measured, extras);
+  if (!add_motions(study, rows, stop, progress)) return std::nullopt;
   study.conclusions = judge_conclusions(rows, measured, extras);
   study.differences = homework_differences();
   study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

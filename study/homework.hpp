@@ -21,6 +21,7 @@ struct HomeworkStudy {
   std::vector<ResultTable> tables;
   ResultTable energies;  ///< the log of the first 20 steps, in full
   std::vector<NamedChart> charts;
+  std::vector<StudyMotion> motions;  ///< of each method of tables 1 and 2
   std::vector<Conclusion> conclusions;
   std::vector<std::string> differences;  ///< from the report on purpose, a sentence each
   RunCount runs;

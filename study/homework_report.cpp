@@ -22,10 +22,12 @@ StudyReport homework_report(const HomeworkStudy& study) {
     report.findings.push_back({c.confirmed ? html::Tone::good : html::Tone::bad,
                                c.confirmed ? "confirmed" : "Not confirmed.", c.claim, c.figures});
   }
-  report.sections = {{"Tables", {}, study.tables, {}, {}},
-                     {"Diagrams", {}, {}, study.charts, {}},
-                     {"Where drape differs on purpose", study.differences, {}, {}, {}},
-                     {"How it was measured", {describe_measuring(study.runs)}, {}, {}, {}}};
+  report.sections = {
+      {"Tables", {}, study.tables, {}, {}},
+      {.title = "Motions", .text = {}, .tables = {}, .charts = {}, .pictures = {}, .motions = study.motions},
+      {"Diagrams", {}, {}, study.charts, {}},
+      {"Where drape differs on purpose", study.differences, {}, {}, {}},
+      {"How it was measured", {describe_measuring(study.runs)}, {}, {}, {}}};
   report.data = {study.energies};
   report.seconds = study.seconds;
   return report;

@@ -18,16 +18,33 @@ html::Markup to_html(const StudyFinding& finding) {
   return html::element("strong", claim) + " " + finding.figures;
 }
 
+/// Motions to turn, opened one at a time. Those that a browser cannot hold are left out.
+html::Markup to_html(const std::vector<StudyMotion>& motions, const std::string& id) {
+  html::Markup content;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const StudyMotion& motion = motions[i];
+    if (motion.played.frames == 0) continue;
+    html::Markup player = html::motion_player(fmt::format("{}-motion-{}", id, i + 1), motion.played, motion.label) +
+                          html::note(describe(motion.played));
+    if (!motion.command.empty()) player += html::command("Make a page of this motion", motion.command);
+    content += html::details("Turn the cloth: " + motion.label, player);
+  }
+  return content;
+}
+
 /// @param is_answer whether it is what a reader has come for: its tables come first, and can be read in any window
 html::Markup to_html(const StudySection& section, const std::string& id, bool is_answer = false) {
   html::Markup content, tables;
   for (const ResultTable& table : section.tables) tables += to_html(table, is_answer);
   for (const std::string& paragraph : section.text) content += html::paragraph(paragraph);
   if (is_answer) content += tables;
-  for (const StudyPicture& picture : section.pictures) {
+  for (std::size_t i = 0; i < section.pictures.size(); ++i) {
+    const StudyPicture& picture = section.pictures[i];
     content += html::figure(html::animation(picture.bytes, picture.stills, picture.caption), picture.caption) +
-               html::command("Reproduce this animation", picture.command);
+               html::command("Reproduce this animation", picture.command) +
+               to_html(picture.motions, fmt::format("{}-animation-{}", id, i + 1));
   }
+  content += to_html(section.motions, id);
   if (!section.charts.empty()) {
     content += html::element("p", {{"class", "note on-screen"}},
                              "Point at a curve, or move along it with the arrow keys, to see its values and the "

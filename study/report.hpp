@@ -11,6 +11,7 @@
 #include "figures/result_table.hpp"
 #include "html/components.hpp"
 #include "study/stability_map.hpp"
+#include "study/study_motion.hpp"
 
 namespace drape {
 
@@ -24,11 +25,12 @@ struct StudyFinding {
 
 /// An animation that a study has made.
 struct StudyPicture {
-  std::string file;         ///< its name in the folder of the results
-  std::string bytes;        ///< of the GIF
-  std::string caption;      ///< also for who cannot see it
-  std::string command;      ///< that makes it again
-  std::string stills = {};  ///< some of its moments side by side, for paper: bytes of a PNG
+  std::string file;                       ///< its name in the folder of the results
+  std::string bytes;                      ///< of the GIF
+  std::string caption;                    ///< also for who cannot see it
+  std::string command;                    ///< that makes it again
+  std::string stills = {};                ///< some of its moments side by side, for paper: bytes of a PNG
+  std::vector<StudyMotion> motions = {};  ///< some that it shows, to turn
 };
 
 struct StudySection {
@@ -38,6 +40,7 @@ struct StudySection {
   std::vector<NamedChart> charts;
   std::vector<StudyPicture> pictures;
   std::vector<StabilityMap> maps = {};
+  std::vector<StudyMotion> motions = {};  ///< to turn
 };
 
 /// What every study hands out: read from top to bottom, findings first.

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "scene/method_names.hpp"
+#include "study/stability_motions.hpp"
 
 namespace drape {
 namespace {
@@ -81,6 +82,12 @@ StudyReport stability_report(const StabilityStudy& study) {
       "The cloth, with springs of 180 N/m, rests 1 cm deep in a level ground under an acceleration that the push just "
       "balances, and oscillates by 0.1 mm.";
   report.sections = {section(study, StabilityAxis::springs, "Springs", hangs),
+                     {.title = "Below and beyond the limit",
+                      .text = {describe_limit_motions()},
+                      .tables = {},
+                      .charts = {},
+                      .pictures = {},
+                      .motions = limit_motions()},
                      section(study, StabilityAxis::push, "Push of a sphere, evaluated once per step", lies),
                      {"Limits of stability", {}, {border_table(study.borders)}, {}, {}},
                      {"Energy over time", {describe_energies(study.energies)}, {}, {energy_chart(study.energies)}, {}}};

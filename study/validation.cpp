@@ -77,6 +77,8 @@ class ValidationMotion {
     return slow_ >= 3 && simulation_.time() >= of_.rest_after;
   }
 
+  [[nodiscard]] const Simulation& simulation() const { return simulation_; }
+
   ObservedMotion finish() {
     if (of_.only_end) keep();
     return std::move(motion_);
@@ -102,6 +104,11 @@ double mean_spring_length(const Cloth& cloth) {
   return cloth.springs.empty() ? 0 : sum / static_cast<double>(cloth.springs.size());
 }
 
+/// Returns true for the run whose motion the report shows: the first problem of --quick, as its scene is.
+bool is_shown(const ValidationCase& of, const ValidationRun& run) {
+  return run.factor == scene_factor && run.problem == (of.quick.empty() ? of.problems.front().name : of.quick.front());
+}
+
 /// @returns whether it was not stopped
 bool measure_run(const ValidationCase& of, ValidationRun& run, double patience, const std::stop_token& stop) {
   const double begin = thread_seconds();
@@ -111,14 +118,21 @@ bool measure_run(const ValidationCase& of, ValidationRun& run, double patience, 
     run.cell = mean_spring_length(scene.simulation.cloth);
     run.vertices = scene.simulation.cloth.vertex_count();
     ValidationMotion motion(of, scene);
+    std::optional<StudyMotionRecorder> recorder;
+    if (is_shown(of, run)) recorder.emplace(scene);
     for (std::int64_t step = 0; step < run.what.steps; ++step) {
       if (stop.stop_requested()) return false;
+      if (recorder) recorder->add(motion.simulation());
       if (motion.step(run)) break;
       if (thread_seconds() - begin > patience) {
         throw UsageError(fmt::format("given up after {:g} s of computing", patience));
       }
     }
     run.seconds = thread_seconds() - begin;
+    if (recorder) {
+      recorder->add(motion.simulation());
+      run.played = recorder->finish();
+    }
     for (const auto& [name, value] : measure_motion(of.measure, motion.finish(), of.problem(run.problem).given)) {
       run.names.push_back(name);
       run.values.push_back(value);

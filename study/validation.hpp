@@ -10,7 +10,7 @@
 
 #include "run/progress.hpp"
 #include "run/shard.hpp"
-#include "study/case.hpp"
+#include "study/study_motion.hpp"
 #include "study/validation_case.hpp"
 
 namespace drape {
@@ -39,6 +39,7 @@ struct ValidationRun {
   double rest_speed = 0;           ///< of the fastest vertex at the end [m/s]
   std::vector<std::string> names;  ///< of the quantities
   std::vector<double> values;      ///< theirs
+  html::PlayedMotion played = {};  ///< of the case's problem that --quick has, as its scene is; not kept in files
 
   [[nodiscard]] std::optional<double> value(const std::string& quantity) const;
 };

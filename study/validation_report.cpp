@@ -203,6 +203,10 @@ StudySection section_of(const ValidationStudy& study, const ValidationCase& of) 
   section.title = of.title;
   section.text = {of.question, fmt::format("Known from: {} {}", of.theory, of.source),
                   fmt::format("Mesh: {}", of.mesh)};
+  for (const ValidationRun& run : study.runs) {
+    if (run.name != of.name || run.played.frames == 0) continue;
+    section.motions.push_back({run.problem, run.what.film_command("motion.html"), run.played});
+  }
   for (const ValidationCurve& curve : of.curves) {
     section.text.push_back(fmt::format("{}: {}", curve.title, curve.how));
     section.charts.push_back(master_curve(study, of, curve));

@@ -44,18 +44,27 @@ std::optional<html::Strip> strip_of(const SweepResults& results, const SweepRow&
   if (width < 1 || height < 1) return std::nullopt;
   const double factor = std::min(1.0, static_cast<double>(widest) / width);
   const cv::Size small(std::max(1, static_cast<int>(width * factor)), std::max(1, static_cast<int>(height * factor)));
-  cv::Mat strip(rows * small.height, columns * small.width, CV_8UC3, cv::Scalar::all(255));
+  cv::Mat strip(rows * small.height, columns * small.width, CV_8UC3, cv::Scalar::all(255)), first;
+  int poster = 0;
+  double most = 0;
   for (int i = 0; i < count; ++i) {
     const int column = i % columns, line = i / columns;
     const cv::Mat from = sheet(cv::Rect(column * (width + gap), line * (height + gap), width, height));
     cv::Mat to = strip(cv::Rect(column * small.width, line * small.height, small.width, small.height));
     cv::resize(from, to, small, 0, 0, cv::INTER_AREA);
+    if (first.empty()) first = to.clone();
+    // Films begin alike, as a rule flat: what differs most from that tells most.
+    const double differs = cv::norm(to, first, cv::NORM_L1);
+    if (differs <= most) continue;
+    most = differs;
+    poster = i;
   }
   const std::vector<std::uint8_t> png = png_from_bgr(strip);
   return html::Strip{.bytes = {png.begin(), png.end()},
                      .columns = columns,
                      .count = count,
                      .size = {small.width, small.height},
+                     .poster = poster,
                      .alt = "Film of " + label_of(results.plan, results.planned(row))};
 }
 

@@ -34,19 +34,48 @@ SourceText SourceText::read(const std::filesystem::path& file) {
   return {file.string(), text_of(file, std::move(bytes))};
 }
 
-std::size_t SourceText::line(std::size_t offset) const {
-  const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text_.size()));
-  return 1 + static_cast<std::size_t>(std::count(text_.begin(), end, '\n'));
+SourceText SourceText::open(const std::filesystem::path& file) {
+  if (!FilePieces::possible(file)) return read(file);
+  SourceText source(file.string(), {});
+  source.file_ = std::make_shared<const FilePieces>(file);
+  std::string first;
+  source.file_->read(0, piece_bytes, first);
+  require_no_binary_usd(file, first);
+  source.begin_ = first.size() - text_of(file, first).size();
+  return source;
 }
 
-void SourceText::fail(std::size_t offset, const std::string& message) const {
-  offset = std::min(offset, text_.size());
-  const std::size_t newline = offset == 0 ? std::string::npos : text_.rfind('\n', offset - 1);
-  std::size_t column = 1;
-  for (std::size_t i = newline == std::string::npos ? 0 : newline + 1; i < offset; ++i) {
-    if (!continues_character(text_[i])) ++column;
+std::string_view SourceText::piece(std::size_t offset, std::string& memory) const {
+  if (file_ == nullptr) return std::string_view(text_).substr(std::min(offset, text_.size()));
+  file_->read(begin_ + offset, piece_bytes, memory);
+  if (memory.find('\0') != std::string::npos) text_of(name_, memory);  // refuses it
+  return memory;
+}
+
+std::pair<std::size_t, std::size_t> SourceText::line_and_column(std::size_t offset) const {
+  std::size_t line = 1, column = 1, at = 0;
+  std::string memory;
+  while (at < offset) {
+    const std::string_view text = piece(at, memory).substr(0, offset - at);
+    if (text.empty()) break;
+    at += text.size();
+    for (const char c : text) {
+      if (c == '\n') {
+        ++line;
+        column = 1;
+      } else if (!continues_character(c)) {
+        ++column;
+      }
+    }
   }
-  throw UsageError(fmt::format("{}:{}:{}: {}", shown(name_), line(offset), column, message));
+  return {line, column};
+}
+
+std::size_t SourceText::line(std::size_t offset) const { return line_and_column(offset).first; }
+
+void SourceText::fail(std::size_t offset, const std::string& message) const {
+  const auto [line, column] = line_and_column(offset);
+  throw UsageError(fmt::format("{}:{}:{}: {}", shown(name_), line, column, message));
 }
 
 void SourceText::fail(const std::string& message) const { throw UsageError(shown(name_) + ": " + message); }

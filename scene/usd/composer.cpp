@@ -110,7 +110,8 @@ class UsdComposer {
       return nullptr;
     }
     try {
-      return &read(stage_.texts_.emplace_back(SourceText::read(path)));
+      const bool by_pieces = stage_.source_.stays_in_file();
+      return &read(stage_.texts_.emplace_back(by_pieces ? SourceText::open(path) : SourceText::read(path)));
     } catch (const UsageError& wrong) {
       gap(arc, fmt::format("{} cannot be read: {}", in_quotes(arc.file), wrong.what()));
       return nullptr;

@@ -103,9 +103,10 @@ struct UsdReading {
   std::string primvar = {};
 };
 
-/// Parses an ASCII USD file. The syntax of all of it is checked, but only what a mesh and its motion need is kept:
-/// points, faceVertexCounts, faceVertexIndices, orientation, radius, xformOpOrder, xformOp:*, the texture coordinates
-/// and the skin among primvars:*, what a Skeleton and a SkelAnimation have, and where other specs of a prim stand.
+/// Parses an ASCII USD file, of one that stays in its file a piece at a time. The syntax of all of it is checked, but
+/// only what a mesh and its motion need is kept: points, faceVertexCounts, faceVertexIndices, orientation, radius,
+/// axis, xformOpOrder, xformOp:*, the texture coordinates and the skin among primvars:*, what a Skeleton and a
+/// SkelAnimation have, and where other specs of a prim stand.
 /// @param source must outlive the layer
 /// @throws UsageError "file:line:column: message", also for the binary form of USD, which is not read
 UsdLayer parse_usd(const SourceText& source, const UsdReading& reading);

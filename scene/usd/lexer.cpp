@@ -28,35 +28,84 @@ char closing(char opening) { return opening == '(' ? ')' : opening == '[' ? ']' 
 }  // namespace
 
 UsdLexer::UsdLexer(const SourceText& source, std::size_t offset)
-    : source_(&source), text_(source.text()), next_(offset) {
+    : source_(&source), begin_of_text_(offset), ended_(!source.stays_in_file()) {
+  std::string piece;
+  const std::string_view text = source.piece(offset, piece);
+  if (source.stays_in_file()) {
+    memory_ = std::make_shared<const std::string>(std::move(piece));
+    text_ = *memory_;
+  } else {
+    text_ = text;
+  }
   token_ = scan();
 }
 
-char UsdLexer::peek(std::size_t ahead) const { return next_ + ahead < text_.size() ? text_[next_ + ahead] : '\0'; }
+/// Appends a piece to what is in memory, of which it keeps the token that is scanned.
+/// @returns false at the end of the text
+bool UsdLexer::read_more() {
+  if (ended_) return false;
+  std::string kept(text_.substr(begin_)), piece;
+  const std::size_t before = kept.size();
+  // As much again, so that the time for a token of any length is linear in it.
+  do {
+    ended_ = source_->piece(begin_of_text_ + begin_ + kept.size(), piece).empty();
+    kept += piece;
+  } while (!ended_ && kept.size() < 2 * before);
+  if (kept.size() == before) return false;
+  // The token before lies in the memory in which this scan began.
+  if (memory_before_ == nullptr) memory_before_ = memory_;
+  memory_ = std::make_shared<const std::string>(std::move(kept));
+  text_ = *memory_;
+  begin_of_text_ += begin_;
+  next_ -= begin_;
+  begin_ = 0;
+  return true;
+}
+
+/// Goes on to the next place of a mark, or to the end of the text.
+/// @param keep whether the token that is scanned reaches up to there
+void UsdLexer::find(std::string_view mark, bool keep) {
+  do {
+    const std::size_t found = text_.find(mark, next_);
+    if (found != std::string_view::npos) {
+      next_ = found;
+      return;
+    }
+    next_ = std::max(next_, text_.size() - std::min(text_.size(), mark.size() - 1));
+    if (!keep) begin_ = next_;
+  } while (read_more());
+  next_ = text_.size();
+}
 
 void UsdLexer::skip_blanks_and_comments() {
-  while (next_ < text_.size()) {
+  while (!at_end()) {
+    begin_ = next_;  // so that nothing before is kept
     const char c = peek();
     if (c == '#' || (c == '/' && peek(1) == '/')) {
-      next_ = std::min(text_.find('\n', next_), text_.size());
+      find("\n", false);
     } else if (c == '/' && peek(1) == '*') {
-      const std::size_t end = text_.find("*/", next_ + 2);
-      if (end == std::string_view::npos) source_->fail(next_, "this comment is never closed");
-      next_ = end + 2;
+      const std::size_t offset = here();
+      next_ += 2;
+      find("*/", false);
+      if (at_end()) source_->fail(offset, "this comment is never closed");
+      next_ += 2;
     } else if (c == ' ' || c == '\t' || c == '\n' || c == '\r') {
       ++next_;
     } else {
       return;
     }
   }
+  begin_ = next_;
 }
 
 UsdToken UsdLexer::scan() {
   using Kind = UsdToken::Kind;
+  memory_before_.reset();
   skip_blanks_and_comments();
-  const std::size_t begin = next_;
-  if (begin == text_.size()) return {Kind::end, begin, {}};
-  const auto token = [&](Kind kind) { return UsdToken{kind, begin, text_.substr(begin, next_ - begin)}; };
+  if (at_end()) return {Kind::end, here(), {}};
+  const auto token = [&](Kind kind) {
+    return UsdToken{kind, begin_of_text_ + begin_, text_.substr(begin_, next_ - begin_)};
+  };
 
   const char c = peek();
   const std::size_t sign = c == '-' || c == '+' ? 1 : 0;
@@ -78,44 +127,44 @@ UsdToken UsdLexer::scan() {
   if (c == '"' || c == '\'') return scan_string(c);
   if (c == '@') return scan_asset();
   if (c == '<') {
-    next_ = text_.find_first_of(">\n", begin);
-    if (next_ == std::string_view::npos || text_[next_] == '\n')
-      source_->fail(begin, "this path is never closed by '>'");
+    while (!at_end() && peek() != '>' && peek() != '\n') ++next_;
+    if (peek() != '>') source_->fail(begin_of_text_ + begin_, "this path is never closed by '>'");
     ++next_;
     return token(Kind::path);
   }
   if (c == '\0' || std::string_view("()[]{}=,:;.&").find(c) == std::string_view::npos) {
-    source_->fail(begin, "unexpected character " + in_quotes(text_.substr(begin, 1)));
+    source_->fail(here(), "unexpected character " + in_quotes(text_.substr(begin_, 1)));
   }
   ++next_;
   return token(Kind::symbol);
 }
 
 UsdToken UsdLexer::scan_string(char quote) {
-  const std::size_t begin = next_;
   const bool triple = peek(1) == quote && peek(2) == quote;
   const std::size_t width = triple ? 3 : 1;
-  for (next_ += width; next_ < text_.size(); ++next_) {
+  for (next_ += width; !at_end(); ++next_) {
     if (peek() == '\\') {
-      ++next_;
+      if (peek(1) != '\0') ++next_;
     } else if (peek() == '\n' && !triple) {
       break;
     } else if (peek() == quote && (!triple || (peek(1) == quote && peek(2) == quote))) {
-      const std::string_view inside = text_.substr(begin + width, next_ - begin - width);
+      const std::string_view inside = text_.substr(begin_ + width, next_ - begin_ - width);
       next_ += width;
-      return {UsdToken::Kind::string, begin, inside};
+      return {UsdToken::Kind::string, begin_of_text_ + begin_, inside};
     }
   }
-  source_->fail(begin, fmt::format("this string is never closed by {}", std::string(width, quote)));
+  source_->fail(begin_of_text_ + begin_, fmt::format("this string is never closed by {}", std::string(width, quote)));
 }
 
 UsdToken UsdLexer::scan_asset() {
-  const std::size_t begin = next_;
   const std::string_view mark = peek(1) == '@' && peek(2) == '@' ? "@@@" : "@";
-  const std::size_t end = text_.find(mark, begin + mark.size());
-  if (end == std::string_view::npos) source_->fail(begin, fmt::format("this file name is never closed by {}", mark));
-  next_ = end + mark.size();
-  return {UsdToken::Kind::asset, begin, text_.substr(begin, next_ - begin)};
+  next_ += mark.size();
+  find(mark, true);
+  if (at_end()) {
+    source_->fail(begin_of_text_ + begin_, fmt::format("this file name is never closed by {}", mark));
+  }
+  next_ += mark.size();
+  return {UsdToken::Kind::asset, begin_of_text_ + begin_, text_.substr(begin_, next_ - begin_)};
 }
 
 UsdToken UsdLexer::take() {
@@ -154,15 +203,19 @@ std::optional<double> UsdLexer::accept_number() {
 }
 
 void UsdLexer::skip_brackets() {
-  std::vector<UsdToken> open;
+  struct Bracket {
+    char sign;
+    std::size_t offset;
+  };
+  std::vector<Bracket> open;
   do {
     if (at('(') || at('[') || at('{')) {
-      open.push_back(token_);
+      open.push_back({token_.text[0], token_.offset});
     } else if (at(')') || at(']') || at('}') || at(UsdToken::Kind::end)) {
-      const char expected = closing(open.back().text[0]);
+      const char expected = closing(open.back().sign);
       if (!at(expected)) {
         fail_expected(
-            fmt::format("'{}' for the '{}' of line {}", expected, open.back().text, source_->line(open.back().offset)));
+            fmt::format("'{}' for the '{}' of line {}", expected, open.back().sign, source_->line(open.back().offset)));
       }
       open.pop_back();
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,10 +23,13 @@ struct UsdToken {
   };
   Kind kind = Kind::end;
   std::size_t offset = 0;  ///< of its first character
-  std::string_view text;   ///< all of it; of strings, what is between the quotes, escapes left as they are
+  /// All of it; of strings, what is between the quotes, escapes left as they are. Valid while the lexer is at it or at
+  /// the token behind it.
+  std::string_view text;
 };
 
-/// Splits a usda file into tokens and keeps the one to look at next.
+/// Splits a usda file into tokens and keeps the one to look at next. Of a text that stays in its file, as much is in
+/// memory as the last two tokens need, and a piece.
 class UsdLexer {
  public:
   /// Starts at an offset, which must be between tokens.
@@ -56,16 +60,28 @@ class UsdLexer {
   [[noreturn]] void fail_expected(const std::string& what) const;
 
  private:
+  bool read_more();
+  [[nodiscard]] bool at_end() { return next_ == text_.size() && !read_more(); }
+  [[nodiscard]] std::size_t here() const { return begin_of_text_ + next_; }
+  void find(std::string_view mark, bool keep);
   void skip_blanks_and_comments();
   UsdToken scan();
   UsdToken scan_string(char quote);
   UsdToken scan_asset();
   void skip_brackets();
-  [[nodiscard]] char peek(std::size_t ahead = 0) const;
+  [[nodiscard]] char peek(std::size_t ahead = 0) {
+    while (next_ + ahead >= text_.size()) {
+      if (!read_more()) return '\0';
+    }
+    return text_[next_ + ahead];
+  }
 
   const SourceText* source_;
-  std::string_view text_;
-  std::size_t next_;  // just behind token_
+  std::string_view text_;             // what is in memory
+  std::size_t begin_of_text_ = 0;     // its place in the source
+  std::size_t begin_ = 0, next_ = 0;  // of the token that is scanned, and how far that is, in text_
+  std::shared_ptr<const std::string> memory_, memory_before_;  // of text_, and of the token before
+  bool ended_ = false;                                         // there is nothing behind text_
   UsdToken token_;
 };
 

@@ -51,10 +51,11 @@ std::vector<UsdMetadatum> usd_metadata(UsdLexer& lexer, const std::string& owner
       lexer.take();
       continue;
     }
-    const std::string_view edit = at_list_edit(lexer) ? lexer.take().text : std::string_view();
-    const std::string_view key = lexer.expect(Kind::word, "')' or a key in the metadata of " + owner).text;
+    std::string edit(at_list_edit(lexer) ? lexer.take().text : std::string_view());
+    std::string key(lexer.expect(Kind::word, "')' or a key in the metadata of " + owner).text);
     lexer.expect('=', fmt::format("'=' after {}", key));
-    found.push_back({edit, key, lexer.token()});
+    const UsdToken& value = lexer.token();
+    found.push_back({std::move(edit), std::move(key), {value.kind, value.offset, std::string(value.text)}});
     lexer.skip_value();
     if (lexer.at('(')) lexer.skip_value();  // how a reference shifts times
   }
@@ -90,9 +91,9 @@ std::vector<std::pair<std::string, std::string>> usd_selections(const SourceText
     if (lexer.accept(';') || lexer.accept(',')) continue;
     lexer.expect(Kind::word, "'}' or 'string' before the name of a variant set");
     const bool quoted = lexer.at(Kind::string);
-    const UsdToken set = lexer.expect(quoted ? Kind::string : Kind::word, "the name of a variant set");
-    lexer.expect('=', fmt::format("'=' after {}", set.text));
-    selections.emplace_back(set.text, lexer.expect(Kind::string, "the name of a variant in quotes").text);
+    std::string set(lexer.expect(quoted ? Kind::string : Kind::word, "the name of a variant set").text);
+    lexer.expect('=', fmt::format("'=' after {}", set));
+    selections.emplace_back(std::move(set), lexer.expect(Kind::string, "the name of a variant in quotes").text);
   }
   return selections;
 }

@@ -12,9 +12,13 @@ namespace drape {
 
 /// `edit key = value` in the parentheses behind a layer, prim or attribute.
 struct UsdMetadatum {
-  std::string_view edit;  ///< "prepend", …, or nothing
-  std::string_view key;
-  UsdToken value;  ///< its first token
+  std::string edit;  ///< "prepend", …, or nothing
+  std::string key;
+  struct Value {
+    UsdToken::Kind kind = UsdToken::Kind::end;
+    std::size_t offset = 0;
+    std::string text;
+  } value;  ///< its first token
 };
 
 /// Goes past what follows '(' up to and including ')', whatever its values are; comments are passed over.

@@ -27,10 +27,10 @@ bool is_specifier(const UsdLexer& lexer) {
 
 /// Whether an attribute is one that UsdLayer keeps.
 bool is_kept(std::string_view name, std::string_view type, const UsdReading& reading) {
-  constexpr std::array<std::string_view, 14> kept_names = {
-      "points",         "faceVertexCounts", "faceVertexIndices", "orientation",        "radius",
-      "xformOpOrder",   "joints",           "bindTransforms",    "translations",       "rotations",
-      "restTransforms", "scales",           "skel:joints",       "skel:skinningMethod"};
+  constexpr std::array<std::string_view, 15> kept_names = {
+      "points",       "faceVertexCounts", "faceVertexIndices",  "orientation",  "radius",    "axis",
+      "xformOpOrder", "joints",           "bindTransforms",     "translations", "rotations", "restTransforms",
+      "scales",       "skel:joints",      "skel:skinningMethod"};
   constexpr std::string_view primvars_prefix = "primvars:";
   if (std::find(kept_names.begin(), kept_names.end(), name) != kept_names.end() || name.starts_with("xformOp:"))
     return true;
@@ -68,7 +68,8 @@ class Parser {
 
  private:
   static std::size_t check_header(const SourceText& source) {
-    const std::string_view text = source.text();
+    std::string memory;
+    const std::string_view text = source.piece(0, memory);
     const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
     if (!text.substr(0, end).starts_with("#usda 1.")) {
       source.fail(0, "expected '#usda 1.0', found " + in_quotes(text.substr(0, end)));
@@ -154,7 +155,7 @@ class Parser {
     declared.components = type.components();
     const bool kept = type.kind != UsdType::Kind::other && is_kept(declared.name, declared.type, reading_);
 
-    std::string_view aspect;
+    std::string aspect;
     if (lexer_.accept('.')) aspect = lexer_.expect(Kind::word, "'timeSamples' or 'connect'").text;
     if (!kept) {
       const bool relationship = declared.type == "rel" && is_kept_relationship(declared.name);

@@ -42,6 +42,11 @@ ContactSolver::ContactSolver(const System& system)
       search_(gradient_),
       product_(gradient_) {
   for (const int pin : system.cloth.pins) free_[static_cast<Index>(pin)] = 0;
+  pull_.resize(free_.size());
+  for (const Spring& s : system.springs) {
+    pull_[static_cast<Index>(s.i)] += s.stiffness;
+    pull_[static_cast<Index>(s.j)] += s.stiffness;
+  }
   trial_.x = trial_.gradient = gradient_;
   for (const Spring& spring : system.cloth.springs) {
     longest_move_ += spring.rest_length / static_cast<double>(system.cloth.springs.size());
@@ -96,7 +101,7 @@ void ContactSolver::find(const Vertices& target, bool turn) {
   std::erase_if(contacts_, [&](const ContactConstraint& contact) { return !contact.can_move(free_); });
   auto known = before_.begin();
   for (ContactConstraint& contact : contacts_) {
-    contact.beyond = bounce_of(contact, flight_).gap;
+    if (contact.restitution > 0 && flies_freely(contact)) contact.beyond = bounce_of(contact, flight_).gap;
     while (known != before_.end() && known->key < contact.key) ++known;
     if (known == before_.end() || known->key != contact.key) continue;
     if (turn) {
@@ -406,30 +411,52 @@ bool ContactSolver::carried() const {
   return std::ranges::any_of(contacts_, [](const ContactConstraint& contact) { return !contact.carried.isZero(0); });
 }
 
+bool ContactSolver::flies_freely(const ContactConstraint& contact) const {
+  for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
+    const int vertex = contact.vertices[i];
+    if (flight_.h * flight_.h * pull_[static_cast<Index>(vertex)] > system_.cloth.masses[vertex]) return false;
+  }
+  return true;
+}
+
+void ContactSolver::give_velocity(const ContactConstraint& contact, const Eigen::Vector3d& change, Vertices& v) const {
+  double compliance = 0;
+  const auto for_free = [&](const auto& use) {
+    for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
+      const int vertex = contact.vertices[i];
+      if (free_[static_cast<Index>(vertex)] != 0) use(vertex, contact.weights[i] / system_.cloth.masses[vertex], i);
+    }
+  };
+  for_free([&](int, double share, Index i) { compliance += contact.weights[i] * share; });
+  for_free([&](int vertex, double share, Index) { v.row(vertex) += share / compliance * change.transpose(); });
+}
+
 void ContactSolver::rebound(bool of_the_moment, Vertices& v) const {
-  const Eigen::VectorXd& masses = system_.cloth.masses;
   for (const ContactConstraint& contact : contacts_) {
     const Eigen::Vector3d& n = contact.normal;
-    if (!(contact.restitution > 0) || !(contact.force.dot(n) > 0)) continue;
+    if (!(contact.force.dot(n) > 0)) continue;
+    const Eigen::Vector3d drift = contact.carried / flight_.h, slip = contact.gather(v) + drift;
+    const double now = slip.dot(n);
     Bounce bounce = bounce_of(contact, flight_);
-    if (!(bounce.struck > 0)) continue;
-    double compliance = 0, weight = 0;
+    if (!(bounce.struck > 0)) {
+      // What slides on a ball goes along a chord: at its end the velocity is along the ball again.
+      const double most = std::max(0.0, (contact.gather(flight_.mean) + drift).dot(n));
+      if (of_the_moment && now > most) give_velocity(contact, (most - now) * n, v);
+      continue;
+    }
+    double weight = 0, compliance = 0;
     for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
-      const int vertex = contact.vertices[i];
-      if (free_[static_cast<Index>(vertex)] == 0) continue;
       weight += contact.weights[i];
-      compliance += contact.weights[i] * contact.weights[i] / masses[vertex];
+      compliance += contact.weights[i] * contact.weights[i] / system_.cloth.masses[contact.vertices[i]];
     }
-    const Eigen::Vector3d slip = contact.gather(v) + contact.carried / flight_.h;
-    bounce.turned = bounce.leaves - slip.dot(n);  // whatever the solve has left of the gap
-    if (of_the_moment) bounce.turned += flight_.h / 2 * weight * flight_.gravity.dot(n);
+    const double later = of_the_moment ? flight_.h / 2 * weight * flight_.gravity.dot(n) : 0;
+    if (flies_freely(contact)) {
+      bounce.turned = bounce.leaves + later - now;  // whatever the solve has left of the gap
+    } else {
+      bounce.turned = std::max(0.0, bounce.struck * contact.restitution / (1 + contact.restitution) - now);
+    }
     const Eigen::Vector3d rubbed = flight_.h * compliance * (contact.force - contact.force.dot(n) * n);
-    const Eigen::Vector3d impulse = change_by(bounce, contact, slip, rubbed) / compliance;
-    for (Index i = 0; i < static_cast<Index>(contact.count); ++i) {
-      const int vertex = contact.vertices[i];
-      if (free_[static_cast<Index>(vertex)] == 0) continue;
-      v.row(vertex) += contact.weights[i] / masses[vertex] * impulse.transpose();
-    }
+    give_velocity(contact, change_by(bounce, contact, slip, rubbed), v);
   }
 }
 

@@ -98,6 +98,10 @@ class ContactSolver {
   /// Sets the radii of friction of contacts that have none, or of all.
   void find_radii(const Vertices& x, bool all);
   Standing assess(const ContactProblem& problem, const Iterate& point);
+  /// Returns true if a step is short enough for the springs at a contact, so that its features arrive and leave in free
+  /// flight. Cloth that is stiffer keeps where it is solved to be, and gets the speed of a rebound alone.
+  [[nodiscard]] bool flies_freely(const ContactConstraint& contact) const;
+  void give_velocity(const ContactConstraint& contact, const Eigen::Vector3d& change, Vertices& v) const;
   /// Largest residual at x [m].
   [[nodiscard]] double slack(const Vertices& x) const;
 
@@ -119,11 +123,12 @@ class ContactSolver {
 
   const System& system_;
   ContactPreconditioner preconditioner_;
-  std::vector<char> free_;   // whether each vertex can move
-  double longest_move_ = 0;  // of a vertex in an iteration: an edge [m]
-  double damping_ = 0;       // of the Hessian's bound, added to it
-  double error_ = 0;         // of the last solve [m]
-  double concavity_ = 0;     // share of the Hessian's negative eigenvalues
+  std::vector<char> free_;    // whether each vertex can move
+  std::vector<double> pull_;  // the stiffness of the springs at each vertex [N/m]
+  double longest_move_ = 0;   // of a vertex in an iteration: an edge [m]
+  double damping_ = 0;        // of the Hessian's bound, added to it
+  double error_ = 0;          // of the last solve [m]
+  double concavity_ = 0;      // share of the Hessian's negative eigenvalues
   std::vector<ContactConstraint> contacts_, before_, held_;
   std::vector<Response> responses_;
   FreeFlight flight_;

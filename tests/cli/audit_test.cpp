@@ -1,5 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include "tests/cli/run_drape.hpp"
 #include "tests/support/files.hpp"
 
@@ -43,6 +48,31 @@ TEST(Audit, TakesTheStrainLimitOfASceneForThatOfEdges) {
   const Finished finished = drape(folder, "audit limited.toml");
   EXPECT_NE(finished.text.find("stretch of edges           1.051"), std::string::npos) << finished.text;
 }
+
+/// The scenes of the showcase by their names.
+std::vector<std::string> showcase() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(DRAPE_SOURCE_DIR "/scenes/showcase")) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+void expect_clean(const std::string& name) {
+  const SceneFolder folder;
+  const Finished finished = drape(folder, "audit " DRAPE_SOURCE_DIR "/scenes/showcase/" + name + ".toml --quiet");
+  EXPECT_EQ(finished.code, 0) << finished.text;
+}
+
+// No edge is beyond the limit, and the cloth, which has no self-collision, does not need any.
+TEST(Audit, FindsNothingInTheShowcaseOfTheStrainLimit) { expect_clean("strain_limit"); }
+
+class AuditOfShowcase : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Nightly, AuditOfShowcase, testing::ValuesIn(showcase()),
+                         [](const auto& tested) { return tested.param; });
+
+TEST_P(AuditOfShowcase, FindsNothing) { expect_clean(GetParam()); }
 
 TEST(Audit, JudgesTheEnergyOnlyWhereNothingGivesAny) {
   const SceneFolder folder;

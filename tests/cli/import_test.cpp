@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "sim/mesh.hpp"
 #include "tests/cli/run_drape.hpp"
@@ -93,6 +95,48 @@ TEST(Import, RefusesInOneMessageWithExitCode2) {
   expect_refused("simulate " + sequence, "is already a motion");
   folder.write("m/12.obj", falling(0));
   expect_refused("render " + sequence + " -o film.gif", "10.obj is missing before 12.obj");
+}
+
+/// The most that a process that has ended had in memory [kB].
+double most_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  return static_cast<double>(usage.ru_maxrss);
+}
+
+TEST(Import, KeepsItsMemoryHoweverLongAUsdFileIs) {
+#ifdef DRAPE_SANITIZED
+  GTEST_SKIP() << "a sanitizer keeps what is freed";
+#endif
+  const SceneFolder folder;
+  const auto imported = [&](const std::string& name, int frames) {
+    const Mesh grid = make_grid(30, 30);
+    std::string counts, corners;
+    for (const auto& [a, b, c] : grid.triangles) {
+      counts += "3, ";
+      corners += fmt::format("{}, {}, {}, ", a, b, c);
+    }
+    std::ofstream file(folder.path(name));
+    file << "#usda 1.0\n( upAxis = \"Z\"\n metersPerUnit = 1 )\ndef Mesh \"m\"\n{\nint[] faceVertexCounts = [" << counts
+         << "]\nint[] faceVertexIndices = [" << corners << "]\npoint3f[] points.timeSamples = {\n";
+    for (int frame = 0; frame < frames; ++frame) {
+      file << frame << ": [";
+      for (const auto& p : grid.positions.rowwise()) {
+        file << fmt::format("({:.9f}, {:.9f}, {:.9f}), ", p[0], p[1], p[2] - 1e-4 * frame * frame);
+      }
+      file << "],\n";
+    }
+    file << "}\n}\n";
+    file.close();
+    const Finished finished = drape(folder, "import " + name + " -o " + name + ".drape");
+    EXPECT_EQ(finished.code, 0) << finished.text;
+  };
+  imported("short.usda", 5);
+  const double small = most_memory();
+  imported("long.usda", 1200);
+  const double size = static_cast<double>(std::filesystem::file_size(folder.path("long.usda"))) / 1024;
+  EXPECT_GT(size, 30000) << "kB of file, so that it would be seen";
+  EXPECT_LT(most_memory(), small + 0.2 * size);
 }
 
 }  // namespace

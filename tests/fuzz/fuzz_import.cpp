@@ -28,10 +28,16 @@ void require_sound(const drape::Mesh& mesh) {
 void read_all(drape::MotionSource& motion) {
   require_sound(motion.mesh());
   if (motion.count() < 1) std::abort();
-  motion.times();
-  motion.rest();
-  motion.fps();
-  for (const auto& body : motion.colliders().bodies) require_sound(body->mesh());
+  static_cast<void>(motion.times());
+  static_cast<void>(motion.rest());
+  static_cast<void>(motion.fps());
+  const drape::ImportedColliders colliders = motion.colliders();
+  for (const auto& body : colliders.bodies) require_sound(body->mesh());
+  for (const auto* shapes : {&colliders.spheres, &colliders.grounds}) {
+    for (const auto& row : shapes->by_moment) {
+      if (row.size() != shapes->by_moment.front().size()) std::abort();
+    }
+  }
   for (std::size_t i = 0; i < std::min(motion.count(), most_moments); ++i) {
     const drape::ImportedMoment moment = motion.moment(i);
     if (moment.x.rows() != motion.mesh().positions.rows() || !moment.x.allFinite()) std::abort();

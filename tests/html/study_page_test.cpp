@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
+#include <thread>
+
 #include "study/homework_report.hpp"
 #include "tests/html/html_page.hpp"
 
@@ -33,6 +37,28 @@ HomeworkStudy sample_study() {
   return study;
 }
 
+/// A report with a cloth of 2×2 cells that turns about an edge.
+StudyReport report_with_motion() {
+  Scene scene;
+  const Mesh grid = make_grid(2, 2);
+  scene.simulation.cloth = make_cloth(grid, grid, 1, 10, {});
+  std::vector<Frame> frames;
+  for (int k = 0; k < 20; ++k) {
+    Frame frame{.index = k, .time = 0.05 * k, .positions = scene.simulation.cloth.positions};
+    for (auto x : frame.positions.rowwise()) {
+      x[2] = x[0] * std::sin(0.1 * k);
+      x[0] *= std::cos(0.1 * k);
+    }
+    frames.push_back(std::move(frame));
+  }
+  HomeworkStudy study = sample_study();
+  for (const char* label : {"liu13 <exact>", "semi-implicit"}) {
+    study.motions.push_back({label, "drape render it -o motion.html", pack_for_page(scene, frames)});
+  }
+  study.motions.push_back({"one that a browser cannot hold", {}, {}});
+  return homework_report(study);
+}
+
 class StudyPage : public test::InBrowser {
  protected:
   std::string tip() {
@@ -47,6 +73,26 @@ TEST_F(StudyPage, IsSoundAndSaysWhatIsNotConfirmed) {
             "1 of the report's 2 conclusions are confirmed");
   EXPECT_EQ(browser_->run("return document.querySelectorAll('.findings .bad').length"), 1);
   keep_screenshots("study");
+}
+
+TEST_F(StudyPage, HasMotionsToTurnThatAreOpenedOneAtATime) {
+  open(to_page(report_with_motion()));
+  expect_sound();
+  browser_->set_width(1200);
+  EXPECT_EQ(browser_->run("return document.querySelectorAll('.turn').length"), 2);
+  EXPECT_EQ(browser_->run("return document.querySelectorAll('.turn[data-state]').length"), 0);
+  browser_->click("details:has(.turn) summary");
+  const auto state = [&] { return browser_->run("return document.querySelector('.turn').dataset.state || ''"); };
+  for (int i = 0; i < 200 && state() != "ready"; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ASSERT_EQ(state(), "ready");
+  EXPECT_EQ(browser_->run("return document.querySelectorAll('.turn[data-state]').length"), 1);
+  EXPECT_EQ(browser_->run("return document.querySelector('details:has(.turn) summary').textContent"),
+            "Turn the cloth: liu13 <exact>");
+  EXPECT_EQ(browser_->run("return document.querySelector('.turn').player.motion.frames"), 20);
+  browser_->run("document.querySelector('.turn canvas').focus()");
+  browser_->press(".");
+  EXPECT_EQ(browser_->run("return document.querySelector('.turn').dataset.frame"), "1");
+  keep_screenshots("study-motions");
 }
 
 TEST_F(StudyPage, HoveringAPointShowsItsCommand) {

@@ -38,7 +38,15 @@ TEST_F(SweepPage, PlaysAllFilmsInStep) {
   expect_sound();
   const std::size_t films = moved().size();
   EXPECT_GE(films, 4U);
-  EXPECT_EQ(moved(), nlohmann::json(std::vector<std::vector<int>>(films, {0, 0})));
+  // Until they are played, each shows another picture than the first, which all have in common.
+  const nlohmann::json posters =
+      browser_->run("return [...document.querySelectorAll('.strip')].map((s) => Number(s.dataset.poster))");
+  const nlohmann::json shown = moved();
+  for (std::size_t k = 0; k < films; ++k) {
+    const int poster = posters.at(k);
+    EXPECT_GT(poster, 0);
+    EXPECT_EQ(shown.at(k), (nlohmann::json{poster % 4, poster / 4}));
+  }
   browser_->run("document.querySelector('.strips input[type=range]').focus()");
   for (int k = 0; k < 5; ++k) browser_->press(test::Browser::arrow_right);
   EXPECT_EQ(moved(), nlohmann::json(std::vector<std::vector<int>>(films, {1, 1}))) << "the sixth, in rows of four";

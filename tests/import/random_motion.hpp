@@ -46,6 +46,11 @@ struct RandomMotion {
       }
       frames.push_back(std::move(frame));
     }
+    // Last, so that seeds go on meaning the same motions.
+    if (random.below(2) == 0) return;
+    const Eigen::Vector3d normal = random.below(2) == 0 ? Eigen::Vector3d::UnitZ() : random_point(random).normalized();
+    const GroundShape ground{.normal = normal, .height = random.between(-3, 3)};
+    for (Frame& frame : frames) frame.colliders.emplace_back(ground);
   }
 
   [[nodiscard]] FilmInfo info() const {

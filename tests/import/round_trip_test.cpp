@@ -90,12 +90,23 @@ TEST_P(RoundTripOf, AnyMotionInAnyFormatKeepsWhatTheFormatHolds) {
 
 INSTANTIATE_TEST_SUITE_P(Nightly, RoundTripOf, testing::Range(0, 50));
 
-/// Spheres and bodies come back.
+/// The colliders of a kind, in their order.
+template <class Shape>
+std::vector<Shape> shapes_of(const std::vector<Collider>& colliders) {
+  std::vector<Shape> shapes;
+  for (const Collider& collider : colliders) {
+    if (const auto* shape = std::get_if<Shape>(&collider)) shapes.push_back(*shape);
+  }
+  return shapes;
+}
+
+/// Spheres, grounds and bodies come back.
 /// @param rounding of a coordinate [m]
+/// @param tilted   of the numbers of a ground that is not level
 template <class Writer>
-void expect_things_back(const std::string& name, const std::string& file, double rounding) {
-  int bodies = 0, balls = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+void expect_things_back(const std::string& name, const std::string& file, double rounding, double tilted) {
+  int bodies = 0, balls = 0, grounds = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
     const RandomMotion motion(31 * seed);
     motion.write_film<Writer>(name);
@@ -107,28 +118,39 @@ void expect_things_back(const std::string& name, const std::string& file, double
     for (const Frame& frame : motion.frames) {
       const std::vector<Collider> found = system.colliders_at(frame.time);
       ASSERT_EQ(found.size(), frame.colliders.size());
-      for (std::size_t i = 0; i < found.size(); ++i) {
-        if (const auto* sphere = std::get_if<SphereShape>(&frame.colliders[i])) {
-          ++balls;
-          EXPECT_LT((std::get<SphereShape>(found[i]).center - sphere->center).norm(), rounding);
-          EXPECT_EQ(std::get<SphereShape>(found[i]).radius, sphere->radius);
-        } else if (const auto* body = std::get_if<MeshShape>(&frame.colliders[i])) {
-          ++bodies;
-          EXPECT_LT((std::get<MeshShape>(found[i]).positions - body->positions).cwiseAbs().maxCoeff(), 10 * rounding);
-        }
+      const auto spheres = shapes_of<SphereShape>(frame.colliders), found_spheres = shapes_of<SphereShape>(found);
+      ASSERT_EQ(found_spheres.size(), spheres.size());
+      for (std::size_t i = 0; i < spheres.size(); ++i, ++balls) {
+        EXPECT_LT((found_spheres[i].center - spheres[i].center).norm(), rounding);
+        EXPECT_EQ(found_spheres[i].radius, spheres[i].radius);
+      }
+      const auto planes = shapes_of<GroundShape>(frame.colliders), found_planes = shapes_of<GroundShape>(found);
+      ASSERT_EQ(found_planes.size(), planes.size());
+      for (std::size_t i = 0; i < planes.size(); ++i, ++grounds) {
+        const double allowed = planes[i].normal == Eigen::Vector3d::UnitZ() ? 0 : tilted;
+        EXPECT_LE((found_planes[i].normal - planes[i].normal).norm(), allowed);
+        EXPECT_LE(std::abs(found_planes[i].height - planes[i].height), 10 * allowed);
+      }
+      const auto meshes = shapes_of<MeshShape>(frame.colliders), found_meshes = shapes_of<MeshShape>(found);
+      ASSERT_EQ(found_meshes.size(), meshes.size());
+      for (std::size_t i = 0; i < meshes.size(); ++i, ++bodies) {
+        EXPECT_LT((found_meshes[i].positions - meshes[i].positions).cwiseAbs().maxCoeff(), 10 * rounding);
       }
     }
     std::filesystem::remove(file);
   }
   EXPECT_GT(bodies, 10);
   EXPECT_GT(balls, 10);
+  EXPECT_GT(grounds, 10);
 }
 
-TEST_F(RoundTrip, OfNumpyArraysKeepsSpheresAndBodies) {
-  expect_things_back<NpzWriter>(path("a.npz"), path("a.drape"), 1e-15);
+TEST_F(RoundTrip, OfNumpyArraysKeepsSpheresGroundsAndBodies) {
+  expect_things_back<NpzWriter>(path("a.npz"), path("a.drape"), 1e-15, 1e-15);
 }
 
-TEST_F(RoundTrip, OfUsdKeepsSpheresAndBodies) { expect_things_back<UsdWriter>(path("a.usda"), path("a.drape"), 1e-7); }
+TEST_F(RoundTrip, OfUsdKeepsSpheresGroundsAndBodies) {
+  expect_things_back<UsdWriter>(path("a.usda"), path("a.drape"), 1e-7, 1e-15);
+}
 
 TEST_F(RoundTrip, TurnsAndScalesAndTakesVelocitiesFromDifferences) {
   const RandomMotion motion(5);

@@ -14,12 +14,13 @@ namespace {
 
 TEST(Animation, HasAPanelForEachMotionAndAFrameForEachMoment) {
   const test::SceneFolder folder;
-  const std::string file = folder
-                               .write("small.toml",
-                                      "[cloth]\nmesh = { grid = [3, 3] }\nstiffness = 20\n[time]\nstep = 0.02\n"
-                                      "duration = 0.4\n[integrator]\nmethod = \"liu13\"\ntolerance = "
-                                      "1e-3\n[video]\nfps = 50\nsize = [340, 170]\n[effects.gravity]\n")
-                               .string();
+  const std::string file =
+      folder
+          .write("small.toml",
+                 "[cloth]\nmesh = { grid = [3, 3] }\nstiffness = 20\npins = [0]\n[time]\nstep = 0.02\n"
+                 "duration = 0.4\n[integrator]\nmethod = \"liu13\"\ntolerance = "
+                 "1e-3\n[video]\nfps = 50\nsize = [340, 170]\n[effects.gravity]\n")
+          .string();
   const Scene scene = load_scene(file);
   std::vector<AnimationPanel> panels;
   for (const char* tolerance : {"1e-1", "1e-2", "1e-3", "1e-4"}) {
@@ -36,6 +37,10 @@ TEST(Animation, HasAPanelForEachMotionAndAFrameForEachMoment) {
   EXPECT_EQ(gif.delays.size(), 5U);  // 0 to 0.4 s, 10 a second
   EXPECT_EQ(gif.width, 2 * 340 + 6);
   EXPECT_GT(gif.height, 2 * 170);
+  EXPECT_EQ(animation->reference.frames, 5);
+  EXPECT_EQ(animation->worst.frames, 5);
+  EXPECT_NE(animation->worst.data, animation->reference.data);
+  EXPECT_EQ(animation->worst_panel, 0U) << "the loosest tolerance ends furthest from the reference";
 }
 
 }  // namespace

@@ -52,6 +52,11 @@ TEST_P(QuickValidation, IsMet) {
   EXPECT_TRUE(verdict.met) << verdict.worst_problem << " " << verdict.worst_answer << ": " << verdict.worst
                            << " of what is allowed; " << study.runs.front().failure;
   EXPECT_GT(verdict.answers, 0);
+  const StudyReport report = validation_report(study);
+  ASSERT_EQ(report.sections.size(), 1U);
+  ASSERT_EQ(report.sections[0].motions.size(), 1U) << "its motion, to turn";
+  EXPECT_GE(report.sections[0].motions[0].played.frames, study.runs.front().what.steps > 0 ? 2 : 1);
+  EXPECT_LT(report.sections[0].motions[0].played.data.size(), 1'000'000U);
 }
 
 TEST(Validation, AWrongProblemIsNotMet) {
