@@ -16,6 +16,7 @@ constexpr double relative_stiffness = 10;     // of a contact, of what holds its
 constexpr double sufficient_decrease = 1e-4;  // Armijo's constant (Nocedal and Wright 2006, section 3.1)
 constexpr double shortest_move = 1e-6;        // of a direction
 constexpr double share_of_change = 0.01;      // tolerance of a step, of how far its forces move a vertex in it at most
+constexpr double begins_on = 0.01;            // of the distance: what begins no further away lies there
 constexpr double share_of_way = 1e-6;         // and of how far it goes, where forces do next to nothing
 constexpr double contact_share = 0.1;  // of the tolerance, that gaps and slips may have: κ makes large forces of them
 constexpr double linear_tolerance = 0.05;  // of conjugate gradients, in the norm of their preconditioner
@@ -73,7 +74,9 @@ bool ContactSolver::touches(const Vertices& target) {
 bool ContactSolver::hinders(const Vertices& target) {
   find(target, true);
   return std::ranges::any_of(contacts_, [&](const ContactConstraint& contact) {
-    return contact.collides || contact.place(target).dot(contact.normal) < contact.distance;
+    const double lies = (1 + begins_on) * contact.distance;
+    return contact.collides || contact.place(target).dot(contact.normal) < contact.distance ||
+           contact.start.dot(contact.normal) < lies;
   });
 }
 

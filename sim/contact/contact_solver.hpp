@@ -53,7 +53,7 @@ class ContactSolver {
   /// not converged may do more. That would be energy out of nothing, and is left out.
   [[nodiscard]] double work(const Vertices& x, bool converged) const;
 
-  /// Returns true if a cloth that goes straight to `target` is kept from that.
+  /// Returns true if a cloth that goes straight to `target` is kept from that, or begins on what it touches.
   [[nodiscard]] bool hinders(const Vertices& target);
 
   /// Whether the cloth touches anything but itself.

@@ -76,7 +76,8 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   }
   books_.end(point_);
   divided_difference(system_.threads, point_.x, state.x, system_.step, state.v);
-  if (touches) contact_->rebound(of_the_moment_, state.v);
+  // Where the solve is not over, what bounces is not known well enough to be given energy.
+  if (touches && report.converged) contact_->rebound(of_the_moment_, state.v);
   system_.move(state, &point_.x);
   system_.correct(state);
   return report;
