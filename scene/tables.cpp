@@ -279,7 +279,8 @@ std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene) {
   add("caption", "Text on every frame of a film. `drape check` ignores it.", caption_keys(scene.caption));
   add("overlay", "Curves below the film, see [captions.md](captions.md). `drape check` ignores them.",
       overlay_keys(scene.overlay));
-  add("check", "Settings of `drape check`, see [regression.md](regression.md). Nothing else uses them.", check_keys(scene.check));
+  add("check", "Settings of `drape check`, see [regression.md](regression.md). Nothing else uses them.",
+      check_keys(scene.check));
   return tables;
 }
 

@@ -61,9 +61,9 @@ StabilityMap empty_map(StepMethod method, StabilityAxis axis, const StabilityDet
   map.stiffnesses =
       axis == StabilityAxis::springs ? decades(1e-2, 1e9, detail.per_decade) : decades(1, 1e9, detail.per_decade);
   for (const double stiffness : map.stiffnesses) map.limits.push_back(stability_limit(method, axis, stiffness));
-  map.limit_name = is_explicit(method.method)             ? "safe step"
+  map.limit_name = is_explicit(method.method)    ? "safe step"
                    : axis == StabilityAxis::push ? "step·√stiffness = 2"
-                                                          : "condition 1e14";
+                                                 : "condition 1e14";
   map.cells.resize(map.steps.size() * map.stiffnesses.size());
   return map;
 }

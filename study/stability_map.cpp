@@ -66,8 +66,7 @@ Markup sign(const StabilityCell& cell, double x, double y) {
 }
 
 const char* axes_title(StabilityAxis axis) {
-  constexpr const char* titles[] = {"step and stiffness of the springs",
-                                    "step and stiffness of a push"};
+  constexpr const char* titles[] = {"step and stiffness of the springs", "step and stiffness of a push"};
   return titles[static_cast<std::size_t>(axis)];
 }
 

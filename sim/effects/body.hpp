@@ -21,8 +21,9 @@ namespace drape {
 
 class MovingBody;
 /// A triangle mesh that the cloth collides with: it lets nothing through, however far it moves in a step, see
-/// BodyContacts. A closed mesh is solid, another is a shell with two sides that are alike. It rests at `center`, or moves as a whole in one of three ways: straight on,
-/// on an orbit with which it turns, or on keyframes. It may turn around its place on the way, and change its shape.
+/// BodyContacts. A closed mesh is solid, another is a shell with two sides that are alike. It rests at `center`, or
+/// moves as a whole in one of three ways: straight on, on an orbit with which it turns, or on keyframes. It may turn
+/// around its place on the way, and change its shape.
 struct Body {
   static constexpr std::string_view name = "body";
   static constexpr EffectCost cost{.evaluated = 0.3e-6, .solved = 2.0e-6};

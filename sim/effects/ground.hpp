@@ -26,7 +26,6 @@ struct Ground {
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;
   void install(System& system) const;
-
 };
 
 }  // namespace drape

@@ -26,8 +26,8 @@ struct Sphere {
 
   std::optional<Eigen::Vector3d> center = {};  ///< at 0 s [m]; without one, keyframes or a track say where it is
   std::optional<double> radius = {};           ///< as it is drawn, above 0 [m]; may be left to a track
-  std::optional<double> scale = {};      ///< it reaches to scale·radius from the centre; at least 1, usually 1.1
-  std::optional<double> thickness = {};  ///< or this far beyond its radius [m]
+  std::optional<double> scale = {};            ///< it reaches to scale·radius from the centre; at least 1, usually 1.1
+  std::optional<double> thickness = {};        ///< or this far beyond its radius [m]
 
   std::optional<double> stiffness = {};    ///< of the push, usually 8000 [1/s²]
   double friction = 0;                     ///< Coulomb's coefficient

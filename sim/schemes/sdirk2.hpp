@@ -22,8 +22,8 @@ namespace drape {
 /// a(x), with the velocity V of each stage, see FieldSolve. What corrections do is halved. All of that is of second
 /// order, and leaves a cloth in equilibrium where it is. Filters change the way from x to X₂, and v' by as much.
 ///
-/// A step in which the cloth touches anything is one of backward Euler: an impact makes every scheme one of first order,
-/// and the force that ends it in stage 1 would go on in stage 2, where nothing is touched any more.
+/// A step in which the cloth touches anything is one of backward Euler: an impact makes every scheme one of first
+/// order, and the force that ends it in stage 1 would go on in stage 2, where nothing is touched any more.
 ///
 /// Of a linear cloth no step gains energy. Of others it may: the method is not algebraically stable, since (1 − γ)(3γ −
 /// 1) < 0, so Sdirk2Guard keeps an eye on it.
@@ -51,9 +51,9 @@ class Sdirk2 final : public MinimisingScheme {
   void solve(double end, const Vertices* expected, StepReport& report);
 
   State stage_;
-  Vertices force_;                      // of a stage [N]
-  Vertices of_start_, of_stage_, way_;  // of velocities [N]; scratch
-  Vertices of_fields_;                  // velocity fields' force, on average [N]
+  Vertices force_;                         // of a stage [N]
+  Vertices of_start_, of_stage_, way_;     // of velocities [N]; scratch
+  Vertices of_fields_;                     // velocity fields' force, on average [N]
   std::optional<BackwardEuler> touching_;  // for steps in which the cloth touches something, where it can
   bool touched_ = false;                   // whether the last step was one of these
   State before_;

@@ -91,19 +91,18 @@ SimulationSettings falling(Solver solver) {
 /// Every effect there is but contact, a sphere that pushes and pins that move included.
 SimulationSettings eventful(Solver solver) {
   SimulationSettings settings = falling(solver);
-  settings.effects = {
-      Gravity{},
-      Wind{.acceleration = {1, 0, 0}},
-      Air{.velocity = {1, 2, 0}, .gusts = {.speed = 1}},
-      Field{.acceleration = {"8*vy", "-8*vx", "-0.1*vz*vz"}},
-      Bending{.rigidity = 1e-4, .cross_stiffness = 1},
-      MovingPins{.pins = {0, 10},
-                 .keyframes = {{1, {0, 0, 0.2}}, {2, {0.1, 0, 0}}},
-                 .interpolation = Interpolation::smooth,
-                 .turns = {{1, {0, 0, 30}}}},
-      Sphere{.center = Vector3d(0, 0, -0.3), .radius = 0.3},
-      StrainLimit{.max_stretch = 1.1},
-      Damping{.factor = 0.5}};
+  settings.effects = {Gravity{},
+                      Wind{.acceleration = {1, 0, 0}},
+                      Air{.velocity = {1, 2, 0}, .gusts = {.speed = 1}},
+                      Field{.acceleration = {"8*vy", "-8*vx", "-0.1*vz*vz"}},
+                      Bending{.rigidity = 1e-4, .cross_stiffness = 1},
+                      MovingPins{.pins = {0, 10},
+                                 .keyframes = {{1, {0, 0, 0.2}}, {2, {0.1, 0, 0}}},
+                                 .interpolation = Interpolation::smooth,
+                                 .turns = {{1, {0, 0, 30}}}},
+                      Sphere{.center = Vector3d(0, 0, -0.3), .radius = 0.3},
+                      StrainLimit{.max_stretch = 1.1},
+                      Damping{.factor = 0.5}};
   return settings;
 }
 

@@ -11,8 +11,8 @@ namespace {
 /// Looks at every effect that is contact.
 void expect_each_to_be_fine(const SimulationSettings& settings) {
   const Sphere ball{.center = Eigen::Vector3d(0, 0, -2), .radius = 0.4, .thickness = distance};
-  for (const Effect& effect : {Effect(solved_ground()), Effect(solved_box({1, 1, 1}, -1)), Effect(solved_self()),
-                               Effect(ball)}) {
+  for (const Effect& effect :
+       {Effect(solved_ground()), Effect(solved_box({1, 1, 1}, -1)), Effect(solved_self()), Effect(ball)}) {
     EXPECT_TRUE(problems(effect, settings).empty()) << effect.name();
   }
 }

@@ -72,8 +72,7 @@ constexpr double from_top = 5;                             // where things begin
 /// The angle from the top at which what slides off a ball without friction bears no force any more: its acceleration
 /// is then that of gravity [degrees].
 double leaving_angle(SimulationSettings settings) {
-  settings.effects.add(
-      Sphere{.center = Vector3d(0, 0, 0), .radius = radius, .thickness = distance});
+  settings.effects.add(Sphere{.center = Vector3d(0, 0, 0), .radius = radius, .thickness = distance});
   Simulation simulation(settings);
   const Cloth& cloth = settings.cloth;
   double angle = 0;

@@ -107,10 +107,8 @@ TEST(ContactByThreads, OfADeformingBodyHasTheSameBits) {
 
 TEST(ContactByThreads, OfASphereThatIsSolvedForHasTheSameBits) {
   SimulationSettings settings = setup(falling_cloth(), Method::implicit, 0.01);
-  settings.effects = {Gravity{}, Sphere{.center = Eigen::Vector3d(0.1, 0, -3),
-                                        .radius = 2.98,
-                                        .thickness = 0.02,
-                                        .friction = 0.5}};
+  settings.effects = {
+      Gravity{}, Sphere{.center = Eigen::Vector3d(0.1, 0, -3), .radius = 2.98, .thickness = 0.02, .friction = 0.5}};
   expect_the_same_bits(settings);
 }
 

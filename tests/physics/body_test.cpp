@@ -83,9 +83,7 @@ TEST_P(Bodies, TheFaceOfABoxIsAGround) {
     SimulationSettings on_ground = settings(loose(x), 0.01);
     on_ground.cloth.velocities.row(2) = 0.7 * down.transpose() + RowVector3d(0, 0.4, 0);
     SimulationSettings on_box = on_ground;
-    on_ground.effects.add(Ground{.normal = up,
-                                 .thickness = layer_thickness,
-                                 .friction = friction});
+    on_ground.effects.add(Ground{.normal = up, .thickness = layer_thickness, .friction = friction});
     Body box = body();
     box.box = Vector3d(8, 4, 1);
     box.center = -0.5 * up;
@@ -206,8 +204,7 @@ TEST_P(Bodies, AShapeThatChangesCarriesAlong) {
   motion->samples = {motion->mesh.positions, motion->mesh.positions};
   motion->samples[1].col(0) *= 1.6;
   motion->samples[1].col(2).array() += 0.3;
-  SimulationSettings s =
-      settings(loose(RowVector3d(0.5, 0.1, layer_thickness)), 0.005);
+  SimulationSettings s = settings(loose(RowVector3d(0.5, 0.1, layer_thickness)), 0.005);
   Body sheet = body();
   sheet.mesh = motion;
   sheet.friction = 1;

@@ -26,9 +26,7 @@ class Contact : public testing::TestWithParam<NamedMethod> {
 
   /// A ground that goes down by tan θ along x, through the origin.
   Ground slope(double tangent, double friction) const {
-    return {.normal = Vector3d(tangent, 0, 1),
-            .thickness = thickness,
-            .friction = friction};
+    return {.normal = Vector3d(tangent, 0, 1), .thickness = thickness, .friction = friction};
   }
 };
 INSTANTIATE_TEST_SUITE_P(With, Contact, testing::ValuesIn(all_methods), method_name);
@@ -81,8 +79,7 @@ TEST_P(Contact, AClothStaysOnASlopeAsAWhole) {
   const Vertices flat = cloth.positions;
   for (int i = 0; i < cloth.vertex_count(); ++i) {
     cloth.positions.row(i) =
-        (flat(i, 0) * down_along(tangent) + flat(i, 1) * Vector3d::UnitY() + thickness * up_from(tangent))
-            .transpose();
+        (flat(i, 0) * down_along(tangent) + flat(i, 1) * Vector3d::UnitY() + thickness * up_from(tangent)).transpose();
   }
   SimulationSettings s = settings(cloth, 0.005);
   s.effects.add(slope(tangent, 0.31));
@@ -150,8 +147,7 @@ void expect_carried(SimulationSettings s) {
   std::vector<Keyframe> path;
   for (int k = 0; k <= steps; ++k) path.push_back({k * s.step, accelerating_place(k * s.step)});
   s.cloth.velocities.row(0) << 3, 0, 1;
-  s.effects.add(Sphere{
-      .radius = 1e4, .scale = 1, .friction = 100, .keyframes = path});
+  s.effects.add(Sphere{.radius = 1e4, .scale = 1, .friction = 100, .keyframes = path});
   Simulation simulation(s);
   for (std::size_t k = 0; k < steps; ++k) {
     simulation.step();

@@ -125,8 +125,8 @@ INSTANTIATE_TEST_SUITE_P(With, SecondOrderPush, testing::ValuesIn(second_order_m
 TEST_P(SecondOrderPush, HoldsForAVertexThatSwingsOnIt) {
   constexpr double k = 500, g = 9.8, duration = 1, radius = 1e4;
   SimulationSettings settings = setup(loose(RowVector3d(0, 0, -1.5 * g / k)), GetParam(), 1);
-  settings.effects = {
-      Gravity{}, Sphere{.center = Eigen::Vector3d(0, 0, -radius), .radius = radius, .scale = 1, .stiffness = k}};
+  settings.effects = {Gravity{},
+                      Sphere{.center = Eigen::Vector3d(0, 0, -radius), .radius = radius, .scale = 1, .stiffness = k}};
   State exact{.x = settings.cloth.positions, .v = Vertices::Zero(1, 3)};
   exact.x(0, 2) = -g / k * (1 + 0.5 * std::cos(std::sqrt(k) * duration));
   exact.v(0, 2) = g / k * 0.5 * std::sqrt(k) * std::sin(std::sqrt(k) * duration);

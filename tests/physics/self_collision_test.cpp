@@ -127,7 +127,8 @@ TEST_P(SelfCollision, LaysLayersTheThicknessApart) {
   constexpr double thickness = 0.04;
   SimulationSettings settings = setup(two_sheets(0.5), GetParam(), step());
   settings.cloth.positions.bottomRows(49).col(2).array() -= 0.25;
-  settings.effects = {Gravity{}, Ground{.height = -0.01}, drape::SelfCollision{.thickness = thickness}, Damping{.factor = 0.1}};
+  settings.effects = {Gravity{}, Ground{.height = -0.01}, drape::SelfCollision{.thickness = thickness},
+                      Damping{.factor = 0.1}};
   Simulation simulation(settings);
   while (simulation.time() < 1.5) simulation.step();
   const Vertices& x = simulation.state().x;

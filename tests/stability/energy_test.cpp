@@ -49,7 +49,6 @@ SimulationSettings hanging(Solver solver, int cells, double stiffness, double st
 class HangingCloths : public testing::TestWithParam<NamedMethod> {};
 INSTANTIATE_TEST_SUITE_P(With, HangingCloths, testing::ValuesIn(implicit_methods), method_name);
 
-
 TEST_P(HangingCloths, NeverHaveMoreEnergyThanTheyHadAndGravityGave) {
   for (const double stiffness : {1e5, 1e6, 1e7, 1e8}) {
     for (const double step : {1e-3, 5e-3, 1e-2, 2e-2}) {

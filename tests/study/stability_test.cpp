@@ -17,23 +17,22 @@ struct Border {
   double stiffness;
 };
 class StabilityBorders : public ::testing::TestWithParam<Border> {};
-INSTANTIATE_TEST_SUITE_P(
-    Of, StabilityBorders,
-    ::testing::Values(Border{Method::semi_implicit, StabilityAxis::springs, 1e-2},
-                      Border{Method::semi_implicit, StabilityAxis::springs, 1e3},
-                      Border{Method::semi_implicit, StabilityAxis::springs, 1e8},
-                      Border{Method::semi_implicit, StabilityAxis::push, 1e2},
-                      Border{Method::semi_implicit, StabilityAxis::push, 1e7},
-                      Border{Method::implicit, StabilityAxis::push, 1},
-                      Border{Method::implicit, StabilityAxis::push, 1e6},
-                      Border{Method::liu13, StabilityAxis::push, 1e3},
-                      Border{Method::liu13, StabilityAxis::push, 1e8},
-                      Border{Method::quasi_newton, StabilityAxis::push, 1e4},
-                      Border{Method::quasi_newton, StabilityAxis::push, 1e8},
-                      Border{Method::verlet, StabilityAxis::springs, 1e3},
-                      Border{Method::verlet, StabilityAxis::push, 1e7},
-                      Border{{Method::quasi_newton, TimeScheme::sdirk2}, StabilityAxis::push, 1e4},
-                      Border{{Method::liu13, TimeScheme::sdirk2}, StabilityAxis::push, 1e8}));
+INSTANTIATE_TEST_SUITE_P(Of, StabilityBorders,
+                         ::testing::Values(Border{Method::semi_implicit, StabilityAxis::springs, 1e-2},
+                                           Border{Method::semi_implicit, StabilityAxis::springs, 1e3},
+                                           Border{Method::semi_implicit, StabilityAxis::springs, 1e8},
+                                           Border{Method::semi_implicit, StabilityAxis::push, 1e2},
+                                           Border{Method::semi_implicit, StabilityAxis::push, 1e7},
+                                           Border{Method::implicit, StabilityAxis::push, 1},
+                                           Border{Method::implicit, StabilityAxis::push, 1e6},
+                                           Border{Method::liu13, StabilityAxis::push, 1e3},
+                                           Border{Method::liu13, StabilityAxis::push, 1e8},
+                                           Border{Method::quasi_newton, StabilityAxis::push, 1e4},
+                                           Border{Method::quasi_newton, StabilityAxis::push, 1e8},
+                                           Border{Method::verlet, StabilityAxis::springs, 1e3},
+                                           Border{Method::verlet, StabilityAxis::push, 1e7},
+                                           Border{{Method::quasi_newton, TimeScheme::sdirk2}, StabilityAxis::push, 1e4},
+                                           Border{{Method::liu13, TimeScheme::sdirk2}, StabilityAxis::push, 1e8}));
 
 TEST_P(StabilityBorders, LieWhereTheyArePredicted) {
   const auto [method, axis, stiffness] = GetParam();
