@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <span>
 #include <utility>
 
 #include "sim/collision/impact.hpp"
@@ -219,16 +218,12 @@ void BodyContacts::leave_wrong_sides(std::vector<ContactConstraint>& contacts, s
   std::copy_if(contacts.begin() + pairs, contacts.end(), std::back_inserter(passing),
                [](const ContactConstraint& contact) { return contact.collides && contact.count == 1; });
   if (passing.empty()) return;
-  std::ranges::sort(passing, {}, [](const ContactConstraint& contact) { return contact.vertices[0]; });
   const auto wrong = [&](const ContactConstraint& contact) {
-    const auto same = std::ranges::equal_range(passing, contact.vertices[0], {},
-                                               [](const ContactConstraint& one) { return one.vertices[0]; });
-    return std::ranges::any_of(same, [&](const ContactConstraint& one) { return one.normal.dot(contact.normal) < 0; });
+    return std::any_of(passing.begin(), passing.end(), [&](const ContactConstraint& one) {
+      return one.vertices[0] == contact.vertices[0] && one.normal.dot(contact.normal) < 0;
+    });
   };
-  const auto vertices = std::span(contacts).subspan(static_cast<Index>(begin), static_cast<Index>(pairs - begin));
-  const auto removed = std::ranges::remove_if(vertices, wrong);
-  const auto kept = pairs - static_cast<std::ptrdiff_t>(removed.size());
-  contacts.erase(contacts.begin() + kept, contacts.begin() + pairs);
+  contacts.erase(std::remove_if(contacts.begin() + begin, contacts.begin() + pairs, wrong), contacts.begin() + pairs);
 }
 
 void BodyContacts::find_vertices(const Vertices&, int source, const std::vector<ContactConstraint>& held,

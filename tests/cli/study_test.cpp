@@ -98,7 +98,13 @@ TEST(Study, OfAccuracyWritesEverythingForEveryScene) {
   EXPECT_EQ(again.code, 0) << again.text;
   EXPECT_EQ(again.text.substr(again.text.find(" costs")), finished.text.substr(finished.text.find(" costs")));
   for (const auto& [name, content] : before) {
-    EXPECT_TRUE(test::content(folder.path() / "results" / name) == content) << name;
+    const std::string now = test::content(folder.path() / "results" / name);
+    if (name == "report.html") {  // which has motions to turn where they have just been computed
+      EXPECT_LT(now.size(), content.size());
+      EXPECT_GT(now.size(), 10'000U);
+    } else {
+      EXPECT_TRUE(now == content) << name;
+    }
   }
 }
 
