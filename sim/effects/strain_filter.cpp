@@ -7,6 +7,7 @@ namespace drape {
 namespace {
 
 constexpr int early_sweeps = 30;
+constexpr int sweeps_in_turn = 60;  // where contact is in the way the two may have no solution
 // How often springs are looked at that had no impulse.
 constexpr int sweeps_between_looks = 2;
 // Where no more than this part of the springs is beyond the limits, a sweep ends with some over these and what is so
@@ -60,6 +61,11 @@ void StrainFilter::begin(const State& state, double /*time*/) {
 }
 
 void StrainFilter::apply(const Vertices& x, double /*time*/, double h, Vertices& v) {
+  relax_from(x, h, v, limits_.iterations);
+}
+
+/// Finds the impulses from where the cloth would go, beginning with those that are expected.
+void StrainFilter::relax_from(const Vertices& x, double h, Vertices& v, int most_sweeps) {
   forget();
   find_beyond(x, h, v);
   for (const Pull& pull : expected_) give(limited_[pull.limited], -h * h * pull.tension);
@@ -69,7 +75,7 @@ void StrainFilter::apply(const Vertices& x, double /*time*/, double h, Vertices&
   last_value_ = std::numeric_limits<double>::infinity();
   double value = 0;
   int next_look = 0;
-  for (int sweep = 0; sweep < limits_.iterations && !converged_; ++sweep) {
+  for (int sweep = 0; sweep < most_sweeps && !converged_; ++sweep) {
     look_at_stop();
     const bool early = sweep < early_sweeps;
     if (sweep > 0) go_on(value);
@@ -92,7 +98,7 @@ void StrainFilter::apply(const Vertices& x, double /*time*/, double h, Vertices&
   for (const Index k : active_) restraint_.tensions[spring_[k]] = -limited_[k].push / (h * h);
 }
 
-bool StrainFilter::adjust(const Vertices& x, double time, double h, Vertices& v) {
+bool StrainFilter::adjust(const Vertices& x, double, double h, Vertices& v) {
   const double most = (1 + limits_.tolerance) * (1 + limits_.tolerance);
   const double least = (1 - limits_.tolerance) * (1 - limits_.tolerance);
   target_ = x + h * v;
@@ -107,7 +113,7 @@ bool StrainFilter::adjust(const Vertices& x, double time, double h, Vertices& v)
   for (const Index k : active_) {
     if (limited_[k].push != 0) expected_.push_back({k, -limited_[k].push / (h * h)});
   }
-  apply(x, time, h, v);
+  relax_from(x, h, v, std::min(limits_.iterations, sweeps_in_turn));
   return true;
 }
 

@@ -71,6 +71,7 @@ class StrainFilter final : public MotionFilter {
   };
 
   void forget();
+  void relax_from(const Vertices& x, double h, Vertices& v, int most_sweeps);
   void find_beyond(const Vertices& x, double h, const Vertices& v);
   [[nodiscard]] Eigen::Vector3d end_of(const Limited& s) const {
     return s.end + (change_[Index(s.i)] - change_[Index(s.j)]);
