@@ -125,7 +125,7 @@ TEST(InterruptedRun, SaysHowItGoesOn) {
 /// Whichever way it ended early: one command completes the motion and makes what the run was to make.
 TEST(InterruptedRun, GoesOnToTheSameFilms) {
   const SceneFolder folder;
-  folder.write("scene.toml", long_scene(all_methods[4]) + "[video]\nsize = [64, 48]\nfps = 2\n");
+  folder.write("scene.toml", long_scene(all_methods[5]) + "[video]\nsize = [64, 48]\nfps = 2\n");
   ASSERT_EQ(drape(folder, "render scene.toml --steps 2000 -o whole.gif -o whole.npz").code, 0);
   for (const std::string signal : {"INT", "KILL"}) {
     const Finished begun =

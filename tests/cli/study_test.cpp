@@ -167,7 +167,7 @@ TEST(Study, OfAccuracySaysWhatItCannotMeasure) {
   expect_error("a.toml --patience 0", "--patience");
   // Of one method only, which is asked for: semi-implicit Euler has nothing to solve for. Its turn would come after the
   // reference motion.
-  folder.write("a.toml", swing + "[effects.sphere]\ncenter = [0, 0, -1]\nradius = 0.1\nresponse = \"implicit\"\n");
+  folder.write("a.toml", swing + "[effects.field]\nacceleration = [\"-x\", \"0\", \"0\"]\n");
   expect_error("a.toml --times 0.1 --methods liu13,semi-implicit --set time.duration=1e5", "semi-implicit Euler");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
@@ -210,7 +210,7 @@ TEST(Study, OfAccuracyGoesOnWhereItWasInterrupted) {
 TEST(Study, OfSeveralScenesLeavesAMethodOutWhereItCannotRun) {
   const SceneFolder folder;
   folder.write("a.toml", swing);
-  folder.write("b.toml", swing + "[effects.sphere]\ncenter = [0, 0, -1]\nradius = 0.1\nresponse = \"implicit\"\n");
+  folder.write("b.toml", swing + "[effects.field]\nacceleration = [\"-x\", \"0\", \"0\"]\n");
   const Finished finished = drape(folder,
                                   "study accuracy a.toml b.toml --parts asked --times 0.1 --steps 0.02 --accuracies "
                                   "1e-3 --methods quasi-newton,semi-implicit --runs 1 --animate none -o results");

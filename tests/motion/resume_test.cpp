@@ -14,9 +14,8 @@ namespace {
 
 constexpr int steps = 40;
 
-/// A table for each effect, and all of them together. What implicit methods alone can have is chosen by the method.
-std::vector<std::string> effects_for(const NamedMethod& method) {
-  const std::string response = method.is_explicit() ? "" : "response = \"implicit\"\n";
+/// A table for each effect, and all of them together.
+std::vector<std::string> effects_of_scenes() {
   std::vector<std::string> tables{
       "[effects.gravity]\n",
       "[effects.wind]\nacceleration = [1, 0, 0]\n",
@@ -24,8 +23,7 @@ std::vector<std::string> effects_for(const NamedMethod& method) {
       "[effects.bending]\nrigidity = 1e-4\ncross_stiffness = 1\n",
       "[effects.moving_pins]\npins = [0, 6]\nkeyframes = [{ time = 0.05, offset = [0, 0, 0.2] }]\nrelease = 0.1\n",
       "[effects.sphere]\nkeyframes = [{ time = 0, center = [0, 0, -0.3] }, { time = 0.2, center = [0, 0.1, -0.1] }]\n"
-      "radius = 0.3\nfriction = 0.3\n" +
-          response,
+      "radius = 0.3\nfriction = 0.3\n",
       "[effects.ground]\nheight = -0.05\nrestitution = 0.5\n",
       "[effects.strain_limit]\nmax_stretch = 1.05\n",
       "[effects.self_collision]\nthickness = 0.02\n",
@@ -55,7 +53,7 @@ TEST_P(Resumed, RunsComeToTheSameBits) {
   const SceneFolder folder;
   std::mt19937 random(7);
   std::uniform_int_distribution<int> some_step(1, steps - 2);
-  for (const std::string& effects : effects_for(GetParam())) {
+  for (const std::string& effects : effects_of_scenes()) {
     const Scene scene = folder.load(scene_of(GetParam(), effects));
     record(scene, folder.path("whole.drape"));
     const int first = some_step(random), second = std::min(first + some_step(random), steps - 1);
@@ -75,7 +73,7 @@ TEST_P(Resumed, RunsComeToTheSameBits) {
 /// Of the records only what the clock says may be another.
 TEST_P(Resumed, RunsHaveRecordsOfTheWholeMotion) {
   const SceneFolder folder;
-  const Scene scene = folder.load(scene_of(GetParam(), effects_for(GetParam()).back()));
+  const Scene scene = folder.load(scene_of(GetParam(), effects_of_scenes().back()));
   const auto with_records = [&](const std::string& name) {
     RunOptions options;
     options.records = {.stats = {},
@@ -152,7 +150,7 @@ class KilledAt final : public StepObserver {
 
 TEST(ResumedRun, BeginsAgainWhereItWasKilledBeforeTheSecondCheckpoint) {
   const SceneFolder folder;
-  const Scene scene = folder.load(scene_of(all_methods[4], effects_for(all_methods[4]).back()));
+  const Scene scene = folder.load(scene_of(all_methods[4], effects_of_scenes().back()));
   KilledAt kill(folder, 35);
   RunOptions options;
   options.motion = MotionOptions{.path = folder.path("whole.drape")};
