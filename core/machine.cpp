@@ -29,11 +29,16 @@ std::string value_in(const char* file, std::string_view key, char separator) {
 
 std::vector<std::string> processor_flags() {
   // Those that decide how floating-point code is compiled or dispatched.
-  constexpr std::array<std::string_view, 15> wanted{"sse2",    "sse3",     "ssse3",    "sse4_1",   "sse4_2",
-                                                    "avx",     "f16c",     "fma",      "avx2",     "bmi2",
-                                                    "avx512f", "avx512bw", "avx512dq", "avx512vl", "avx512_vnni"};
+#ifdef __aarch64__
+  constexpr const char* key = "Features";
+#else
+  constexpr const char* key = "flags";
+#endif
+  constexpr std::array<std::string_view, 19> wanted{
+      "sse2",    "sse3",     "ssse3",    "sse4_1",   "sse4_2",      "avx",   "f16c",    "fma", "avx2", "bmi2",
+      "avx512f", "avx512bw", "avx512dq", "avx512vl", "avx512_vnni", "asimd", "asimdhp", "sve", "sve2"};
   std::vector<std::string> flags;
-  std::istringstream words(value_in("/proc/cpuinfo", "flags", ':'));
+  std::istringstream words(value_in("/proc/cpuinfo", key, ':'));
   for (std::string word; words >> word;) {
     if (std::find(wanted.begin(), wanted.end(), word) != wanted.end()) flags.push_back(word);
   }

@@ -143,8 +143,8 @@ constexpr const char* exit_status =
 constexpr const char* surroundings =
     ".SH ENVIRONMENT\n"
     ".TP\n\\fBDRAPE_DATA\\fR\nThe folder with shaders, textures and scenes, instead of the installed one.\n"
-    ".TP\n\\fBDRAPE_ISA\\fR\nThe best instruction set to use: sse2, avx2 or avx512. The results are the same to the "
-    "bit.\n";
+    ".TP\n\\fBDRAPE_ISA\\fR\nThe best instruction set to use: sse2, avx2 or avx512; neon on ARM. The results are the "
+    "same to the bit.\n";
 
 std::string see_also(const CommandText& drape, const CommandText& command) {
   std::string text = ".SH SEE ALSO\n";

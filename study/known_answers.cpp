@@ -22,6 +22,10 @@ double sliding(double tangent) {
   return std::max(0.0, (tangent - friction) / std::hypot(1, tangent));
 }
 
+/// Pulled by a spring whose end moves steadily over dry ground: the way over that of the end in a cycle, so many cycles
+/// after the spring first exceeds friction.
+double stick_slip_way(double cycles) { return cycles < 0 ? 0 : cycles - std::sin(2 * pi * cycles) / (2 * pi); }
+
 /// The modulus over E at an angle [degrees] of springs along 0°, 90° and both diagonals, by their weights.
 double modulus_at(double angle, double sides, double rising, double falling) {
   const auto share = [angle](double spring) { return std::pow(std::cos((angle - spring) * pi / 180), 4); };
@@ -48,6 +52,8 @@ const std::map<std::string, KnownCurve>& all_known_curves() {
       {"incline/acceleration", {sliding}},
       {"capstan/slipped", {[](double load) { return load > 1 ? 1.0 : 0.0; }}},
       {"turntable/slipped", {[](double load) { return load > 1 ? 1.0 : 0.0; }}},
+      {"stick-slip/way", {stick_slip_way}},
+      {"stick-slip/rest", {stick_slip_rest}},
       {"restitution/rebound", {[](double e) { return e * e; }}},
       {"pattern-stiffness/diagonal", {[](double angle) { return modulus_at(angle, 1, 0, 1); }}},
       {"pattern-stiffness/alternating", {[](double angle) { return modulus_at(angle, 1, 0.5, 0.5); }}},
@@ -91,6 +97,10 @@ double catenary_sag(double span) {
   }
   const double a = half / low;
   return a * (std::cosh(low) - 1);
+}
+
+double stick_slip_rest(double start) {
+  return std::abs(start) <= 1 ? start : -stick_slip_rest(start - std::copysign(2, start));
 }
 
 double pendulum_period(double amplitude) {

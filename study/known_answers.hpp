@@ -27,6 +27,10 @@ double capstan_limit(double friction, double light, double radius);
 /// @param span from point to point, between 0 and 2 [m]
 double catenary_sag(double span);
 
+/// The place where a mass on a spring rests that is let go on dry ground: every half swing is shorter by two.
+/// @param start from where, over the largest distance at which friction holds it
+double stick_slip_rest(double start);
+
 /// A pendulum's period over that of small swings: 1/agm(1, cos(θ/2)).
 /// @param amplitude θ, below 180 [degrees]
 double pendulum_period(double amplitude);

@@ -210,6 +210,29 @@ Quantities measure_capstan(const MotionOfCase& m) {
   return {{"slipped", start - m.last()(lowest, 2) > 0.05 ? 1.0 : 0.0}};
 }
 
+/// Pulled over a ground by a spring of given ω, whose end moves with a given speed from x = 0 on: the way over that of
+/// the end in a cycle, so many cycles after the force first exceeds friction. With no speed given, the end stands
+/// still: the last distance from it, over the largest at which friction holds.
+Quantities measure_stick_slip(const MotionOfCase& m) {
+  const double omega = m.number("omega"), held = m.number("friction") * m.number("g") / (omega * omega);
+  const auto place = [&](std::size_t at) { return m.mass_centre(m.motion.positions[at]).x(); };
+  if (!m.given.contains("speed")) return {{"rest", place(m.motion.positions.size() - 1) / held}};
+  const double speed = m.number("speed"), cycle = 2 * pi / omega, loose = held / speed;
+  const auto& times = m.motion.times;
+  Quantities found;
+  for (const double cycles : {-0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0}) {
+    const double time = loose + cycles * cycle;
+    const auto after = static_cast<std::size_t>(std::ranges::lower_bound(times, time) - times.begin());
+    if (after == 0 || after == times.size()) {
+      throw UsageError(fmt::format("the motion is too short: expected a state before and after {:.3g} s", time));
+    }
+    const double part = (time - times[after - 1]) / (times[after] - times[after - 1]);
+    const double way = place(after - 1) + part * (place(after) - place(after - 1)) - place(0);
+    found[fmt::format("way-{:g}", cycles)] = way / (speed * cycle);
+  }
+  return found;
+}
+
 /// The height of the first rebound over the fall, above what the cloth rests on.
 Quantities measure_rebound(const MotionOfCase& m) {
   const double floor = m.number("floor");
@@ -294,6 +317,7 @@ const std::vector<MeasureType>& all_measures() {
       {"rebound", measure_rebound},
       {"capstan", measure_capstan},
       {"turntable", measure_turntable},
+      {"stick-slip", measure_stick_slip},
       {"free-flight", measure_free_flight},
       {"strain-energy", measure_strain_energy},
       {"rolled-sheet", measure_rolled_sheet},

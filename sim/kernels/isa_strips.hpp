@@ -13,8 +13,13 @@ namespace drape {
 namespace {
 
 constexpr int strip_vectors = strip_rows / lanes;
-// As many columns at a time as there are registers for, beside those of the rows.
-constexpr int strip_columns = lanes == 8 ? 8 : lanes == 4 ? 4 : 2;
+#if defined(__aarch64__) || DRAPE_LANES == 8
+constexpr int vector_registers = 32;
+#else
+constexpr int vector_registers = 16;
+#endif
+// As many columns at a time as half of the registers hold; the others are for the rows, or for a second strip.
+constexpr int strip_columns = vector_registers / 2 / strip_vectors < 8 ? vector_registers / 2 / strip_vectors : 8;
 
 /// `at_once` strips and `strip_columns` columns of them, which stay in registers.
 template <int at_once>

@@ -10,17 +10,23 @@
 
 namespace drape {
 
+#if defined(__x86_64__)
 extern const Kernels kernels_sse2;
-#ifdef __x86_64__
 extern const Kernels kernels_avx2;
 extern const Kernels kernels_avx512;
+#elif defined(__aarch64__)
+extern const Kernels kernels_neon;
+#else
+extern const Kernels kernels_generic;
 #endif
 
 std::span<const Kernels* const> all_kernels() {
-#ifdef __x86_64__
+#if defined(__x86_64__)
   static const std::array<const Kernels*, 3> versions{&kernels_sse2, &kernels_avx2, &kernels_avx512};
+#elif defined(__aarch64__)
+  static const std::array<const Kernels*, 1> versions{&kernels_neon};
 #else
-  static const std::array<const Kernels*, 1> versions{&kernels_sse2};
+  static const std::array<const Kernels*, 1> versions{&kernels_generic};
 #endif
   return versions;
 }

@@ -35,8 +35,10 @@ bool Patience::wait() {
   if (++waits_ > give_way_at) {
     std::this_thread::yield();
   } else {
-#ifdef __x86_64__
+#if defined(__x86_64__)
     __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    __asm__ volatile("yield");
 #endif
   }
   return waits_ > asleep_at;

@@ -51,6 +51,42 @@ TEST(KnownAnswers, ACapstanHoldsEulersRatioWhereItsStrapIsLight) {
   }
 }
 
+/// A unit mass on a spring of ω = 1 with friction 1, whose other end moves with a speed; by short steps.
+struct DryOscillator {
+  double x = 0, v = 0, time = 0;
+
+  void run(double speed, double until) {
+    constexpr double h = 1e-5;
+    for (; time < until; time += h) {
+      const double pull = speed * time - x;
+      const bool rests = v == 0 && std::abs(pull) <= 1;
+      if (rests) continue;
+      const double before = v;
+      v += h * (pull - std::copysign(1, v == 0 ? pull : v));
+      if (before * v < 0) v = 0;  // friction stops it, and does not push it back
+      x += h * v;
+    }
+  }
+};
+
+TEST(KnownAnswers, StickSlipIsWhatTheEquationOfMotionSays) {
+  constexpr double speed = 0.5;
+  DryOscillator pulled;
+  pulled.run(speed, 1 / speed);  // where the spring's force is that of friction
+  EXPECT_EQ(pulled.x, 0);
+  for (const double cycles : {0.1, 0.25, 0.6, 0.9, 1.3}) {
+    pulled.run(speed, 1 / speed + 2 * M_PI * cycles);
+    const double way = known_curve("stick-slip", "way").value(cycles);
+    EXPECT_NEAR(pulled.x / (2 * M_PI * speed), way, 1e-3) << cycles;
+  }
+  for (const double start : {-5.3, -1.2, 0.4, 1.7, 2.6, 4.5, 7.4}) {
+    DryOscillator released{.x = start};
+    released.run(0, 40);
+    EXPECT_EQ(released.v, 0);
+    EXPECT_NEAR(released.x, stick_slip_rest(start), 1e-3) << start;
+  }
+}
+
 std::vector<std::string> all_case_names() {
   std::vector<std::string> names;
   for (const ValidationCase& one : validation_cases()) names.push_back(one.name);

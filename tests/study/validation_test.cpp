@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "scene/scene.hpp"
@@ -254,6 +256,30 @@ TEST(Measures, ComputeWhatPositionsSay) {
   EXPECT_NEAR(measured, 1, 1e-6);
   expect_usage_error([&] { measure_motion("pendulum", motion, {}); }, "the case gives no number 'g'");
   expect_usage_error([&] { measure_motion("pendulun", motion, {}); }, "did you mean 'pendulum'?");
+}
+
+TEST(Measures, OfStickSlipCountCyclesFromWhereItBreaksLoose) {
+  // One vertex: at rest until the spring's force is that of friction, then as fast as the spring's end.
+  constexpr double omega = 5, speed = 0.1, friction = 0.3, g = 9.8, loose = friction * g / (omega * omega * speed);
+  ObservedMotion motion;
+  motion.cloth.masses = Eigen::VectorXd::Ones(1);
+  for (int i = 0; i <= 4000; ++i) {
+    const double time = 1e-3 * i;
+    motion.times.push_back(time);
+    motion.positions.emplace_back(Vertices::Zero(1, 3));
+    motion.positions.back()(0, 0) = 7 + speed * std::max(0.0, time - loose);
+  }
+  std::map<std::string, double> given{{"omega", omega}, {"friction", friction}, {"g", g}, {"speed", speed}};
+  const auto found = measure_motion("stick-slip", motion, given);
+  EXPECT_EQ(found.at("way--0.1"), 0);
+  for (const auto& [name, cycles] : {std::pair{"way-0.25", 0.25}, {"way-1.5", 1.5}, {"way-2", 2.0}}) {
+    EXPECT_NEAR(found.at(name), cycles, 1e-9) << name;
+  }
+  given.erase("speed");
+  const double last = motion.positions.back()(0, 0);
+  EXPECT_NEAR(measure_motion("stick-slip", motion, given).at("rest"), last * omega * omega / (friction * g), 1e-12);
+  given["speed"] = speed / 2;  // so that it breaks loose too late for what there is of the motion
+  expect_usage_error([&] { measure_motion("stick-slip", motion, given); }, "the motion is too short");
 }
 
 }  // namespace

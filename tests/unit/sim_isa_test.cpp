@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "sim/instruction_set.hpp"
@@ -18,6 +20,9 @@ std::string fastest() {
   return best;
 }
 
+/// The one of every processor that the program runs on.
+std::string baseline() { return instruction_sets().front(); }
+
 class InstructionSet : public testing::Test {
  protected:
   ~InstructionSet() override { limit_instruction_set(instruction_sets().back()); }
@@ -29,13 +34,23 @@ TEST_F(InstructionSet, IsTheFastestUnlessLimited) {
 }
 
 TEST_F(InstructionSet, CanBeLimitedToTheBaseline) {
-  limit_instruction_set("sse2");
-  EXPECT_EQ(instruction_set(), "sse2");
-  EXPECT_EQ(kernels().name, "sse2");
+  limit_instruction_set(baseline());
+  EXPECT_EQ(instruction_set(), baseline());
+  EXPECT_EQ(kernels().name, baseline());
+}
+
+TEST_F(InstructionSet, IsNamedAfterTheProcessor) {
+#if defined(__x86_64__)
+  EXPECT_EQ(instruction_sets(), (std::vector<std::string>{"sse2", "avx2", "avx512"}));
+#elif defined(__aarch64__)
+  EXPECT_EQ(instruction_sets(), std::vector<std::string>{"neon"});
+#else
+  EXPECT_EQ(instruction_sets(), std::vector<std::string>{"generic"});
+#endif
 }
 
 TEST_F(InstructionSet, IsNeverOneThatTheProcessorLacks) {
-  limit_instruction_set("sse2");
+  limit_instruction_set(baseline());
   limit_instruction_set(instruction_sets().back());
   EXPECT_EQ(instruction_set(), fastest());
 }
@@ -47,9 +62,10 @@ TEST_F(InstructionSet, IsNotTheEnvironments) {
 }
 
 TEST_F(InstructionSet, IsRefusedUnderAWrongName) {
-  for (const char* wrong : {"avx3", "sse2x", ""}) {
+  for (const char* wrong : {"avx3", "sse2x", "neon2", ""}) {
     const std::string message = usage_error([&] { limit_instruction_set(wrong); });
-    EXPECT_NE(message.find("'" + std::string(wrong) + "', expected one of sse2"), std::string::npos) << message;
+    EXPECT_NE(message.find("'" + std::string(wrong) + "', expected one of " + baseline()), std::string::npos)
+        << message;
   }
   EXPECT_EQ(instruction_set(), fastest()) << "it was refused";
 }
