@@ -22,12 +22,12 @@ std::string describe(const Crossing& crossing);
 
 /// Finds all edges of a mesh that intersect its triangles, sorted.
 ///
-/// An edge intersects a triangle if its ends lie strictly on both sides of the triangle's plane, and the triangle
-/// (with its boundary) contains a point of the edge. Signs are exact. An edge that ends exactly in the plane only
-/// touches; find_passages with from = to finds touching features.
+/// An edge intersects a triangle if two conditions hold: its ends lie strictly on both sides of the triangle's plane,
+/// and the triangle or its boundary contains a point of the edge. Signs are exact. An edge that ends exactly in the
+/// plane only touches; find_passages with from = to finds touching features.
 ///
 /// Pairs with a common vertex are skipped, which loses no intersection: two triangles with one common vertex meet in
-/// a line from that vertex, which ends at an edge of one of them, in general the one opposite to the vertex.
+/// a line from that vertex. It ends at an edge of one of them, in general the one opposite to the vertex.
 /// Two triangles with a common edge meet only there unless they are coplanar.
 /// @throws std::invalid_argument if a position is non-finite or a triangle's vertex does not exist
 std::vector<Crossing> find_crossings(const Surface& cloth);

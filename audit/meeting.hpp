@@ -22,10 +22,10 @@ struct Meeting {
 /// No meeting is missed: "no" is a proof. Every meeting without `touch` is proven as well; `touch` cases have measure
 /// zero. Coordinates as in `exact_range`.
 ///
-/// Method: with a, b, c from the vertex to the corners, volume(t) = det(a, b, c) is a cubic, and the coordinates of
-/// a×b, b×c, c×a are quadratics. The step is bisected; on each part, the signs of their Bernstein coefficients decide.
-/// A part is empty if the volume has one sign, if a coordinate of a, b and c has one sign, or if a coordinate of two
-/// areas has opposite signs. It contains a meeting if the volume changes its sign and a coordinate of all three
+/// Method: let a, b, c point from the vertex to the corners. Then volume(t) = det(a, b, c) is a cubic, and the areas
+/// a×b, b×c, c×a are quadratic. The step is bisected; on each part, the signs of Bernstein coefficients decide.
+/// A part is empty in three cases: the volume has one sign; a coordinate of a, b and c has one sign; a coordinate of
+/// two areas has opposite signs. It contains a meeting if the volume changes its sign and a coordinate of all three
 /// areas has the same sign. Doubles with a forward error bound come first, then expansions.
 std::optional<Meeting> vertex_meets_triangle(const Way& vertex, const std::array<Way, 3>& triangle);
 

@@ -19,8 +19,8 @@ struct Held {
 /// A vertex is stuck if three conditions hold at once:
 /// - it has rested for at least two steps: each moved it by at most 10⁻⁹ of a mean edge;
 /// - meanwhile, a vertex that shares an edge with it has fallen by a quarter of that edge or more;
-/// - it has no support: it is not held, and is more than half a mean edge away from the contact layer of every
-///   collider and from every triangle of the cloth without this vertex.
+/// - it has no support: it is free, and more than half a mean edge away from each collider's contact layer and each
+///   cloth triangle without this vertex.
 class StuckWatch {
  public:
   /// @param cloth must outlive this

@@ -69,7 +69,7 @@ void write_reports(const CheckShard& shard, const std::filesystem::path& folder)
   if (const std::string missing = write_diagrams(shard.report, folder); !missing.empty()) spdlog::debug(missing);
 }
 
-/// Under GitHub Actions, writes the job summary and annotations at the scenes' files.
+/// Writes the job summary and annotations at the scenes' files, under GitHub Actions.
 void tell_github(const CheckReport& report, Verdicts& verdicts) {
   if (const char* file = std::getenv("GITHUB_STEP_SUMMARY"); file != nullptr && *file != '\0') {
     std::ofstream summary(file, std::ios::app);

@@ -42,7 +42,7 @@ std::optional<StudyReport> report_of(const std::optional<Study>& study, StudyRep
   return study ? std::optional(report(*study)) : std::nullopt;
 }
 
-/// Add a subcommand of study each.
+/// Each adds a subcommand of study.
 void add_accuracy_study(CLI::App& study, const CommonOptions& common, Command& command);
 void add_scaling_study(CLI::App& study, const CommonOptions& common, Command& command);
 void add_stability_study(CLI::App& study, const CommonOptions& common, Command& command);

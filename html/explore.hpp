@@ -28,7 +28,7 @@ Markup strip(const Strip& strip);
 /// @param moments their names, at least one: "t = 0.40 s"
 Markup strips(const std::string& id, const std::vector<std::string>& moments, const Markup& content);
 
-/// Returns a table that can be sorted by a click on a column's head.
+/// Returns a table whose column heads sort its rows.
 Markup sortable_table(const Table& table);
 
 /// Pieces of which one is visible, selected by several lists. Without scripts all are visible.

@@ -40,7 +40,7 @@ using Attributes = std::vector<Attribute>;
 
 /// Returns <tag name="value" …>content</tag>; void elements such as img get no end tag.
 Markup element(std::string_view tag, const Attributes& attributes, const Markup& content = {});
-/// A template, because attributes in braces could be read as text as well.
+/// Makes an element without attributes. A template, because attributes in braces could be read as text as well.
 template <class Content>
 requires std::convertible_to<Content, Markup> Markup element(std::string_view tag, const Content& content) {
   return element(tag, {}, content);

@@ -11,7 +11,7 @@ namespace drape {
 struct TimeGrid {
   double step = 0.04;               ///< h [s]
   std::vector<std::int64_t> steps;  ///< step of each moment, from 0, increasing
-  double fps = 25, speed = 1;       ///< film with one frame per step: speed/fps = h, if it can be chosen
+  double fps = 25, speed = 1;       ///< film with one frame per step: speed/fps = h, if h suits a film
 };
 
 /// Finds the grid of a motion.

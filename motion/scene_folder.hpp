@@ -13,7 +13,7 @@ namespace drape {
 /// The scene of a motion, unpacked into a temporary folder for the lifetime of this object, e.g. for its texture.
 class MotionScene {
  public:
-  /// @throws UsageError  if the unpacked scene differs from the motion's
+  /// @throws UsageError  if the unpacked scene no longer matches the motion
   /// @throws OutputError if it cannot be written to disk
   explicit MotionScene(const MotionReader& motion);
 

@@ -12,7 +12,7 @@
 namespace drape {
 namespace {
 
-/// Largest number of time codes added between samples. No film has more; beyond it the samples are far apart.
+/// Largest span of samples [time codes] that is filled with codes in between; no film is longer.
 constexpr double most_between = 10'000;
 /// Below this every whole number is exact as a double.
 constexpr double last_time_code = 1e12;
