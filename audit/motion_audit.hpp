@@ -68,7 +68,7 @@ struct CheckFindings {
   WorstState worst;
 };
 
-/// Audits the states of a motion in sequence, with constant memory.
+/// Audit of a motion, one state after another, with constant memory.
 class MotionAudit {
  public:
   /// @throws std::invalid_argument if a triangle has a vertex outside the rest shape

@@ -14,7 +14,7 @@ struct Held {
   std::vector<int> vertices;  ///< known held vertices, such as pins
 };
 
-/// Finds vertices that rest in mid-air while others fall.
+/// Detector of vertices that rest in mid-air while others fall.
 ///
 /// A vertex is stuck if three conditions hold at once:
 /// - it has rested for at least two steps: each moved it by at most 10⁻⁹ of a mean edge;

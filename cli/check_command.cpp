@@ -100,7 +100,7 @@ std::string run_options(const CheckArguments& arguments) {
   return text;
 }
 
-/// Checks scenes by index.
+/// Checker of scenes by index.
 class Judge {
  public:
   Judge(const std::vector<Scene>& scenes, const std::vector<std::shared_ptr<MotionReader>>& recorded,

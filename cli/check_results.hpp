@@ -12,7 +12,7 @@ namespace drape {
 /// Files of a check's report. No scene folder beside them may have such a name.
 inline constexpr std::array<const char*, 3> check_report_files{"report.html", "report.json", "junit.xml"};
 
-/// Prints results and records write errors.
+/// Printer of results that records write errors.
 class Verdicts {
  public:
   /// Prints a line. @param line escaped, see escape_controls()

@@ -43,8 +43,8 @@ void add_choice(CLI::App& app, const char* option, Enum& value, const std::vecto
       ->type_name(fmt::format("{}", fmt::join(names, "|")));
 }
 
-/// Shows an option's value and repetition. Required arguments appear in the usage line; exclusive options are reported
-/// on misuse.
+/// Formatter that shows an option's value and repetition. Required arguments appear in the usage line; exclusive
+/// options are reported on misuse.
 class HelpFormatter : public CLI::Formatter {
  public:
   HelpFormatter() { label("Positionals", "Arguments"); }

@@ -6,7 +6,7 @@
 
 namespace drape {
 
-/// Shows the progress of a run on standard error: a bar on a terminal, elsewhere plain lines at growing intervals.
+/// Progress display of a run on standard error: a bar on a terminal, elsewhere plain lines at growing intervals.
 class ProgressDisplay {
  public:
   enum class Style { none, bar, lines };

@@ -10,8 +10,8 @@
 
 namespace drape {
 
-/// Collects the problems of several scenes, each line once. A line about --set or --vary starts with its scene, unless
-/// it applies to all of them.
+/// Collector of the problems of several scenes, each line once. A line about --set or --vary starts with its scene,
+/// unless it applies to all of them.
 class SceneProblems {
  public:
   /// @param message a line for each problem, as load_scene() throws it

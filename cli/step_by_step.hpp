@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// Prints the energies and iterations of every step to standard output, and waits for a line of input in between.
+/// Observer that prints every step's energies and iterations to standard output, then waits for a line of input.
 class StepByStep final : public StepObserver {
  public:
   /// @param stop stop source; q requests a stop, and a stop from elsewhere ends the waiting

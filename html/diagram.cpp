@@ -43,7 +43,7 @@ std::string plain_style() {
   return css;
 }
 
-/// Places the parts of a file below each other.
+/// Vertical layout of the parts of a file.
 class FileLayout {
  public:
   explicit FileLayout(double width) : width_(width) {}

@@ -124,7 +124,7 @@ class ImportedScene {
   int bodies_ = 0;
 };
 
-/// Iterates over a motion's moments with velocities: those of its files, or central differences.
+/// Iterator over a motion's moments with velocities: those of its files, or central differences.
 class Differences {
  public:
   Differences(MotionSource& source, const TimeGrid& grid) : source_(source), grid_(grid) { after_ = source.moment(0); }

@@ -30,7 +30,7 @@ class ZipReader {
   std::vector<Member> members_;
 };
 
-/// Reads a member of an archive from start to end.
+/// Sequential reader of an archive member.
 class ZipStream {
  public:
   /// @throws UsageError "file: message"

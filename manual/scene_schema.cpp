@@ -65,7 +65,7 @@ Json shape_schema(const BodyShapeKey& key) {
   return table_of(body_shape_keys(shape));
 }
 
-/// Converts a key's target to the schema of its value, with the default.
+/// Converter of a key's target to the schema of its value, with the default.
 class ValueSchema {
  public:
   explicit ValueSchema(const Key& key) : key_(key) {}

@@ -13,7 +13,7 @@ struct Block {
   std::uint64_t end = 0;  ///< start of the next block
 };
 
-/// Reads files of blocks, in any order, and validates all bytes. Errors are UsageErrors that name the file.
+/// Random-access reader of a file of blocks; it validates all bytes. Errors are UsageErrors that name the file.
 class BlockReader {
  public:
   /// @param magic  first line of the file; its last word is the version: "drape recorded motion 1\n"

@@ -21,7 +21,7 @@ std::string unpack(std::string_view packed, std::uint64_t most = UINT64_MAX);
 /// Decompresses exactly `count` words.
 std::vector<std::uint64_t> unpack_planes(std::string_view packed, std::size_t count);
 
-/// Writes numbers as bytes, little endian, one after another.
+/// Writer of numbers as bytes, little endian, one after another.
 class ByteWriter {
  public:
   ByteWriter& whole(std::uint64_t number);
@@ -33,7 +33,7 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads the numbers back.
+/// Reader of such numbers.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}

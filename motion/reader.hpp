@@ -11,8 +11,8 @@
 
 namespace drape {
 
-/// Reads a motion file in any order, fastest in the order of steps. Only a few states are in memory. Errors in the file
-/// are UsageErrors that name it.
+/// Random-access reader of a motion file, fastest in the order of steps. Only a few states are in memory. Errors in the
+/// file are UsageErrors that name it.
 class MotionReader {
  public:
   /// Opens a complete file.

@@ -8,7 +8,7 @@
 
 namespace drape {
 
-/// Encodes states of a motion as bytes and back, exact to the bit: each state as its difference from a prediction by
+/// Lossless codec from states of a motion to bytes: it stores each state as its difference from a prediction by
 /// earlier states. docs/motion-file.md describes the format for readers.
 class StateCodec {
  public:

@@ -24,8 +24,8 @@ std::filesystem::path checkpoint_name(const std::filesystem::path& file);
 /// @throws UsageError if there is a growing file with a checkpoint
 void require_not_growing(const std::filesystem::path& file);
 
-/// Writes a motion file. Data goes to the disk at once; a killed process leaves a growing file and its checkpoint, from
-/// which the rest of the motion can be computed. The bytes of the complete file depend only on the motion, not on
+/// Writer of a motion file. Data goes to the disk at once; a killed process leaves a growing file and its checkpoint,
+/// from which the rest of the motion can be computed. The bytes of the complete file depend only on the motion, not on
 /// interruptions.
 class MotionFileWriter {
  public:

@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-/// Replaces file names in a scene by their names in the portable scene.
+/// Replacer of file names in a scene by their names in the portable scene.
 class FileNames {
  public:
   FileNames(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& inputs,

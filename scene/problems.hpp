@@ -16,7 +16,7 @@ class SceneConflict : public UsageError {
   using UsageError::UsageError;
 };
 
-/// Collects the problems of a scene, so that users see all of them at once.
+/// Collector of a scene's problems, so that users see all of them at once.
 class Problems {
  public:
   /// @param file      scene file name for messages

@@ -45,7 +45,7 @@ std::vector<PixelRectangle> read_rectangles(const TomlValue& value, const std::s
   return rectangles;
 }
 
-/// Reads the value of a key into its target, for every type of target.
+/// Reader of a key's value into its target, for every type of target.
 class KeyReader {
  public:
   /// @param table table that contains the key

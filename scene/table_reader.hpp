@@ -11,7 +11,7 @@
 
 namespace drape {
 
-/// Reads tables of a document as their TableType describes them, and reports everything else in them as a problem.
+/// Reader of a document's tables as their TableType describes them. Everything else in them is a problem.
 class TableReader {
  public:
   /// @param folder   folder of the scene, which holds the files that it names

@@ -12,7 +12,7 @@ namespace drape {
 /// Largest number of corners of a concave face. Ear clipping takes time cubic in this number.
 inline constexpr std::size_t most_concave_corners = 256;
 
-/// Collects the vertices and polygons of a file into a Mesh.
+/// Builder of a Mesh from the vertices and polygons of a file.
 class MeshBuilder {
  public:
   using Uv = std::array<float, 2>;

@@ -26,7 +26,7 @@ using Selections = std::map<std::string, std::string>;
 
 }  // namespace
 
-/// Composes the specs of prims.
+/// Composer of prims from their specs.
 class UsdComposer {
  public:
   explicit UsdComposer(UsdStage& stage) : stage_(stage) {}
@@ -53,7 +53,7 @@ class UsdComposer {
     }
   };
 
-  /// Replaces the prefix `from` of a path by `to`, its prefix in the referring file.
+  /// Replacement of a path's prefix `from` by `to`, its prefix in the referring file.
   struct Renaming {
     std::string from, to;
   };

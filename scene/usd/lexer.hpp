@@ -28,7 +28,7 @@ struct UsdToken {
   std::string_view text;
 };
 
-/// Splits a usda file into tokens and holds the current one. If the source stays in its file, memory holds the last two
+/// Tokenizer of a usda file; holds the current token. If the source stays in its file, memory holds the last two
 /// tokens and one piece.
 class UsdLexer {
  public:
