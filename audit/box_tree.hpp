@@ -5,7 +5,7 @@
 
 namespace drape::audit {
 
-/// An axis-parallel box, its border included.
+/// An axis-aligned box, including its boundary.
 struct Box {
   Eigen::Array3d low, high;
 
@@ -19,18 +19,18 @@ struct Box {
   }
 };
 
-/// A balanced binary tree over boxes, for the pairs of boxes that meet. Comparisons are exact, so no pair is missed.
+/// A balanced binary tree of boxes that finds intersecting pairs. Comparisons are exact, so no pair is missed.
 class BoxTree {
  public:
   explicit BoxTree(std::vector<Box> boxes);
 
-  /// Calls visit(i, j) once for each pair of boxes i < j of this tree that meet.
+  /// Calls visit(i, j) once for each intersecting pair i < j of this tree.
   template <class Visit>
   void for_pairs(Visit visit) const {
     if (!nodes_.empty()) within(0, visit);
   }
 
-  /// Calls visit(i, j) once for each box i of this tree and box j of the other that meet.
+  /// Calls visit(i, j) once for each intersecting pair of box i of this tree and box j of the other.
   template <class Visit>
   void for_pairs_with(const BoxTree& other, Visit visit) const {
     if (!nodes_.empty() && !other.nodes_.empty()) across(0, other, 0, visit);
@@ -39,8 +39,8 @@ class BoxTree {
  private:
   struct Node {
     Box box;
-    int begin, end;  // in order_
-    int second;      // its first child follows it; a leaf: −1
+    int begin, end;  // range in order_
+    int second;      // index of the second child; the first follows the node; leaf: −1
   };
 
   void build(int begin, int end);
@@ -97,7 +97,7 @@ class BoxTree {
   [[nodiscard]] const Box& box(int i) const { return boxes_[static_cast<std::size_t>(i)]; }
 
   std::vector<Box> boxes_;
-  std::vector<int> order_;  // boxes of a node are neighbours
+  std::vector<int> order_;  // the boxes of a node are consecutive
   std::vector<Node> nodes_;
 };
 

@@ -8,12 +8,12 @@
 
 namespace drape::audit {
 
-/// Copies positions onto the grid on which predicates are exact, see `on_exact_grid`.
-/// @throws std::invalid_argument naming the vertex if a coordinate is not finite or too large
+/// Rounds positions to the grid of exact predicates, see `on_exact_grid`.
+/// @throws std::invalid_argument naming the vertex if a coordinate is non-finite or too large
 Vertices exact_positions(const Vertices& x);
 
-/// The box of each feature's vertices at all of some places.
-/// @param features of 1, 2 or 3 vertices each
+/// Returns the bounding box of each feature over several arrays of positions.
+/// @param features features of 1, 2 or 3 vertices each
 template <std::size_t count>
 std::vector<Box> boxes_around(const std::vector<std::array<int, count>>& features,
                               std::initializer_list<const Vertices*> places) {
@@ -33,10 +33,10 @@ std::vector<Box> boxes_around(const std::vector<std::array<int, count>>& feature
   return boxes;
 }
 
-/// @throws std::invalid_argument if a triangle names a vertex that there is not
+/// @throws std::invalid_argument if a triangle has an invalid vertex
 void check_vertices(const std::vector<Triangle>& triangles, const Vertices& x);
 
-/// True where two features of one mesh have a vertex in common.
+/// Returns true if two features of one mesh share a vertex.
 template <std::size_t first, std::size_t second>
 bool share_vertex(const std::array<int, first>& a, const std::array<int, second>& b) {
   for (const int v : a) {

@@ -5,7 +5,7 @@
 
 namespace drape::audit {
 
-/// The square of the distance from a point to a triangle, its border included [m²]. Rounded.
+/// Returns the squared distance from a point to a triangle with its boundary [m²]. Rounded.
 double square_distance(const Eigen::Vector3d& p, const std::array<Eigen::Vector3d, 3>& triangle);
 
 }  // namespace drape::audit

@@ -11,14 +11,14 @@ struct Sum {
   double value, error;  // value + error is exact
 };
 
-/// Knuth's sum, for summands of any magnitude.
+/// Computes Knuth's exact sum, for summands of any magnitude.
 Sum two_sum(double a, double b) {
   const double value = a + b;
   const double of_b = value - a;
   return {value, (a - (value - of_b)) + (b - of_b)};
 }
 
-/// Dekker's sum.
+/// Computes Dekker's exact sum.
 /// @param large at least as large as `small` in magnitude
 Sum fast_two_sum(double large, double small) {
   const double value = large + small;
@@ -45,7 +45,7 @@ Expansion Expansion::difference(double a, double b) {
 
 int Expansion::sign() const {
   if (parts_.empty()) return 0;
-  return parts_.back() > 0 ? 1 : -1;  // the largest part outweighs all others
+  return parts_.back() > 0 ? 1 : -1;  // the largest part exceeds the sum of all others
 }
 
 double Expansion::estimate() const {
@@ -86,7 +86,7 @@ Expansion Expansion::operator*(const Expansion& other) const {
   return result;
 }
 
-/// Grow-Expansion (Shewchuk, figure 6), without zeros.
+/// Adds a double: Grow-Expansion (Shewchuk, figure 6), without zeros.
 void Expansion::add(double value) {
   std::size_t kept = 0;
   for (const double part : parts_) {
@@ -98,7 +98,7 @@ void Expansion::add(double value) {
   if (value != 0) parts_.push_back(value);
 }
 
-/// Compress (Shewchuk, figure 15): as few parts as the number needs, but for one or two.
+/// Reduces the parts almost to the minimum: Compress (Shewchuk, figure 15).
 void Expansion::compress() {
   if (parts_.size() < 2) return;
   std::size_t bottom = parts_.size() - 1;
@@ -127,7 +127,7 @@ double on_exact_grid(double coordinate) {
     throw std::invalid_argument("a coordinate must be finite and below 1e30 m to be audited, found " +
                                 std::to_string(coordinate));
   }
-  // Beside 1.5·2⁵²·grid a double's last place is the grid.
+  // Added to 1.5·2⁵²·grid, a double is rounded to a multiple of the grid.
   constexpr double rounder = 0x1.8p52 * exact_range::grid;
   return std::abs(coordinate) < 0x1p52 * exact_range::grid ? (coordinate + rounder) - rounder : coordinate;
 }

@@ -26,7 +26,7 @@ void deepest_first(std::vector<Inside>& found) {
   });
 }
 
-/// A closed mesh whose winding numbers are exact.
+/// A closed mesh with exact winding numbers.
 class Solid {
  public:
   explicit Solid(const Surface& body) : x_(exact_positions(body.x)) {
@@ -45,7 +45,7 @@ class Solid {
       const std::optional<int> winding = winding_along(p, outside_point(p, attempt));
       if (winding) return *winding != 0;
     }
-    return false;  // rays in any direction begin on a triangle
+    return false;  // every attempt failed: rays in any direction start on a triangle
   }
 
   [[nodiscard]] double distance(const Point& p) const {
@@ -55,14 +55,14 @@ class Solid {
   }
 
  private:
-  /// A point beyond the solid along x, in another direction for each attempt. Its ray is thin in y and z, so that few
-  /// triangles have to be looked at, and no symmetry of a mesh has its slopes.
+  /// Returns a point beyond the solid along x, in another direction for each attempt. The ray's box is thin in y and z,
+  /// so it meets few triangles; its slopes match no symmetry of meshes.
   [[nodiscard]] Point outside_point(const Point& p, int attempt) const {
     const double size = (bounds_.high - bounds_.low).maxCoeff();
     return {bounds_.high[0] + size, p[1] + 0.01378 * attempt * size, p[2] - 0.02137 / attempt * size};
   }
 
-  /// The signed number of triangles that p–q goes through; nothing where it goes through a border or begins on a
+  /// Returns the signed number of triangles that the segment pq crosses; nothing if it meets a boundary or starts on a
   /// triangle.
   [[nodiscard]] std::optional<int> winding_along(const Point& p, const Point& q) const {
     const Box ray{p.array().min(q.array()), p.array().max(q.array())};

@@ -10,10 +10,10 @@ namespace drape::audit {
 namespace {
 
 constexpr double unit = 0x1p-53;
-constexpr int rounded_depth = 30;  // bisections in doubles; the error bounds below hold up to here
+constexpr int rounded_depth = 30;  // bisections in doubles; the error bounds below are valid up to here
 constexpr int exact_depth = 80;    // bisections in expansions, see exact_range::grid
 
-/// A polynomial on a part of the step by its Bernstein coefficients, each within `error`.
+/// A polynomial on a part of the step as Bernstein coefficients, each with an error of at most `error`.
 template <class Number, std::size_t size>
 struct Polynomial {
   std::array<Number, size> c;
@@ -21,12 +21,12 @@ struct Polynomial {
 };
 
 template <class Number>
-using Linear = std::array<Polynomial<Number, 2>, 3>;  // a vector whose coordinates are linear in time
+using Linear = std::array<Polynomial<Number, 2>, 3>;  // vector with coordinates linear in time
 template <class Number>
 using Quadratic = std::array<Polynomial<Number, 3>, 3>;
 template <class Number>
 using Cubic = Polynomial<Number, 4>;
-using Signs = std::array<int, 3>;  // of a vector's coordinates; 0: zero or undecided
+using Signs = std::array<int, 3>;  // signs of a vector's coordinates; 0: zero or undecided
 
 int sign_of(double value, double error) { return static_cast<int>(value > error) - static_cast<int>(value < -error); }
 int sign_of(const Expansion& value, double /*error*/) { return value.sign(); }
@@ -40,7 +40,7 @@ Number difference(double a, double b) {
   if constexpr (std::is_same_v<Number, Expansion>) return Expansion::difference(a, b);
 }
 
-/// The sign that all coefficients have, which so the polynomial has everywhere; else 0.
+/// Returns the common sign of all coefficients, which is the polynomial's sign everywhere; 0 if they differ.
 template <class Number, std::size_t size>
 int sign_throughout(const Polynomial<Number, size>& p) {
   const int first = sign_of(p.c[0], p.error);
@@ -50,7 +50,7 @@ int sign_throughout(const Polynomial<Number, size>& p) {
   return first;
 }
 
-/// De Casteljau's subdivision at the middle: `p` becomes its first half, the result is its second.
+/// Splits at the middle (de Casteljau): `p` becomes the first half; returns the second.
 template <class Number, std::size_t size>
 Polynomial<Number, size> split(Polynomial<Number, size>& p) {
   Polynomial<Number, size> second = p;
@@ -61,11 +61,11 @@ Polynomial<Number, size> split(Polynomial<Number, size>& p) {
   return second;
 }
 
-/// The larger magnitude of both ends; of exact numbers nothing asks for it.
+/// Returns the larger magnitude of both ends; unused for exact numbers.
 double magnitude(const Polynomial<double, 2>& p) { return std::max(std::abs(p.c[0]), std::abs(p.c[1])); }
 double magnitude(const Polynomial<Expansion, 2>& /*p*/) { return 0; }
 
-/// to − from, at both ends of the step. Rounding: 1 unit for the difference and one for each bisection, at most 31.
+/// Returns to − from at both ends of the step. Rounding: at most 31 units, 1 for the difference and 1 per bisection.
 template <class Number>
 Linear<Number> between(const Way& from, const Way& to) {
   Linear<Number> v;
@@ -77,15 +77,15 @@ Linear<Number> between(const Way& from, const Way& to) {
   return v;
 }
 
-/// Coordinate (i, j) of v×w at ends of the step.
+/// Returns coordinate (i, j) of v×w at ends of the step.
 template <class Number>
 Number minor(const Linear<Number>& v, std::size_t v_end, const Linear<Number>& w, std::size_t w_end, std::size_t i,
              std::size_t j) {
   return v[i].c[v_end] * w[j].c[w_end] - v[j].c[v_end] * w[i].c[w_end];
 }
 
-/// 2 v×w. Rounding, where m bounds a coordinate of v×w: 3 units of m for each product, 3 sums of up to 2m, which makes
-/// 12 units, and 2 sums of up to 2m for each bisection, at most 120.
+/// Returns 2 v×w. Rounding, if m bounds a coordinate of v×w: 3 units of m for each product, 3 sums of up to 2m: 12
+/// units in total. Each bisection adds 2 sums of up to 2m, at most 120 units.
 template <class Number>
 Quadratic<Number> cross(const Linear<Number>& v, const Linear<Number>& w) {
   Quadratic<Number> product;
@@ -105,8 +105,8 @@ Number determinant(const Linear<Number>& u, std::size_t u_end, const Linear<Numb
          u[2].c[u_end] * minor(v, v_end, w, w_end, 0, 1);
 }
 
-/// 3 det(u, v, w). Rounding, where m bounds a determinant: 8 units of m for each, 30 for three of them, and 3 sums of
-/// up to 3m for each bisection, at most 270.
+/// Returns 3 det(u, v, w). Rounding, if m bounds a determinant: 8 units of m for each, 30 for three of them. Each
+/// bisection adds 3 sums of up to 3m, at most 270 units.
 template <class Number>
 Cubic<Number> volume(const Linear<Number>& u, const Linear<Number>& v, const Linear<Number>& w) {
   const auto det = [&](std::size_t i, std::size_t j, std::size_t k) { return determinant(u, i, v, j, w, k); };
@@ -122,7 +122,7 @@ Cubic<Number> volume(const Linear<Number>& u, const Linear<Number>& v, const Lin
 }
 
 /// Two features in a part of the step: the vectors between their vertices (3 for a vertex and a triangle, 4 for two
-/// edges), the areas that say where they lie in a common plane, and the volume that is zero in one.
+/// edges); the areas that locate coplanar features; and the volume, which is zero if they are coplanar.
 template <class Number, std::size_t count>
 struct Features {
   std::array<Linear<Number>, count> vectors;
@@ -133,7 +133,7 @@ struct Features {
 template <std::size_t count>
 using SignTable = std::array<Signs, count>;
 
-/// Signs that hold throughout the part of the step.
+/// Returns the signs that hold throughout the part of the step.
 template <class Polynomials>
 auto signs_throughout(const Polynomials& vectors) {
   SignTable<std::tuple_size_v<Polynomials>> table{};
@@ -143,7 +143,7 @@ auto signs_throughout(const Polynomials& vectors) {
   return table;
 }
 
-/// Signs at an end of the part.
+/// Returns the signs at an end of the part.
 template <class Polynomials>
 auto signs_at(const Polynomials& vectors, bool last) {
   SignTable<std::tuple_size_v<Polynomials>> table{};
@@ -156,7 +156,7 @@ auto signs_at(const Polynomials& vectors, bool last) {
   return table;
 }
 
-/// True where a plane across an axis lies between the features: all vectors point to the same side.
+/// Returns true if a plane across an axis separates the features: all vectors point to the same side.
 template <std::size_t count>
 bool separated(const SignTable<count>& vectors) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -169,17 +169,16 @@ bool separated(const SignTable<count>& vectors) {
 bool opposite(const Signs& a, const Signs& b) { return a[0] * b[0] < 0 || a[1] * b[1] < 0 || a[2] * b[2] < 0; }
 bool same(const Signs& a, const Signs& b) { return a[0] * b[0] > 0 || a[1] * b[1] > 0 || a[2] * b[2] > 0; }
 
-/// True where coplanar features with such areas have no common point. The areas of coplanar features are parallel.
-/// Those of the sub-triangles of a vertex add up to the triangle's, and outside of it one of them is turned against
-/// another; of a triangle without an area they add up to zero, and are turned against each other unless the vertex is
-/// on its line.
+/// Returns true if coplanar features with these areas have no common point. Areas of coplanar features are parallel.
+/// The areas of a vertex's sub-triangles add up to the triangle's; outside of it, two of them are opposite. For a
+/// triangle of zero area they add up to zero, and two are opposite unless the vertex is on its line.
 bool apart(const SignTable<3>& areas) {
   return opposite(areas[0], areas[1]) || opposite(areas[1], areas[2]) || opposite(areas[2], areas[0]);
 }
-/// Edges have no common point where both ends of one are on the same side of the other.
+/// Returns true for disjoint edges: both ends of one are on the same side of the other.
 bool apart(const SignTable<4>& areas) { return same(areas[0], areas[1]) || same(areas[2], areas[3]); }
 
-/// True where coplanar features with such areas do have a common point.
+/// Returns true if coplanar features with these areas have a common point.
 bool together(const SignTable<3>& areas) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (areas[0][axis] * areas[1][axis] > 0 && areas[1][axis] * areas[2][axis] > 0) return true;
@@ -188,15 +187,15 @@ bool together(const SignTable<3>& areas) {
 }
 bool together(const SignTable<4>& areas) { return opposite(areas[0], areas[1]) && opposite(areas[2], areas[3]); }
 
-/// True where the features have a common point at an end of the part. The tests are complete: without a common point
-/// one of them says so.
+/// Returns true if the features have a common point at an end of the part. The tests are complete: if there is no
+/// common point, one of them proves it.
 template <std::size_t count>
 bool touch_at(const Features<Expansion, count>& f, bool last) {
   const Expansion& volume = last ? f.volume.c.back() : f.volume.c.front();
   return volume.sign() == 0 && !separated(signs_at(f.vectors, last)) && !apart(signs_at(f.areas, last));
 }
 
-/// The time in [low, high] at which a volume of two signs is zero, to double precision.
+/// Finds the zero of a volume with opposite signs at low and high, to double precision.
 template <class Number>
 double root(const Cubic<Number>& volume, double low, double high) {
   std::array<double, 4> c;
@@ -268,7 +267,7 @@ Decision decide(const std::array<Way, 2>& first, const std::array<Way, 2>& secon
   for (std::size_t i = 0; i < 4; ++i) f.vectors[i] = between<Number>(first[i / 2], second[i % 2]);
   if (separated(signs_throughout(f.vectors))) return {};
   const auto& [ac, ad, bc, bd] = f.vectors;
-  f.volume = volume(ac, bc, ad);  // det(ac − bc, ac, ad) up to its sign, where ac − bc is the first edge
+  f.volume = volume(ac, bc, ad);  // det(ac − bc, ac, ad) up to its sign; ac − bc is the first edge
   if (sign_throughout(f.volume) != 0) return {};
   f.areas = {cross(ac, ad), cross(bc, bd), cross(ac, bc), cross(ad, bd)};
   return decide(f, 0, 1, 0);

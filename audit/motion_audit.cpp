@@ -15,7 +15,7 @@
 namespace drape::audit {
 namespace {
 
-/// The triangles of a mesh at an edge.
+/// Returns the triangles of a mesh at an edge.
 std::vector<Triangle> triangles_at(const Topology& mesh, const Edge& edge) {
   std::vector<Triangle> found;
   for (const Triangle& t : mesh.triangles) {
@@ -37,7 +37,7 @@ class Marked {
   std::set<int> marked_;
 };
 
-/// Pairs of triangles of which an edge of one goes through the other, each once.
+/// Counts the pairs of triangles where an edge of one crosses the other, each once.
 /// @param other the body, or the cloth itself
 std::size_t count_pairs(const std::vector<Crossing>& crossings, const Topology& cloth, const Topology& other) {
   std::set<std::pair<Triangle, Triangle>> pairs;
@@ -193,7 +193,7 @@ MotionAudit::Finding MotionAudit::stretched(const AuditedState& state) {
   for (const auto& [a, b] : topology_->edges) {
     const double rest = (cloth_.rest.row(a) - cloth_.rest.row(b)).norm();
     const double length = (state.x.row(a) - state.x.row(b)).norm();
-    if (length > 0) largest = std::max(largest, length / rest);  // infinite where there is no length at rest
+    if (length > 0) largest = std::max(largest, length / rest);  // infinite for a rest length of zero
   }
   const std::vector<StretchedEdge> found = find_stretched(topology_->edges, cloth_.rest, state.x, limits_.stretch);
   if (found.empty()) return finding;

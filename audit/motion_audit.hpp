@@ -14,23 +14,23 @@
 
 namespace drape::audit {
 
-/// Checks of a motion's states and of the straight ways between them.
+/// Checks of a motion's states and of the linear paths between them.
 enum class Check {
-  crossings,  ///< pairs of triangles that cross, of the cloth with itself and with bodies
-  ways,       ///< pairs of features that meet on their straight ways from the state before
+  crossings,  ///< pairs of intersecting triangles, within the cloth and with bodies
+  ways,       ///< pairs of features that meet on their linear paths from the previous state
   inside,     ///< vertices inside closed bodies and spheres and under grounds
-  stretch,    ///< edges longer than a limit
-  stuck       ///< vertices that stand still while others fall
+  stretch,    ///< edges stretched beyond a limit
+  stuck       ///< vertices that rest while others fall
 };
 inline constexpr std::size_t check_count = 5;
 
-/// Limits beyond which something is a finding.
+/// Limits above which a value is a finding.
 struct AuditLimits {
-  double stretch = HUGE_VAL;  ///< of an edge's length to that at rest
-  double depth = 1e-3;        ///< of a vertex in a solid [m]
+  double stretch = HUGE_VAL;  ///< ratio of an edge's length to its rest length
+  double depth = 1e-3;        ///< depth of a vertex in a solid [m]
 };
 
-/// The mesh that is audited, and what is known of it beside its motion.
+/// The audited mesh and its constant properties.
 struct AuditedCloth {
   Vertices rest;  ///< n×3 [m]
   std::vector<Triangle> triangles;
@@ -43,45 +43,45 @@ struct AuditedState {
   std::int64_t step = 0;
   double time = 0;  ///< [s]
   const Vertices& x;
-  const std::vector<Collider>& colliders;  ///< at that time, always as many of the same kinds
+  const std::vector<Collider>& colliders;  ///< at that time; their number and kinds are constant
 };
 
-/// The state in which a check finds most: most pairs or vertices, the greatest depth or stretch.
+/// The state with the worst result of a check: most pairs or vertices, greatest depth or stretch.
 struct WorstState {
   std::int64_t step = 0;
   double time = 0;            ///< [s]
-  std::size_t count = 0;      ///< of findings in it
-  double value = 0;           ///< the greatest depth [m] or stretch; elsewhere the count
-  std::string text;           ///< the worst of them: "cloth edge 3 4 is stretched to 1.2"
-  std::vector<int> vertices;  ///< of the cloth that take part, ascending
-  Vertices x;                 ///< where the cloth is
+  std::size_t count = 0;      ///< number of findings
+  double value = 0;           ///< greatest depth [m] or stretch; for other checks the count
+  std::string text;           ///< description of the worst finding: "cloth edge 3 4 is stretched to 1.2"
+  std::vector<int> vertices;  ///< affected vertices of the cloth, ascending
+  Vertices x;                 ///< positions of the cloth
   std::vector<Collider> colliders;
 };
 
 /// Findings of a check in all states.
 struct CheckFindings {
-  std::int64_t states = 0;  ///< in which it found something
+  std::int64_t states = 0;  ///< number of states with findings
   std::int64_t first = 0;   ///< step of the first of them
   double first_time = 0;    ///< [s]
-  std::size_t touches = 0;  ///< of ways: those that end or begin in a touch, which are no findings
-  double largest = 0;       ///< the greatest depth [m] or stretch of all states, also below the limit
+  std::size_t touches = 0;  ///< for ways: meetings that start or end in a touch, which are no findings
+  double largest = 0;       ///< greatest depth [m] or stretch of all states, including those below the limit
   WorstState worst;
 };
 
-/// Audits the states of a motion one after another, in memory that does not depend on their number.
+/// Audit of a motion, one state after another, with constant memory.
 class MotionAudit {
  public:
-  /// @throws std::invalid_argument if a triangle is not one of the rest shape's vertices
+  /// @throws std::invalid_argument if a triangle has a vertex outside the rest shape
   MotionAudit(AuditedCloth cloth, const AuditLimits& limits);
 
-  /// Takes the next state.
-  /// @throws std::invalid_argument naming the vertex if a position is not finite, or if there are more or fewer than at
-  ///         rest
+  /// Audits the next state.
+  /// @throws std::invalid_argument naming the vertex if a position is non-finite, or if the number of vertices differs
+  ///         from the rest shape
   void add(const AuditedState& state);
 
   [[nodiscard]] const CheckFindings& findings(Check check) const { return found_[static_cast<std::size_t>(check)]; }
   [[nodiscard]] std::int64_t states() const { return states_; }
-  /// True where no check has found anything.
+  /// Returns true if no check has findings.
   [[nodiscard]] bool clean() const;
 
  private:
@@ -100,9 +100,9 @@ class MotionAudit {
 
   AuditedCloth cloth_;
   AuditLimits limits_;
-  std::unique_ptr<const Topology> topology_;  // which others refer to
+  std::unique_ptr<const Topology> topology_;  // others refer to it
   StuckWatch stuck_;
-  std::vector<Topology> bodies_;  // as the colliders; empty for those that are no meshes
+  std::vector<Topology> bodies_;  // in the order of the colliders; empty unless a mesh
   std::vector<char> closed_;
   std::int64_t states_ = 0;
   Vertices before_;

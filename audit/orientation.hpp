@@ -4,8 +4,8 @@
 
 namespace drape::audit {
 
-/// The exact sign of the volume that b−a, c−a and d−a span: 1 where d is on the side from which a, b, c turn
-/// counterclockwise, −1 on the other, 0 in their plane.
+/// Returns the exact sign of the volume spanned by b−a, c−a and d−a. It is 1 if d is on the side from which a, b, c
+/// turn counterclockwise, −1 on the other side, 0 in their plane.
 ///
 /// A floating-point filter with Shewchuk's error bound decides most cases, exact expansions the others.
 /// Coordinates as in `exact_range`.

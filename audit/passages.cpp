@@ -13,7 +13,7 @@
 namespace drape::audit {
 namespace {
 
-/// A mesh in a step with positions for which predicates are exact, and its broad phase.
+/// A mesh in a step, with positions for exact predicates and its broad phase.
 struct Swept {
   Owner owner;
   const Topology& topology;
@@ -23,14 +23,14 @@ struct Swept {
   [[nodiscard]] Way way(int v) const { return {from.row(v).transpose(), to.row(v).transpose()}; }
 };
 
-/// The mean way of all vertices.
+/// Returns the mean displacement of all vertices.
 Eigen::RowVector3d common_way(const SurfaceMotion& motion) {
   if (motion.from.rows() == 0 || motion.from.rows() != motion.to.rows()) return Eigen::RowVector3d::Zero();
   return motion.to.colwise().mean() - motion.from.colwise().mean();
 }
 
-/// @param common the way of the frame in which boxes are swept: what moves together does not sweep over each other. The
-///               same for features that may meet. Boxes include the rounding of places in it.
+/// @param common displacement of the frame in which boxes are swept, equal for both meshes: common motion sweeps no
+///               volume. Boxes include the rounding errors of the frame.
 Swept sweep(Owner owner, const SurfaceMotion& motion, const Eigen::RowVector3d& common) {
   if (motion.from.rows() != motion.to.rows()) {
     throw std::invalid_argument(fmt::format("a step needs as many vertices at its end as at its start, found {} and {}",

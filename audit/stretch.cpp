@@ -24,7 +24,7 @@ std::vector<StretchedEdge> find_stretched(const std::vector<Edge>& edges, const 
     const double now = length(x), at_rest = length(rest);
     if (now <= limit * at_rest) continue;
     const double stretch = now / at_rest;
-    found.push_back({edge, stretch >= 0 ? stretch : std::numeric_limits<double>::infinity()});  // no NaN in the order
+    found.push_back({edge, stretch >= 0 ? stretch : std::numeric_limits<double>::infinity()});  // NaN is unsortable
   }
   std::ranges::sort(found, [](const StretchedEdge& a, const StretchedEdge& b) {
     return a.stretch != b.stretch ? a.stretch > b.stretch : a.edge < b.edge;

@@ -9,9 +9,9 @@
 namespace drape::audit {
 namespace {
 
-constexpr double no_motion = 1e-9;  // of a mean edge
-constexpr double fallen = 0.25;     // of an edge
-constexpr double near = 0.5;        // of a mean edge
+constexpr double no_motion = 1e-9;  // relative to the mean edge
+constexpr double fallen = 0.25;     // relative to an edge
+constexpr double near = 0.5;        // relative to the mean edge
 constexpr int fewest_steps = 2;
 
 double distance_to(const std::vector<Triangle>& triangles, const Vertices& corners, const Eigen::Vector3d& p,
@@ -25,7 +25,7 @@ double distance_to(const std::vector<Triangle>& triangles, const Vertices& corne
   return std::sqrt(square);
 }
 
-/// The gap between a point and a collider's layer of contact, negative inside [m].
+/// Returns the gap between a point and a collider's contact layer, negative inside [m].
 double gap_to(const Collider& collider, const Eigen::Vector3d& p) {
   if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
     return (p - sphere->center).norm() - std::max(sphere->radius, sphere->reach);

@@ -8,16 +8,16 @@
 
 namespace drape::audit {
 
-/// A mesh's triangles and its edges, each once. Made once for all steps of a motion.
+/// Triangles and unique edges of a mesh. Made once for all steps of a motion.
 struct Topology {
   std::vector<Triangle> triangles;
   std::vector<Edge> edges;
 };
 
-/// @throws std::invalid_argument if a triangle has a negative vertex or twice the same one
+/// Extracts the edges. @throws std::invalid_argument if a triangle has a negative or a repeated vertex
 Topology make_topology(std::vector<Triangle> triangles);
 
-/// A mesh at one moment. Refers to what it is made of.
+/// A mesh at one moment. Refers to its data.
 struct Surface {
   const Topology& topology;
   const Vertices& x;  ///< [m]
@@ -30,10 +30,10 @@ struct SurfaceMotion {
   const Vertices& to;    ///< [m]
 };
 
-/// Names the mesh that a feature belongs to.
+/// The mesh that owns a feature.
 enum class Owner { cloth, body };
 
-/// "cloth vertex 3", "body edge 3 4", "cloth triangle 3 4 5"
+/// Returns for example "cloth vertex 3", "body edge 3 4", "cloth triangle 3 4 5".
 std::string describe(Owner owner, std::vector<int> vertices);
 
 }  // namespace drape::audit

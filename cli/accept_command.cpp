@@ -20,7 +20,7 @@ struct AcceptArguments {
   std::string frames;
 };
 
-/// @throws UsageError unless drape check has written its report into the folder
+/// @throws UsageError unless the folder contains a report of drape check
 void require_report(const std::filesystem::path& folder) {
   std::error_code error;
   const auto status = std::filesystem::status(folder, error);
@@ -37,7 +37,7 @@ ExitCode accept(const AcceptArguments& arguments, const CommonOptions& common) {
   const std::vector<int> frames = parse_frame_list(arguments.frames);
   require_report(arguments.report);
   const std::vector<Candidate> candidates = find_candidates(arguments.report, arguments.scenes);
-  for (const Candidate& candidate : candidates) require_acceptable(candidate, frames);  // before any is
+  for (const Candidate& candidate : candidates) require_acceptable(candidate, frames);  // before accepting any
   for (const Candidate& candidate : candidates) {
     const std::filesystem::path folder = accept_candidate(candidate, frames);
     if (common.quiet) continue;

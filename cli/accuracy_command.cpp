@@ -38,7 +38,7 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The place of a name in a list.
+/// Returns the index of a name in a list.
 std::size_t parse_name(const char* option, const std::string& name, const std::vector<std::string>& known,
                        const char* kind) {
   const auto found = std::find(known.begin(), known.end(), name);
@@ -89,7 +89,7 @@ std::string numbers(const char* option, const std::vector<double>& values) {
   return text.empty() ? text : fmt::format(" {} {}", option, text);
 }
 
-/// The command line again.
+/// Returns the command line as text.
 std::string command_line(const AccuracyArguments& arguments) {
   std::string text = "drape study accuracy";
   for (const std::string& scene : arguments.scenes) text += " " + shell_file(scene);
@@ -103,7 +103,7 @@ std::string command_line(const AccuracyArguments& arguments) {
   return text + runs_option(arguments.options.runs) + " --animate " + joined(arguments.animations);
 }
 
-/// The report of what a folder holds.
+/// Writes the report of existing measurements.
 ExitCode report_again(const AccuracyArguments& arguments, const CommonOptions& common) {
   if (!arguments.scenes.empty())
     throw UsageError("--report-only measures nothing: it takes no scene, but -o with the folder");
@@ -112,8 +112,8 @@ ExitCode report_again(const AccuracyArguments& arguments, const CommonOptions& c
   });
 }
 
-/// What an interrupted study has left in its folder, if there is anything.
-/// @throws UsageError if that is another study's
+/// Reads the results of an interrupted study in the folder, if any.
+/// @throws UsageError if they are from another study
 AccuracyStudy begun_study(const std::string& folder, const std::string& command) {
   if (!std::filesystem::exists(std::filesystem::path(folder) / runs_name)) return {};
   AccuracyStudy begun = read_runs(folder);
@@ -122,7 +122,7 @@ AccuracyStudy begun_study(const std::string& folder, const std::string& command)
                                (std::filesystem::path(folder) / runs_name).string(), begun.command));
 }
 
-/// Takes a scene over from a study that has it. @returns whether it has
+/// Copies a scene's results from an interrupted study, if present. @returns true if copied
 bool take_over(AccuracyStudy& begun, const std::string& name, AccuracyStudy& study) {
   const auto found = std::ranges::find(begun.scenes, name, &SceneAccuracy::name);
   if (found == begun.scenes.end()) return false;
@@ -141,7 +141,7 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
   options.of_several_scenes = arguments.scenes.size() > 1;
   const std::vector<AnimatedBy> animations = parse_animations(arguments.animations);
   const std::vector<Scene> scenes = load_scenes(arguments.scenes, options.overrides);
-  // What is wrong is said before hours of work.
+  // Report input errors before hours of work.
   for (const std::string& file : arguments.scenes) check_accuracy(file, options);
   if (!animations.empty() || options.parts.films) {
     inspect_backend(options.backend);
@@ -174,7 +174,7 @@ ExitCode run_accuracy(const AccuracyArguments& arguments, const CommonOptions& c
           }
           if (stop.stop_requested()) return std::nullopt;
           study.scenes.push_back(std::move(*one));
-          // What was measured is not lost if it ends before the last scene.
+          // Save now, so that measurements survive an early end.
           study.seconds =
               begun.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
           write_file_atomically(std::filesystem::path(arguments.folder) / runs_name, runs_csv(study));

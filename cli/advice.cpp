@@ -77,12 +77,12 @@ class Advice {
            "without a text");
   }
 
-  /// A camera whose place is inside of something sees nothing else.
+  /// Warns about a camera inside an object, which hides everything else.
   void camera() {
     if (!scene_.camera.position) return;
     const Eigen::RowVector3d eye = scene_.camera.position->transpose();
     const Vertices& x = scene_.simulation.cloth.positions;
-    constexpr double close = 0.1;  // of the cloth's size
+    constexpr double close = 0.1;  // relative to the cloth's size
     const double distance = (x.rowwise() - eye).rowwise().norm().minCoeff(), size = size_of(scene_.simulation.cloth);
     const bool within =
         (eye.array() >= x.colwise().minCoeff().array()).all() && (eye.array() <= x.colwise().maxCoeff().array()).all();
@@ -115,7 +115,7 @@ class Advice {
     }
     if (is_explicit(settings.integrator.method) || settings.accuracy) return;
     const double safe = safe_step(system_);
-    if (!(safe > 0) || step <= many * safe) return;  // 0: a field of unknown steepness
+    if (!(safe > 0) || step <= many * safe) return;  // 0: a field of unknown gradient
     add("time.step",
         fmt::format("{:g} s is {:.0f} times what the springs' vibrations take, so backward Euler damps motion that is "
                     "not theirs as well; try step = {:.1g}, a smaller stiffness, or [integrator] scheme = \"sdirk2\"",
@@ -137,7 +137,7 @@ std::vector<std::string> advice_on(const Scene& scene, const TomlValue& document
 
 std::string advice_on_pace(const Scene& scene) {
   using Clock = std::chrono::steady_clock;
-  constexpr double enough = 1, long_run = 30;  // [s]
+  constexpr double enough = 1, long_run = 30;  // time for the trial, and a long run [s]
   Pace pace;
   pace.left = scene.step_count();
   Simulation simulation(scene.simulation);

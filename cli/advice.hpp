@@ -8,14 +8,14 @@
 
 namespace drape {
 
-/// What may not be meant in a scene that can be simulated, a sentence each, with its place: "flag.toml:9:1: line_color:
-/// it has no effect without mesh_lines". Keys without effect, a camera in the cloth, steps that are long for the
-/// stiffness, cloth that starts inside of something.
-/// @param document that the scene was read from
+/// Returns warnings about a valid scene, a sentence each with its place: "flag.toml:9:1: line_color: it has no effect
+/// without mesh_lines". They cover keys without effect, a camera in the cloth, steps too long for the stiffness, and
+/// cloth that starts inside an object.
+/// @param document document of the scene
 std::vector<std::string> advice_on(const Scene& scene, const TomlValue& document);
 
-/// Why a scene's run will take long, and what would be faster; empty if it will not. Simulates its first steps, for a
-/// second at most.
+/// Explains why a run will be slow and how to speed it up; empty if it is fast. It simulates the first steps for at
+/// most a second.
 std::string advice_on_pace(const Scene& scene);
 
 }  // namespace drape

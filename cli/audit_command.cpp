@@ -37,8 +37,8 @@ struct AuditArguments {
   GlBackend backend = GlBackend::automatic;
 };
 
-/// "0,19,380", or "none".
-/// @throws UsageError if it is neither, or names a vertex that there is not
+/// Parses "0,19,380" or "none".
+/// @throws UsageError for other texts, or a vertex that does not exist
 std::vector<int> parse_held(const std::string& text, const Scene& scene) {
   std::vector<int> vertices;
   if (text == "none") return vertices;
@@ -58,7 +58,7 @@ std::vector<int> parse_held(const std::string& text, const Scene& scene) {
   return vertices;
 }
 
-/// The page of each motion. @throws UsageError if two have the same one
+/// Returns the page of each motion. @throws UsageError if two motions share a page
 std::vector<std::string> pages_of(const AuditArguments& arguments, const std::vector<SceneToRun>& motions) {
   std::vector<std::string> pages;
   if (arguments.page.empty()) return std::vector<std::string>(motions.size());

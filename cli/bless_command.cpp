@@ -24,7 +24,7 @@ struct BlessArguments {
 ExitCode bless(const BlessArguments& arguments, const CommonOptions& common) {
   const std::vector<int> frames = parse_frame_list(arguments.frames);
   const std::vector<SceneToRun> scenes = open_scenes(arguments.scenes, {});
-  for (const auto& [scene, recorded] : scenes) has_golden(golden_folder(scene.file));  // or it throws, before any is
+  for (const auto& [scene, recorded] : scenes) has_golden(golden_folder(scene.file));  // check all before blessing any
   for (const SceneToRun& opened : scenes) {
     const Scene& scene = opened.scene;
     CheckSettings settings = scene.check;

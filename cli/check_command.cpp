@@ -43,7 +43,7 @@ struct CheckArguments {
 };
 
 UpdateMode parse_update(const std::string& name) {
-  static const std::vector<std::string> names{"all", "missing", "none"};  // as the enumeration
+  static const std::vector<std::string> names{"all", "missing", "none"};  // in the enumeration's order
   if (name == "changed") {
     throw UsageError(
         "--update changed no longer exists: look at the report of a check, then accept it with drape accept");
@@ -53,7 +53,7 @@ UpdateMode parse_update(const std::string& name) {
   throw UsageError(fmt::format("--update: unknown '{}'{}", name, did_you_mean(name, names, "the choices are")));
 }
 
-/// The table [check] of a scene with what the command line says.
+/// Returns the scene's [check] settings with the command line's changes.
 CheckSettings settings_of(const Scene& scene, const CheckArguments& arguments) {
   CheckSettings settings = scene.check;
   settings.motion_tolerance = arguments.motion_tolerance.value_or(settings.motion_tolerance);
@@ -63,7 +63,7 @@ CheckSettings settings_of(const Scene& scene, const CheckArguments& arguments) {
   return settings;
 }
 
-/// "--set cloth.mass=2 --set look.color=red"
+/// Returns for example "--set cloth.mass=2 --set look.color=red".
 std::string override_options(const CheckArguments& arguments) {
   std::string text;
   for (const std::string& value : arguments.overrides) {
@@ -72,7 +72,7 @@ std::string override_options(const CheckArguments& arguments) {
   return text;
 }
 
-/// The options that decide what a check finds.
+/// Returns the options that affect the results of a check.
 std::string command_options(const CheckArguments& arguments) {
   std::string text = override_options(arguments);
   if (!text.empty()) text.insert(0, " ");
@@ -91,7 +91,7 @@ std::string report_option(const CheckArguments& arguments) {
   return arguments.report == CheckArguments().report ? "" : " --report " + shell_word(arguments.report);
 }
 
-/// The options that do not: where the report goes, and what is done at once.
+/// Returns the options without effect on the results: report folder and parallelism.
 std::string run_options(const CheckArguments& arguments) {
   std::string text = report_option(arguments);
   if (arguments.threads > 0) text += fmt::format(" --threads {}", arguments.threads);
@@ -100,7 +100,7 @@ std::string run_options(const CheckArguments& arguments) {
   return text;
 }
 
-/// Judges the scenes of this place among all.
+/// Checker of scenes by index.
 class Judge {
  public:
   Judge(const std::vector<Scene>& scenes, const std::vector<std::shared_ptr<MotionReader>>& recorded,
@@ -111,7 +111,7 @@ class Judge {
         options_(options),
         names_(unique_names(scenes, {check_report_files.begin(), check_report_files.end()})) {}
 
-  /// Whatever is wrong with the scene is in its result.
+  /// Checks a scene. Its errors become part of the result.
   [[nodiscard]] SceneResult judge(std::size_t place, const std::stop_token& stop, Progress& progress) const {
     const Scene& scene = scenes_[place];
     const CheckSettings settings = settings_of(scene, arguments_);
@@ -135,19 +135,19 @@ class Judge {
     return result;
   }
 
-  /// Of the report.
+  /// Returns the folder of the report.
   [[nodiscard]] const std::filesystem::path& folder() const { return options_.artefacts; }
 
  private:
   const std::vector<Scene>& scenes_;
-  const std::vector<std::shared_ptr<MotionReader>>& recorded_;  // null where a scene is simulated
+  const std::vector<std::shared_ptr<MotionReader>>& recorded_;  // null for simulated scenes
   const CheckArguments& arguments_;
   const CheckOptions& options_;
   std::vector<std::string> names_;
 };
 
-/// Adds the results of the scenes at these places to the report, one after the other or several at once.
-/// @returns whether it was interrupted
+/// Checks the scenes at these indices, in sequence or in parallel, and adds the results to the report.
+/// @returns true if interrupted
 bool check_all(const Judge& judge, const std::vector<std::size_t>& places, std::size_t jobs,
                const CommonOptions& common, Verdicts& verdicts, CheckReport& report) {
   const auto add = [&](SceneResult result) {
@@ -181,20 +181,20 @@ bool check_all(const Judge& judge, const std::vector<std::size_t>& places, std::
   return false;
 }
 
-/// The places of the scenes of a shard, which take about as long as those of another.
+/// Returns the scene indices of a shard. Shards have about equal estimated costs.
 std::vector<std::size_t> places_of(const std::vector<Scene>& scenes, const Shard& shard) {
   std::vector<double> costs;
   for (const Scene& scene : scenes) costs.push_back(estimated_cost(scene, {}));
   return runs_of_shard(costs, shard);
 }
 
-/// Threads of each scene, so that the processor is busy and no more.
+/// Returns the number of threads per scene that keeps all cores busy.
 std::size_t threads_of(const CheckArguments& arguments) {
   if (arguments.threads > 0 || arguments.jobs == 1) return arguments.threads;
   return std::max<std::size_t>(1, std::thread::hardware_concurrency() / arguments.jobs);
 }
 
-/// @throws UsageError if the report's folder is a golden, which the report's files would damage
+/// @throws UsageError if the report would overwrite a golden folder
 void require_no_golden(const std::filesystem::path& report) {
   std::error_code ignored;
   const bool is_golden = report.filename().extension() == ".golden" ||
@@ -204,7 +204,7 @@ void require_no_golden(const std::filesystem::path& report) {
   throw UsageError(fmt::format("--report {}: this is the folder of a golden; name another one", shown(report)));
 }
 
-/// @throws UsageError if goldens are to be recorded of other values than the scene files'
+/// @throws UsageError if goldens would be recorded with values other than the scene files'
 void require_golden_values(const CheckOptions& options) {
   if (options.update != UpdateMode::all || options.overrides.empty()) return;
   throw UsageError("--update all records what the scene files say: edit them instead of giving " + options.overrides);
@@ -229,7 +229,7 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
     scenes.push_back(std::move(opened.scene));
     recorded.push_back(std::move(opened.recorded));
   }
-  for (const char* file : check_report_files) const PartialFile writable(folder / file);  // or it throws
+  for (const char* file : check_report_files) const PartialFile writable(folder / file);  // throws if not writable
 
   CheckShard part{.report = {}, .places = places_of(scenes, shard), .scenes = scenes.size(), .whole = shard.whole()};
   CheckReport& report = part.report;

@@ -26,7 +26,7 @@
 namespace drape {
 namespace {
 
-/// One line about a scene.
+/// Describes the result of a scene in one line.
 std::string describe(const SceneResult& scene) {
   const std::string file = shown(scene.file);
   if (scene.verdict != SceneVerdict::passed) {
@@ -49,7 +49,7 @@ Ink ink_of(SceneVerdict verdict) {
   return verdict == SceneVerdict::changed || verdict == SceneVerdict::error ? Ink::red : Ink::yellow;
 }
 
-/// A line for the terminal, in which the verdict has a colour.
+/// Returns a line for the terminal with the verdict in colour.
 std::string colored(const SceneResult& result, const CommonOptions& common) {
   const Terminal where = terminal(stdout, common.color);
   std::string line = wrapped(escape_controls(describe(result)), where.width, 2);
@@ -69,7 +69,7 @@ void write_reports(const CheckShard& shard, const std::filesystem::path& folder)
   if (const std::string missing = write_diagrams(shard.report, folder); !missing.empty()) spdlog::debug(missing);
 }
 
-/// Where GitHub runs this: what it shows of the job, and beside the scenes' files.
+/// Writes the job summary and annotations at the scenes' files, under GitHub Actions.
 void tell_github(const CheckReport& report, Verdicts& verdicts) {
   if (const char* file = std::getenv("GITHUB_STEP_SUMMARY"); file != nullptr && *file != '\0') {
     std::ofstream summary(file, std::ios::app);

@@ -9,30 +9,30 @@
 
 namespace drape {
 
-/// The files of a check's report, which no scene's folder beside them may be called.
+/// Files of a check's report. No scene folder beside them may have such a name.
 inline constexpr std::array<const char*, 3> check_report_files{"report.html", "report.json", "junit.xml"};
 
-/// Prints the verdicts, and remembers if one could not be printed.
+/// Printer of results that records write errors.
 class Verdicts {
  public:
-  /// @param line escaped, see escape_controls()
+  /// Prints a line. @param line escaped, see escape_controls()
   void print(const std::string& line);
 
-  /// Why not all of them could be printed; empty: they could.
+  /// Returns the first write error; empty without errors.
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
  private:
   std::string reason_;
 };
 
-/// Says what came of a scene's check.
+/// Prints the result of a scene's check.
 void tell(const SceneResult& result, const CommonOptions& common, Verdicts& verdicts);
 
-/// "drape accept out/check"
+/// Returns for example "drape accept out/check".
 std::string accept_command(const std::filesystem::path& report);
 
-/// Writes the report of a check, or of a shard of one, and the summary for GitHub where that runs it.
-/// @returns the exit code of the scene that is worst off; interrupted where scenes that should be there are not
+/// Writes the report of a check, or of one shard, and the summary for GitHub Actions.
+/// @returns the highest code of all scenes; interrupted if scenes are missing
 ExitCode conclude_check(const CheckShard& shard, const std::filesystem::path& folder, const CommonOptions& common,
                         Verdicts& verdicts);
 

@@ -25,7 +25,7 @@ void set_up_logging(const CommonOptions& common) {
   spdlog::set_level(common.quiet ? spdlog::level::err : common.verbose ? spdlog::level::debug : spdlog::level::info);
 }
 
-/// Parses one of a few names into the enumerator at its place.
+/// Adds an option that takes one of several names and sets the enumerator of the same index.
 template <class Enum>
 void add_choice(CLI::App& app, const char* option, Enum& value, const std::vector<std::string>& names,
                 const char* help) {
@@ -43,8 +43,8 @@ void add_choice(CLI::App& app, const char* option, Enum& value, const std::vecto
       ->type_name(fmt::format("{}", fmt::join(names, "|")));
 }
 
-/// Shows of an option what its value is and whether there may be several. Which arguments are required, the line of
-/// usage says, and which options exclude each other, whoever gives both is told.
+/// Formatter that shows an option's value and repetition. Required arguments appear in the usage line; exclusive
+/// options are reported on misuse.
 class HelpFormatter : public CLI::Formatter {
  public:
   HelpFormatter() { label("Positionals", "Arguments"); }
@@ -55,7 +55,7 @@ class HelpFormatter : public CLI::Formatter {
   }
 };
 
-/// What takes a key of a scene with its value is shown, and completed by shells, in one way everywhere.
+/// Names the value of --set and --vary KEY=VALUE in help and completion.
 void name_values(CLI::App& app) {
   for (CLI::Option* option : app.get_options()) {
     if (option->check_lname("set") || option->check_lname("vary")) option->type_name("KEY=VALUE");
@@ -65,7 +65,7 @@ void name_values(CLI::App& app) {
 
 constexpr const char* empty_value = "expected a value, found an empty text";
 
-/// An option that takes a value does not take an empty one for its absence. What says so itself is left to it.
+/// Rejects empty values of options, except those that check their values themselves.
 void refuse_empty_values(CLI::App& app) {
   const auto problem = [](const std::string& value) {
     return value.empty() ? std::string(empty_value) : std::string();
@@ -78,7 +78,7 @@ void refuse_empty_values(CLI::App& app) {
   for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) refuse_empty_values(*subcommand);
 }
 
-/// "--frames=" has an empty value, as where a shell's variable is unset. CLI11 would take the next argument for it.
+/// Rejects "--frames=", for example from an unset shell variable. CLI11 would take the next argument as the value.
 /// @throws CLI::ValidationError
 void refuse_nothing_after_equals(std::span<const char* const> arguments) {
   for (const std::string_view argument : arguments) {
@@ -89,12 +89,12 @@ void refuse_nothing_after_equals(std::span<const char* const> arguments) {
 }
 
 void print_help(const CLI::App& of, const std::string& name, const CommonOptions& common) {
-  // Not of.help(), which is that of the subcommand that was chosen.
+  // of.help() would show the help of the chosen subcommand
   const std::string help = of.get_formatter()->make_help(&of, name, CLI::AppFormatMode::Normal);
   print_text(stdout, wrapped_help(help, terminal(stdout, common.color).width));
 }
 
-/// The names of a command and of those that it belongs to: "drape study accuracy".
+/// Returns the full name of a command: "drape study accuracy".
 std::string full_name(const CLI::App& of) {
   return of.get_parent() == nullptr ? of.get_name() : full_name(*of.get_parent()) + " " + of.get_name();
 }
@@ -112,7 +112,7 @@ void add_help_command(CLI::App& app, const CommonOptions& common, Command& comma
   });
 }
 
-/// What drape can do, where nothing is asked of it.
+/// Prints the list of commands.
 void print_commands(const CLI::App& app) {
   std::string text = app.get_description() + "\n\nUsage: drape COMMAND ...\n\n";
   for (const CLI::App* command : app.get_subcommands(nullptr)) {
@@ -124,7 +124,7 @@ void print_commands(const CLI::App& app) {
   print_text(stdout, wrapped(text, terminal(stdout, ColorMode::never).width, descriptions_at - 2));
 }
 
-/// The code, or that of an error of writing where what was printed is lost.
+/// Returns the code, or the code of a write error if printed text was lost.
 ExitCode unless_lost(ExitCode code) {
   const int error = lost_output();
   if (error == 0) return code;
@@ -132,7 +132,7 @@ ExitCode unless_lost(ExitCode code) {
   return std::max(code, ExitCode::output);
 }
 
-/// The command whose --help was asked for: the last one that was named.
+/// Returns the command whose --help is shown: the last one named.
 const CLI::App& command_of_help(const CLI::App& app) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
   return chosen.empty() ? app : command_of_help(*chosen.front());
@@ -227,7 +227,7 @@ ExitCode run_command_line(int argc, const char* const* argv) {
   }
 
   set_up_logging(common);
-  const bool diagnosed = app.got_subcommand("doctor");  // what is wrong with the environment is a finding of its own
+  const bool diagnosed = app.got_subcommand("doctor");  // doctor reports environment errors as findings
   return unless_lost(reported([&] {
     if (!diagnosed) use_environment();
     return command();

@@ -9,63 +9,63 @@
 
 namespace drape {
 
-/// What every subcommand shares.
+/// Options shared by all subcommands.
 struct CommonOptions {
   bool quiet = false;
   bool verbose = false;
   ColorMode color = ColorMode::automatic;
 };
 
-/// The work of a subcommand, done once the whole command line is read.
+/// The work of a subcommand, executed after parsing of the whole command line.
 using Command = std::function<ExitCode()>;
 
-/// Adds the subcommands that run scenes, render and simulate. The one that is chosen sets `command`.
+/// Adds the run commands render and simulate. The chosen one sets `command`.
 void add_run_commands(CLI::App& app, const CommonOptions& common, Command& command);
 
-/// Add new, which writes a scene to begin with, and lint, which says what may not be meant in scenes.
+/// Adds new, which writes a first scene, and lint, which warns about probable mistakes in scenes.
 void add_new_command(CLI::App& app, const CommonOptions& common, Command& command);
 void add_lint_command(CLI::App& app, const CommonOptions& common, Command& command);
 
-/// Adds watch, which shows a scene's film in a browser while the scene is edited.
+/// Adds watch, which shows a scene's film in a browser and updates it during edits.
 void add_watch_command(CLI::App& app, const CommonOptions& common, Command& command);
 
 /// Adds compare, which draws motions side by side.
 void add_compare_command(CLI::App& app, const CommonOptions& common, Command& command);
 
-/// Add check, accept and bless likewise.
+/// Adds check, accept and bless.
 void add_check_command(CLI::App& app, const CommonOptions& common, Command& command);
 void add_accept_command(CLI::App& app, const CommonOptions& common, Command& command);
 void add_bless_command(CLI::App& app, const CommonOptions& common, Command& command);
 
-/// Adds import, which makes motion files of other programs' motions.
+/// Adds import, which converts motions of other programs to motion files.
 void add_import_command(CLI::App& app, const CommonOptions& common, Command& command);
 
 /// Adds audit, which checks the states of motions exactly.
 void add_audit_command(CLI::App& app, const CommonOptions& common, Command& command);
 
-/// Adds sweep, which runs scenes with many values, and merge, which puts together what several machines have done.
+/// Adds sweep, which runs scenes with many values, and merge, which combines results of several machines.
 void add_sweep_command(CLI::App& app, const CommonOptions& common, Command& command);
 void add_merge_command(CLI::App& app, const CommonOptions& common, Command& command);
 
-/// Adds study, whose subcommands are the studies.
+/// Adds study with its subcommands.
 void add_study_command(CLI::App& app, const CommonOptions& common, Command& command);
 
-/// Adds validate, which judges answers to problems whose answers are known.
+/// Adds validate, which evaluates results for problems with known solutions.
 void add_validate_command(CLI::App& app, const CommonOptions& common, Command& command);
 
 /// Adds schema, which prints a JSON schema of scenes.
 void add_schema_command(CLI::App& app, Command& command);
 
-/// Adds doctor, which says what drape finds on this machine.
+/// Adds doctor, which reports the environment of drape on this machine.
 void add_doctor_command(CLI::App& app, Command& command);
 
-/// Adds manual, which is not in the help: it writes the manual's pages and the shells' completions of `app`.
+/// Adds the hidden command manual, which writes manual pages and shell completions of `app`.
 void add_manual_command(CLI::App& app, Command& command);
 
-/// Adds --backend, which every subcommand that draws has.
+/// Adds --backend, shared by all subcommands that draw.
 void add_backend_option(CLI::App& subcommand, GlBackend& backend);
 
-/// Does work and returns its exit code; an error that it throws goes to standard error, and its code is returned.
+/// Does work and returns its exit code. Errors go to standard error and determine the exit code.
 ExitCode reported(const std::function<ExitCode()>& work);
 
 /// Reads the command line, runs the chosen subcommand and returns the exit code; errors go to standard error.

@@ -37,15 +37,15 @@ struct CompareArguments {
   CompareOptions options;
 };
 
-/// How many values the last of them has; 0 if a picture would be too wide for them.
+/// Returns the number of values of the last key; 0 if too many for one row.
 int last_of(const std::vector<std::string>& varied) {
   constexpr std::size_t widest = 6;
   const std::size_t count = parse_variation(varied.back()).values.size();
   return count > widest ? 0 : static_cast<int>(count);
 }
 
-/// The scenes, each in all its variations.
-/// @returns them, and of each the motion where that is in a file
+/// Loads the scenes in all variations.
+/// @returns the scenes, and the motion of each if it is in a file
 std::pair<std::vector<Scene>, std::vector<std::shared_ptr<MotionReader>>> load_variations(
     const CompareArguments& arguments) {
   std::vector<Scene> scenes;
@@ -98,7 +98,7 @@ std::string command_line(const CompareArguments& arguments) {
   return text;
 }
 
-/// Sets how far apart the frames are and which of them are drawn. The clock is the first scene's.
+/// Sets the frame interval and the frames to draw. The first scene defines the time.
 void choose_moments(const CompareArguments& arguments, std::vector<Scene>& scenes, CompareOptions& options) {
   Scene& first = scenes.front();
   if (!arguments.every.empty()) {
@@ -140,7 +140,7 @@ ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& com
     options.columns = grid.columns;
     options.rows = grid.rows;
   } else if (arguments.varied.size() > 1) {
-    options.columns = last_of(arguments.varied);  // so that a row is what only the last key tells apart
+    options.columns = last_of(arguments.varied);  // only the last key varies within a row
   }
   if (options.outputs.empty()) options.outputs = {arguments.sheet.empty() ? "out/compare.gif" : "out/compare.png"};
   options.sheet = parse_sheet(arguments.sheet, options.outputs);

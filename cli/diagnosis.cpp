@@ -29,7 +29,7 @@
 namespace drape {
 namespace {
 
-/// Runs the work and returns what went wrong, or nothing.
+/// Runs the work and returns its error, if any.
 template <class Work>
 std::string problem_of(Work work) {
   try {
@@ -61,7 +61,7 @@ void find_kernels(Diagnosis& diagnosis) {
   });
 }
 
-/// The library that CHOLMOD's calls of the BLAS end in.
+/// Finds the library that implements CHOLMOD's BLAS calls.
 Finding find_blas() {
   Finding found{.name = "BLAS", .detail = {}, .problem = {}, .packages = "libopenblas0-serial"};
   Dl_info info{};
@@ -92,7 +92,7 @@ BackendFinding find_backend(GlBackend backend) {
   return found;
 }
 
-/// Draws a square that fills the picture's middle, and looks at the middle and a corner.
+/// Draws a square in the middle of the picture and checks the middle and a corner.
 void draw_a_square() {
   use_environment_data();
   const Mesh mesh = make_grid(1, 1);
@@ -124,7 +124,7 @@ Finding find_drawing(const std::vector<BackendFinding>& backends) {
   return drawing;
 }
 
-/// A folder for temporary files, removed with the object.
+/// A temporary folder, removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_(std::filesystem::temp_directory_path() / fmt::format("drape-doctor-{}", getpid())) {}
@@ -146,16 +146,16 @@ Finding find_output(const TemporaryFolder& folder, const OutputFormat& format) {
   return found;
 }
 
-/// The font of a PDF file's first text; empty if it has none.
+/// Returns the font of a PDF file's first text; empty if it has none.
 std::string first_font(const std::string& pdf) {
   const std::string key = "/BaseFont /";
   const std::size_t at = pdf.find(key);
   if (at == std::string::npos) return {};
   const std::string name = pdf.substr(at + key.size(), pdf.find_first_of(" \n/>", at + key.size()) - at - key.size());
-  return name.substr(name.find('+') + 1);  // of a subset, which has six letters before it
+  return name.substr(name.find('+') + 1);  // skip the subset prefix of six letters
 }
 
-/// The fonts of captions: for Latin and Greek, and for Chinese.
+/// Checks the fonts of captions: for Latin and Greek, and for Chinese.
 Finding find_text() {
   Finding text{.name = "text", .detail = {}, .problem = {}, .packages = Fonts::packages()};
   text.problem = problem_of([&] {
@@ -166,7 +166,7 @@ Finding find_text() {
   return text;
 }
 
-/// What draws the PDF and PNG files of a study's diagrams, and the font of their text.
+/// Checks the PDF and PNG export of diagrams and the font of their text.
 std::vector<Finding> find_diagrams() {
   Finding files{.name = "diagrams", .detail = {}, .problem = {}, .packages = SvgPrinter::packages()};
   Finding fonts{.name = "fonts", .detail = {}, .problem = {}, .packages = "fonts-dejavu-core"};
@@ -209,7 +209,7 @@ Diagnosis diagnose() {
   diagnosis.cholmod = fmt::format("{}.{}.{}", version[0], version[1], version[2]);
 
   for (const GlBackend backend : {GlBackend::osmesa, GlBackend::egl}) {
-    if (backend == GlBackend::egl && !portable_root().empty()) continue;  // not part of it
+    if (backend == GlBackend::egl && !portable_root().empty()) continue;  // not in the portable archive
     diagnosis.backends.push_back(find_backend(backend));
   }
   diagnosis.drawing = find_drawing(diagnosis.backends);

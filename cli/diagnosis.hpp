@@ -12,45 +12,45 @@
 
 namespace drape {
 
-/// Something that drape uses and may or may not find.
+/// A component that drape uses, with the result of its check.
 struct Finding {
   std::string name;      ///< "egl", ".mp4", "fonts"
-  std::string detail;    ///< what was found: "H.264", "DejaVuSans"
+  std::string detail;    ///< result: "H.264", "DejaVuSans"
   std::string problem;   ///< empty if it works
-  std::string packages;  ///< of Debian, separated by spaces: what to install if it does not
+  std::string packages;  ///< Debian packages that provide it, separated by spaces
 
   [[nodiscard]] bool works() const { return problem.empty(); }
 };
 
-/// An OpenGL backend, with what it says of itself if it works.
+/// An OpenGL backend and its properties if it works.
 struct BackendFinding : Finding {
   GlFacts facts;
 };
 
-/// What drape finds on this machine.
+/// The environment of drape on this machine.
 struct Diagnosis {
   BuildInfo build;
   MachineFacts machine;
-  std::vector<std::pair<std::string, std::string>> environment;  ///< variables that change what drape does, if set
+  std::vector<std::pair<std::string, std::string>> environment;  ///< environment variables that affect drape, if set
 
-  std::vector<std::string> kernels;           ///< instruction sets that drape has code for
-  std::vector<std::string> runnable_kernels;  ///< those that this processor runs
-  Finding chosen_kernels;                     ///< detail: the one that drape picked
+  std::vector<std::string> kernels;           ///< instruction sets with code in drape
+  std::vector<std::string> runnable_kernels;  ///< those supported by this processor
+  Finding chosen_kernels;                     ///< detail: the selected one
   Finding blas;                               ///< detail: the file, and its own description
   std::string cholmod;                        ///< version
 
   std::vector<BackendFinding> backends;
-  Finding drawing;  ///< detail: the backend that --backend auto picks; works if a picture came out as it should
-  Finding codecs;   ///< detail: the module that encodes and decodes
-  std::vector<Finding> outputs;   ///< the formats of films
-  std::vector<Finding> optional;  ///< what only some commands use
+  Finding drawing;                ///< detail: the backend selected by --backend auto; works if a test picture is right
+  Finding codecs;                 ///< detail: the encoding and decoding module
+  std::vector<Finding> outputs;   ///< film formats
+  std::vector<Finding> optional;  ///< components of some commands only
 
-  /// What to install for everything to work, each package once; empty if all does.
+  /// Returns the packages to install, each once; empty if everything works.
   [[nodiscard]] std::vector<std::string> missing_packages() const;
 };
 
-/// Looks. Loads the OpenGL libraries, draws a small picture, and writes two frames in every format in a folder for
-/// temporary files.
+/// Checks this machine: loads the OpenGL libraries, draws a small picture, and writes two frames in every format to a
+/// temporary folder.
 Diagnosis diagnose();
 
 }  // namespace drape

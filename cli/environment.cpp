@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-/// Hands a variable that is set, and not to nothing, to `use`.
+/// Calls `use` with the value of a non-empty environment variable.
 template <class Use>
 void with_variable(const char* name, const Use& use) {
   const char* value = std::getenv(name);

@@ -2,17 +2,17 @@
 
 namespace drape {
 
-// What drape's own environment variables ask for. Nothing but this reads them.
+// Effects of drape's own environment variables, which are read only here.
 
-/// DRAPE_ISA: the instruction set that the hot loops use at most.
-/// @throws UsageError if it names none
+/// Applies DRAPE_ISA: the highest instruction set for the hot loops.
+/// @throws UsageError for an unknown name
 void use_environment_isa();
 
-/// DRAPE_DATA: the data folder.
+/// Applies DRAPE_DATA: the data folder.
 /// @throws UsageError if there is no such folder
 void use_environment_data();
 
-/// All of it.
+/// Applies all variables.
 inline void use_environment() {
   use_environment_isa();
   use_environment_data();

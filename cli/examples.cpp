@@ -10,7 +10,7 @@ namespace {
 
 struct Examples {
   std::string_view command;  ///< "study accuracy"; empty: drape itself
-  std::string_view lines;    ///< what stands after "drape", with a line feed after each
+  std::string_view lines;    ///< text after "drape", one line per example
 };
 
 constexpr std::array<Examples, 24> all_examples{{
@@ -94,7 +94,7 @@ constexpr std::array<Examples, 24> all_examples{{
      "help study accuracy\n"},
 }};
 
-/// The subcommand of this name, such as "study accuracy", or null.
+/// Returns the subcommand of this name, such as "study accuracy", or null.
 CLI::App* find_subcommand(CLI::App& app, std::string_view name) {
   if (name.empty()) return &app;
   const std::size_t end = std::min(name.find(' '), name.size());

@@ -4,7 +4,7 @@
 
 namespace drape {
 
-/// Puts examples at the end of the help of every command.
+/// Adds examples to the help of every command.
 void add_examples(CLI::App& app);
 
 }  // namespace drape

@@ -8,12 +8,12 @@
 
 namespace drape {
 
-/// What the drape process returns to its caller. Of several, the largest.
+/// Exit code of the process. The highest code of several results counts.
 enum class ExitCode : int {
   ok = 0,
-  differs = 1,       ///< images or motion differ from the golden ones, or an audit has found something
-  usage = 2,         ///< the command line, the scene or a file it names is wrong
-  diverged = 3,      ///< the simulation left the range of finite numbers
+  differs = 1,       ///< images or motion differ from the golden ones, or an audit has found errors
+  usage = 2,         ///< error in the command line, the scene or a file it names
+  diverged = 3,      ///< the simulation became non-finite
   output = 4,        ///< drawing, encoding or writing failed
   interrupted = 130  ///< Ctrl-C or SIGTERM
 };
@@ -30,7 +30,7 @@ inline ExitCode exit_code(ErrorKind kind) {
   return ExitCode::usage;
 }
 
-/// Of the scene that is worst off, where an error is worse than a change.
+/// Returns the highest exit code of all scenes; an error is higher than a difference.
 inline ExitCode exit_code(const CheckReport& report) {
   ExitCode worst = ExitCode::ok;
   for (const SceneResult& scene : report.scenes) {
@@ -40,7 +40,7 @@ inline ExitCode exit_code(const CheckReport& report) {
   return worst;
 }
 
-/// That a run would have had alone.
+/// Returns the exit code of one run.
 inline ExitCode exit_code(const RunRecord& record) {
   switch (record.outcome) {
     case RunOutcome::completed:
@@ -57,7 +57,7 @@ inline ExitCode exit_code(const RunRecord& record) {
   return ExitCode::interrupted;
 }
 
-/// Exit code of the worst run. A run that was not run counts as interrupted, or as usage if its record is damaged.
+/// Returns the exit code of the worst run. A missing run counts as interrupted, a damaged record as usage.
 inline ExitCode exit_code(const SweepResults& results) {
   ExitCode worst = ExitCode::ok;
   for (const SweepRow& row : results.rows) worst = std::max(worst, exit_code(row.record));

@@ -13,7 +13,7 @@
 namespace drape {
 namespace {
 
-constexpr double rounding = 1e-9;  // of decimal fractions, in frames or steps
+constexpr double rounding = 1e-9;  // tolerance for decimal fractions, in frames or steps
 
 }  // namespace
 

@@ -7,12 +7,12 @@
 
 namespace drape {
 
-/// "0,40,80" as numbers, ascending; nothing if it is empty.
-/// @throws UsageError if it is anything else
+/// Parses "0,40,80" to ascending numbers; nothing for an empty text.
+/// @throws UsageError for other texts
 std::vector<int> parse_frame_list(const std::string& text);
 
-/// "A..B" as a range of frames.
-/// @throws UsageError if it is anything else
+/// Parses a range of frames "A..B".
+/// @throws UsageError for other texts
 FrameRange parse_frames(const std::string& text);
 
 }  // namespace drape

@@ -12,17 +12,17 @@
 namespace drape {
 namespace {
 
-std::array<int, 2> signals{-1, -1};  // a pipe: what a handler writes wakes whoever reads
+std::array<int, 2> signals{-1, -1};  // pipe from the signal handler to listen()
 
 void handle(int) {
   const int before = errno;
   const char byte = 0;
-  [[maybe_unused]] const ssize_t written = write(signals[1], &byte, 1);  // a full pipe has woken the reader already
+  [[maybe_unused]] const ssize_t written = write(signals[1], &byte, 1);  // a full pipe has already woken the reader
   errno = before;
 }
 
-/// Waits for the first signal, and passes it on. Where the pipe has come to an end nothing can be passed on any more:
-/// the first signal is lost then, and the second one ends the process as it always does.
+/// Waits for the first signal and requests a stop. If the pipe fails, the first signal is lost; the second one ends the
+/// process by default.
 void listen(std::stop_source source) {
   char byte = 0;
   ssize_t count = 0;
@@ -37,7 +37,7 @@ std::stop_source install() {
   if (pipe2(signals.data(), O_CLOEXEC | O_NONBLOCK) != 0 || fcntl(signals[0], F_SETFL, 0) != 0) {
     throw std::system_error(errno, std::generic_category(), "cannot listen for signals");
   }
-  std::thread(listen, source).detach();  // as long as there is a process
+  std::thread(listen, source).detach();  // runs until the process ends
   struct sigaction action {};
   action.sa_handler = handle;
   action.sa_flags = static_cast<int>(SA_RESETHAND);

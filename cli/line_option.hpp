@@ -4,7 +4,7 @@
 
 namespace drape {
 
-/// Takes a text without line feeds and other control characters: a name that drape writes into scripts and messages.
+/// Accepts a text without line feeds and other control characters: a name for scripts and messages.
 CLI::Validator on_one_line();
 
 }  // namespace drape

@@ -16,14 +16,14 @@
 namespace drape {
 namespace {
 
-/// How many lines there are of each kind.
+/// Number of lines of each kind.
 struct Count {
   int errors = 0, hints = 0;
 };
 
 std::string counted(int count, const char* what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
 
-/// Prints what there is to say of a scene.
+/// Prints errors and hints about a scene.
 void lint(const std::string& file, const std::vector<std::string>& overrides, const Terminal& where, Count& count) {
   const auto hint = [&](const std::string& text) {
     ++count.hints;

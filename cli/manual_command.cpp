@@ -28,7 +28,7 @@ ExitCode write_manual(const CLI::App& app, const std::filesystem::path& share) {
 void add_manual_command(CLI::App& app, Command& command) {
   auto folder = std::make_shared<std::string>();
   CLI::App* sub = app.add_subcommand("manual", "Write the manual's pages and the shells' completions into a folder");
-  sub->group("");  // what installs drape asks for it
+  sub->group("");  // hidden: used by installation
   sub->add_option("FOLDER", *folder, "Laid out as /usr/share")->required();
   sub->callback([folder, &app, &command] { command = [folder, &app] { return write_manual(app, *folder); }; });
 }

@@ -30,7 +30,7 @@ struct MergeArguments {
   std::string output;
 };
 
-/// Copies folders and what links lead to; leaves out what is neither file nor folder.
+/// Copies files and folders recursively; follows links, skips special files.
 void copy_files(const fs::path& from, const fs::path& to, std::error_code& error) {
   fs::create_directories(to, error);
   for (const auto& entry : fs::directory_iterator(from, error)) {
@@ -44,25 +44,25 @@ void copy_files(const fs::path& from, const fs::path& to, std::error_code& error
   }
 }
 
-/// Brings what a shard has found of a scene, its pictures and what can be accepted, into the folder of the whole.
+/// Copies a shard's results of a scene, pictures and candidates, into the merged folder.
 void take_over(const fs::path& part, const fs::path& folder, const std::string& name) {
   std::error_code error;
   if (fs::equivalent(part, folder, error)) return;
   fs::create_directories(folder, error);
-  remove_candidate(folder, name);  // of an older check
+  remove_candidate(folder, name);  // left from an older check
   if (!fs::exists(part / name, error)) return;
   copy_files(part / name, folder / name, error);
   if (error) throw OutputError(fmt::format("cannot write {}: {}", shown(folder / name), error.message()));
 }
 
-/// Whether a person has asked for an end. What is merged so far is complete, and merging again goes on.
+/// Returns true if a stop was requested. Merging can be repeated: merged results are complete.
 bool interrupted() {
   if (!interruption().stop_requested()) return false;
   spdlog::error("interrupted: the same command completes it");
   return true;
 }
 
-/// @throws UsageError if it is damaged, or names something that is not in its folder
+/// @throws UsageError if it is damaged, or names a missing file
 CheckShard read_shard(const fs::path& part) {
   constexpr std::size_t most_bytes = std::size_t{1} << 32;
   const fs::path file = part / check_mark;
@@ -77,7 +77,7 @@ CheckShard read_shard(const fs::path& part) {
 
 ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder, const CommonOptions& common) {
   std::vector<CheckShard> shards;
-  std::vector<std::pair<fs::path, std::string>> found;  // the parts, and the scenes in them
+  std::vector<std::pair<fs::path, std::string>> found;  // parts and their scenes
   for (const fs::path& part : parts) {
     shards.push_back(read_shard(part));
     for (const SceneResult& result : shards.back().report.scenes) found.emplace_back(part, result.name);
@@ -99,7 +99,7 @@ ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder
   return conclude_check(whole, folder, common, verdicts);
 }
 
-/// What the shards in a folder are of.
+/// Returns the kind of shards in a folder, by its marker file.
 /// @throws UsageError if there are none
 const char* mark_in(const fs::path& folder) {
   for (const char* mark : {check_mark, stability_runs_name, validation_shard_name, sweep_mark}) {
@@ -110,7 +110,7 @@ const char* mark_in(const fs::path& folder) {
 }
 
 ExitCode merge(const MergeArguments& arguments, const CommonOptions& common) {
-  interruption();  // from here on, a signal ends it between two files
+  interruption();  // from here on, a signal stops between two files
   for (const std::string& folder : arguments.folders) require_links_inside(folder);
   const char* mark = mark_in(arguments.folders.front());
   std::vector<fs::path> parts;

@@ -25,7 +25,7 @@
 namespace drape {
 namespace {
 
-/// A motion with the folder that its scene is in.
+/// A motion and its unpacked scene.
 struct OpenMotion {
   MotionReader reader;
   MotionScene folder;
@@ -42,7 +42,7 @@ struct GrowingMotion {
       : from(read_resumption(file)), folder(*from.partial), scene(folder.scene()) {}
 };
 
-/// A quality also says how exactly steps are solved. Those of a recorded motion are solved already.
+/// Keeps the solver's tolerance: a quality would change it, but the steps of a recorded motion are already solved.
 void keep_solver(const Scene& scene, Scene& other) {
   if (other.quality == scene.quality) return;
   for (SceneValue& value : other.tables) {
@@ -52,7 +52,7 @@ void keep_solver(const Scene& scene, Scene& other) {
   }
 }
 
-/// The scene of an imported motion with the camera, look and film of another one, whose cloth may be any.
+/// Returns an imported motion's scene with the camera, look and film of another scene, which may have any cloth.
 Scene with_look(Scene scene, const Scene& other) {
   scene.camera = other.camera;
   scene.look = other.look;
@@ -65,7 +65,7 @@ Scene with_look(Scene scene, const Scene& other) {
   return scene;
 }
 
-/// The scene that says how a motion is drawn: its own, unless it is told otherwise.
+/// Returns the scene for drawing a motion: its own, or a replacement.
 Scene scene_to_draw(const std::string& file, const MotionHeader& header, const MotionScene& folder,
                     const std::vector<std::string>& overrides, const std::string& look) {
   Scene scene = folder.scene();
@@ -77,7 +77,7 @@ Scene scene_to_draw(const std::string& file, const MotionHeader& header, const M
     require_same_physics(file, scene, other, look.empty() ? "--set" : look);
     scene = std::move(other);
   }
-  if (header.imported) scene.fields.clear();  // which are not what moves it
+  if (header.imported) scene.fields.clear();  // they do not describe an imported motion
   scene.file = file;
   scene.name = scene.file.stem().string();
   scene.digest = no_scene_digest;
@@ -100,14 +100,14 @@ SceneToRun open_motion(const std::string& file, const std::vector<std::string>& 
 
 namespace {
 
-/// A motion file in a folder of its own for as long as it is read.
+/// A temporary motion file, kept while it is read.
 struct ImportedFile {
   TemporaryFolder folder{"drape-import"};
   SceneToRun opened = {};
 };
 
-/// Imports a motion into a motion file.
-/// @param name of that
+/// Imports a motion into a temporary motion file.
+/// @param name name of that file
 std::shared_ptr<ImportedFile> import_for_now(const ImportOptions& options, const std::string& name,
                                              const std::vector<std::string>& overrides, const std::string& look) {
   const auto imported = std::make_shared<ImportedFile>();
@@ -126,7 +126,7 @@ SceneToRun with_scene(const std::shared_ptr<ImportedFile>& imported, Scene scene
   return {std::move(scene), std::shared_ptr<MotionReader>(imported, imported->opened.recorded.get())};
 }
 
-/// A motion in another program's format.
+/// Opens a motion in another program's format.
 SceneToRun open_import(const std::string& file, const std::vector<std::string>& overrides, const std::string& look) {
   std::string name = std::filesystem::path(file).stem().string();
   std::erase_if(name, [](char c) { return c == '{' || c == '}' || c == ':'; });
@@ -137,7 +137,7 @@ SceneToRun open_import(const std::string& file, const std::vector<std::string>& 
   return with_scene(imported, std::move(scene));
 }
 
-/// A scene that names a motion.
+/// Opens a scene that refers to a motion.
 SceneToRun open_scene_of_motion(const std::string& file, const SceneOfMotion& of_motion) {
   const NamedMotion& named = of_motion.named;
   const Scene& look = of_motion.look;

@@ -7,61 +7,61 @@
 
 namespace drape {
 
-/// Whether a file is a motion, by its extension.
+/// Returns true for a motion file, by its extension.
 bool is_motion_file(const std::string& file);
 
-/// What is to be run: a scene, and its motion where that is in a file.
+/// A scene to run, with its motion if recorded.
 struct SceneToRun {
   Scene scene;
-  std::shared_ptr<MotionReader> recorded;  ///< keeps the scene's files, too
+  std::shared_ptr<MotionReader> recorded;  ///< also keeps the scene's files
 };
 
-/// A motion to draw.
-/// @param overrides of its scene, or of the other one
-/// @param look      another scene whose camera, look and film are taken; empty: its own
-/// @throws UsageError if the motion is damaged, or the scene would move otherwise
+/// Opens a motion for drawing.
+/// @param overrides overrides of its scene, or of `look`
+/// @param look      another scene that provides camera, look and film; empty: its own
+/// @throws UsageError if the motion is damaged, or the physics of the scene differs
 SceneToRun open_motion(const std::string& file, const std::vector<std::string>& overrides, const std::string& look);
 
-/// A scene to simulate, or a motion to draw: by the file's extension, or because the scene names a motion.
-/// @param overrides, look as of open_motion()
-/// @throws UsageError also if it is a motion that is not complete
+/// Opens a scene to simulate or a motion to draw, by the file's extension or a motion that the scene names.
+/// @param overrides, look as in open_motion()
+/// @throws UsageError also for an incomplete motion
 SceneToRun open_scene(const std::string& file, const std::vector<std::string>& overrides, const std::string& look = {});
 
-/// Each of the files as open_scene() has it.
-/// @throws UsageError with the problems of all of them
+/// Opens all files as open_scene() does.
+/// @throws UsageError with all problems
 std::vector<SceneToRun> open_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides);
 
-/// Says where a film shows what its motion's file does not hold.
+/// Warns about film frames between stored states of the motion.
 void warn_of_gaps(const std::string& file, const MotionReader& motion, const FilmExtent& extent);
 
-/// A motion's name, of that or of the file that grows.
-/// @throws UsageError if it is neither
+/// Returns the name of a motion from its own name or that of its growing file.
+/// @throws UsageError for other names
 std::string motion_to_resume(std::string file);
 
-/// Where a run that ended early goes on.
+/// A run to resume.
 struct RunToGoOn {
   std::shared_ptr<const Scene> scene;
   RunOptions options;
-  Scene drawn;  ///< how the motion is drawn when it is complete
+  Scene drawn;  ///< scene for drawing the complete motion
 };
 
-/// @param file the motion's
-/// @param overrides, look as of open_motion(), for what is drawn of it
-/// @returns nothing if it is complete
-/// @throws UsageError if there is nothing to go on from
+/// @param file the motion to resume
+/// @param overrides, look as in open_motion(), for drawing
+/// @returns nothing if the motion is complete
+/// @throws UsageError if it cannot be resumed
 std::optional<RunToGoOn> find_run_to_go_on(const std::string& file, const std::vector<std::string>& overrides,
                                            const std::string& look);
 
-/// "N", "0.1s", or "frames": nothing.
-/// @param step of the scene [s]
-/// @throws UsageError if it is none of them
+/// Parses "N", "0.1s", or "frames" (no interval).
+/// @param step step of the scene [s]
+/// @throws UsageError for other texts
 RecordedSteps parse_every(const std::string& text, double step);
 
-/// @throws UsageError if a motion of so many steps has fewer than asked for
+/// @throws UsageError if more steps are requested than the motion has
 void require_steps(const std::string& file, std::int64_t last_step, const std::optional<std::int64_t>& steps);
 
-/// Sets what a run of a recorded motion has of it.
-/// @throws UsageError as require_steps(), or if what only a simulation has is asked for
+/// Restricts the options of a run to a recorded motion.
+/// @throws UsageError as require_steps(), or for options that need a simulation
 void limit_to_motion(const std::string& file, std::int64_t last_step, RunOptions& options);
 
 }  // namespace drape

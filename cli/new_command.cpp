@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> scene_kinds{"flag", "tablecloth", "curtain", "hanging", "garment"};
 
-/// The text of a scene to begin with, whose first line tells editors where the schema is.
+/// Returns the text of a first scene; its first line refers editors to the schema.
 std::string first_scene(const std::string& kind) {
   constexpr std::size_t most_bytes = 1 << 16;
   const fs::path scenes = data_folder() / "scenes";

@@ -4,8 +4,7 @@
 
 namespace drape {
 
-/// Shows a file or an address in the program that the desktop has for it, with xdg-open, and does not wait for it.
-/// Where there is none, it says so.
+/// Opens a file or an address in its desktop application with xdg-open, without waiting. Warns if there is none.
 void open_file(const std::string& what);
 
 }  // namespace drape

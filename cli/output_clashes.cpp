@@ -18,8 +18,8 @@ namespace {
 /// An option that writes files.
 struct Writer {
   std::size_t scene;
-  std::string option;              ///< "-o x.png", as it was given
-  std::vector<std::string> files;  ///< that it writes
+  std::string option;              ///< as given: "-o x.png"
+  std::vector<std::string> files;  ///< files to be written
 };
 
 std::vector<Writer> writers(std::size_t number, const Scene& scene, const RunOptions& options) {
@@ -51,7 +51,7 @@ class Clashes {
     }
   }
 
-  /// @returns what is wrong with the first of the writer's files that is not its own; empty if all are
+  /// Adds a writer. @returns the first clash of its files; empty if there is none
   std::string add(const Writer& writer) {
     std::string problem;
     for (const std::string& file : writer.files) {

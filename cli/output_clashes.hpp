@@ -6,8 +6,8 @@
 
 namespace drape {
 
-/// Refuses what would write one file twice, or over a file that is read: by the file, not by how its name is written.
-/// @param options of each of the scenes
+/// Checks that no file is written twice, and that no input is overwritten. Files are compared by identity, not by name.
+/// @param options of each scene
 /// @throws UsageError that lists all such files
 void require_files_of_their_own(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options);
 

@@ -1,5 +1,5 @@
-// bin/drape of the portable archive. Starts libexec/drape with the archive's own loader and libraries, so that neither
-// the system's libc nor anything else that is installed there takes part.
+// bin/drape of the portable archive: starts libexec/drape with the archive's own loader and libraries, independent of
+// the libc and other libraries of the system.
 #include <unistd.h>
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace {
 
-constexpr int cannot_start = 2;  // as for any other wrong use
+constexpr int cannot_start = 2;  // same code as for other usage errors
 
 int fail(const std::string& message) {
   std::fprintf(stderr, "drape: %s\n", message.c_str());
@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   const ssize_t length = readlink("/proc/self/exe", self.data(), self.size());
   if (length <= 0 || length == PATH_MAX) return fail("cannot find its own folder: /proc is not mounted");
   std::string root(self.data(), static_cast<std::size_t>(length));
-  for (int above = 0; above < 2; ++above) root.erase(root.rfind('/'));  // bin/drape
+  for (int above = 0; above < 2; ++above) root.erase(root.rfind('/'));  // remove /bin/drape
   if (root.find_first_of(":;$") != std::string::npos) {
     return fail("cannot run in a folder whose path contains ':', ';' or '$': " + root);
   }

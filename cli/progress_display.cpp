@@ -14,8 +14,8 @@ namespace drape {
 namespace {
 
 constexpr int bar_width = 24;
-constexpr std::chrono::seconds line_interval{5};  // at first
-constexpr int lines_in_all = 10;                  // that the time so far may have had
+constexpr std::chrono::seconds line_interval{5};  // initial interval
+constexpr int lines_in_all = 10;                  // later: elapsed time divided by this number
 
 std::string minutes(double seconds) {
   const auto whole = std::lround(std::min(seconds, 359999.0));
@@ -57,7 +57,7 @@ void ProgressDisplay::update() {
   const std::size_t width = terminal(stderr, ColorMode::never).width;
   const auto filled = static_cast<std::size_t>(bar_width * done / total);
   std::string line = fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(bar_width - filled, ' '), text);
-  if (line.size() >= width) line.resize(width - 1);  // one that is continued below would stay there
+  if (line.size() >= width) line.resize(width - 1);  // a wrapped line could not be erased
   show_passing_line(line);
 }
 

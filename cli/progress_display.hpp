@@ -6,21 +6,20 @@
 
 namespace drape {
 
-/// Shows on standard error how far a run is: a bar on a terminal, elsewhere a plain line now and
-/// then, which comes less often the longer a run takes.
+/// Progress display of a run on standard error: a bar on a terminal, elsewhere plain lines at growing intervals.
 class ProgressDisplay {
  public:
   enum class Style { none, bar, lines };
 
-  /// The style that fits standard error.
+  /// Returns the style that fits standard error.
   static Style fitting_style(bool quiet);
 
   ProgressDisplay(const Progress& progress, Style style) : progress_(progress), style_(style) {}
   ~ProgressDisplay() { clear(); }
 
-  /// Shows the progress as it is now; to be called often.
+  /// Shows the current progress; call it often.
   void update();
-  /// Removes the bar, so that other text can be printed.
+  /// Removes the bar before other text is printed.
   void clear();
 
  private:

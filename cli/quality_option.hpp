@@ -6,8 +6,8 @@
 
 namespace drape {
 
-/// Adds --quality, which is short for --set look.quality=….
-/// @param overrides to which it adds its value; must outlive the command
+/// Adds --quality, a short form of --set look.quality=….
+/// @param overrides receives the value; must outlive the command
 void add_quality_option(CLI::App& command, std::vector<std::string>& overrides);
 
 }  // namespace drape

@@ -22,14 +22,14 @@ constexpr const char* threads_help =
     "Threads that share a step where the cloth has 8192 vertices or more, with the same bits for any number: 1 to 256, "
     "or auto, one for each processor that drawing leaves, and fewer while other programs need them";
 
-/// @returns 0 for as many as gain something
+/// @returns 0 for auto: as many as are useful
 int parse_threads(const std::string& text) {
   if (text == "auto") return 0;
   if (whole_number_in({1, 256})(text).empty()) return std::stoi(text);
   throw UsageError(fmt::format("--threads: expected auto or a whole number from 1 to 256, found '{}'", text));
 }
 
-/// Sets the outputs: films and frames, and the motion file apart from them.
+/// Sets the outputs: films and frames, and separately the motion file.
 void set_outputs(const RunArguments& arguments, const Scene& scene, const auto& expanded, RunOptions& options) {
   const RecordedSteps every =
       arguments.every.empty() ? RecordedSteps{} : parse_every(arguments.every, scene.simulation.step);

@@ -29,7 +29,7 @@
 namespace drape {
 namespace {
 
-/// Looks at all that is known before the first scene runs: whether every scene can be drawn and its files written.
+/// Validates all scenes before the first one runs: drawing is possible and files are writable.
 /// @throws Error with the problems of all scenes
 void look_ahead(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options) {
   require_files_of_their_own(scenes, options);
@@ -55,7 +55,7 @@ void look_ahead(const std::vector<Scene>& scenes, const std::vector<RunOptions>&
   if (worst) throw Error(*worst, problems);
 }
 
-/// @throws UsageError if an output must be drawn where nothing is
+/// @throws UsageError if an output needs drawing
 void require_no_drawing(const std::vector<std::string>& outputs) {
   for (const std::string& path : outputs) {
     const OutputFormat* format = find_format(path);
@@ -72,7 +72,7 @@ ExitCode run(const Scene& scene, const RunOptions& options, const RunArguments& 
   return run.end();
 }
 
-/// @throws UsageError if what is said of outputs is said where there are none
+/// @throws UsageError for options of outputs without any output
 void require_something_to_make(const RunArguments& arguments) {
   if (!arguments.outputs.empty()) return;
   const bool frames = !arguments.frames.empty() || arguments.times.any() || !arguments.every.empty();
@@ -83,7 +83,7 @@ void require_something_to_make(const RunArguments& arguments) {
                   arguments.resume));
 }
 
-/// Makes what is asked for of a motion that is complete.
+/// Makes the requested outputs of a complete motion.
 ExitCode make_of_motion(const std::string& file, const RunArguments& arguments, const CommonOptions& common) {
   const SceneToRun found = open_motion(file, arguments.overrides, arguments.look);
   RunOptions options = run_options(arguments, found.scene, common.verbose);
@@ -102,7 +102,7 @@ ExitCode make_of_motion(const std::string& file, const RunArguments& arguments, 
   return ExitCode::ok;
 }
 
-/// Goes on with a run that ended early, and makes what is asked for of the whole motion.
+/// Resumes a run, then makes the requested outputs of the whole motion.
 ExitCode go_on(const RunArguments& arguments, const CommonOptions& common) {
   if (!arguments.scenes.empty()) {
     throw UsageError(
@@ -134,7 +134,7 @@ ExitCode go_on(const RunArguments& arguments, const CommonOptions& common) {
   const ExitCode code = run(*found->scene, options, arguments, common);
   if (code != ExitCode::ok || arguments.outputs.empty()) return code;
   afterwards.step_by_step = false;
-  found.reset();  // its files
+  found.reset();  // close its files
   return make_of_motion(file, afterwards, common);
 }
 
@@ -159,10 +159,9 @@ std::vector<SceneToRun> load_all(const RunArguments& arguments) {
   return all;
 }
 
-/// Runs one scene after the other. While the films of one are completed, which may take another pass over all of their
-/// frames on one core, the next is drawn; what is said of them is in their order. One that fails does not keep the next
-/// from being run.
-/// @returns the worst of their codes, which is the largest
+/// Runs the scenes in sequence. While the films of one are completed, which may need another single-core pass over all
+/// frames, the next is drawn. Messages keep the order of the scenes. A failed scene does not stop later ones.
+/// @returns the highest of their codes
 ExitCode run_each(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options,
                   const RunArguments& arguments, const CommonOptions& common) {
   ExitCode worst = ExitCode::ok;
@@ -194,9 +193,9 @@ ExitCode run_each(const std::vector<Scene>& scenes, const std::vector<RunOptions
   return worst;
 }
 
-/// What the command line asks for, from its files to its films.
+/// Runs all scenes of the command line.
 ExitCode run_all(const RunArguments& arguments, const CommonOptions& common) {
-  interruption();  // from here on, a signal ends what there is in good order
+  interruption();  // from here on, a signal stops work cleanly
   if (arguments.scenes.empty() && arguments.resume.empty()) throw UsageError("SCENE is required; see drape --help");
   if (!arguments.drawing) require_no_drawing(arguments.outputs);
   if (!arguments.resume.empty()) return go_on(arguments, common);

@@ -10,11 +10,11 @@
 
 namespace drape {
 
-/// What is wrong with several scenes, each line once. A line about --set or --vary begins with the scene that it is
-/// about, unless it is about all of them.
+/// Collector of the problems of several scenes, each line once. A line about --set or --vary starts with its scene,
+/// unless it applies to all of them.
 class SceneProblems {
  public:
-  /// @param message of a line for each problem, as load_scene() throws it
+  /// @param message a line for each problem, as load_scene() throws it
   void add(const std::string& file, std::string_view message);
 
   /// @param files all scenes
@@ -22,16 +22,15 @@ class SceneProblems {
   void throw_if_any(const std::vector<std::string>& files) const;
 
  private:
-  std::vector<std::pair<std::string, std::vector<std::string>>> lines_;  // and the scenes that each is about
+  std::vector<std::pair<std::string, std::vector<std::string>>> lines_;  // lines, each with its scenes
 };
 
-/// Every scene, or the problems of all of them at once.
+/// Loads all scenes and reports all of their problems at once.
 /// @throws UsageError
 std::vector<Scene> load_scenes(const std::vector<std::string>& files, const std::vector<std::string>& overrides);
 
-/// Names that tell scenes apart, each of which can be the name of a file: the scenes' own, with the folder's before it
-/// where there are several.
-/// @param taken names that no scene may get
+/// Returns unique names for scenes, valid as file names: their own names, prefixed by the folder if ambiguous.
+/// @param taken reserved names
 std::vector<std::string> unique_names(const std::vector<Scene>& scenes, const std::set<std::string>& taken = {});
 
 }  // namespace drape

@@ -25,7 +25,7 @@
 namespace drape {
 namespace {
 
-/// The command that goes on with a run which writes a motion file, and makes its other files of the whole motion.
+/// Returns the command that resumes a run from its motion file and makes its other outputs.
 std::string resume_command(const RunArguments& arguments, const std::string& motion) {
   std::string text = fmt::format("drape {} --resume {}", arguments.drawing ? "render" : "simulate", shell_word(motion));
   for (const std::string& path : arguments.outputs) {

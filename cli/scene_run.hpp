@@ -12,22 +12,22 @@
 
 namespace drape {
 
-/// One scene's run on threads of its own, and what is said of it on the terminal. Its parameters must outlive it.
+/// One scene's run on its own threads, with its terminal output. The parameters must outlive it.
 class SceneRun {
  public:
   SceneRun(const Scene& scene, RunOptions options, const RunArguments& arguments, const CommonOptions& common);
 
-  /// Says what is run.
+  /// Prints a description of the run.
   void announce() const;
 
-  /// Begins it, unless it has begun.
+  /// Starts the run if it is not yet started.
   void begin();
 
-  /// Shows its progress until every frame is with its outputs, which may still have to be completed.
+  /// Shows progress until every frame is drawn; the outputs may still need completion.
   void wait_until_drawn() { work_->watch_until_others_may_begin(quiet_); }
 
-  /// Shows its progress until its end, and says how that was.
-  /// @throws what run_scene() throws
+  /// Shows progress until the end, then prints the result.
+  /// @throws errors of run_scene()
   ExitCode end();
 
  private:
@@ -41,7 +41,7 @@ class SceneRun {
   StepByStep pause_;
   SlowRun slow_;
   RunResult result_;
-  std::optional<WatchedWork> work_;  // last: it is waited for before the others go
+  std::optional<WatchedWork> work_;  // last member: its destructor waits, and the others are still needed
 };
 
 }  // namespace drape

@@ -23,10 +23,10 @@ struct StabilityArguments {
   StabilityDetail detail;
 };
 
-/// Measures a shard and leaves it for drape merge.
+/// Measures a shard and stores it for drape merge.
 ExitCode run_shard(const StabilityArguments& arguments, const Shard& shard, const CommonOptions& common) {
   const std::filesystem::path file = shard_place(arguments.folder, shard) / stability_runs_name;
-  require_writable(file);  // not only after the measurements
+  require_writable(file);  // fail before the measurements
   StabilityStudy study = plan_stability(arguments.detail);
   const std::vector<std::size_t> parts = parts_of_shard(study, shard);
   bool complete = false;

@@ -16,7 +16,7 @@
 namespace drape {
 namespace {
 
-/// A descriptor that can be read from once it has been set.
+/// An event with a file descriptor that becomes readable.
 class Event {
  public:
   Event() : descriptor_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
@@ -63,7 +63,7 @@ void StepByStep::wait_for_line() {
     if (either[1].revents != 0) return;
     char character = 0;
     if (read(STDIN_FILENO, &character, 1) != 1) {
-      input_ended_ = true;  // input that is a file or closed does not hold the run up
+      input_ended_ = true;  // input from a file or a closed input does not block the run
     } else if (character == 'q') {
       stop_.request_stop();
     } else if (character == '\n') {

@@ -7,10 +7,10 @@
 
 namespace drape {
 
-/// Prints every step's energies and iterations to standard output, and waits for a line of input before the next.
+/// Observer that prints every step's energies and iterations to standard output, then waits for a line of input.
 class StepByStep final : public StepObserver {
  public:
-  /// @param stop a stop is requested when the person types q; one requested elsewhere ends the waiting
+  /// @param stop stop source; q requests a stop, and a stop from elsewhere ends the waiting
   explicit StepByStep(std::stop_source stop) : stop_(std::move(stop)) {}
 
   void begin(const Simulation& simulation) override;

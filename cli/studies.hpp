@@ -12,13 +12,13 @@
 
 namespace drape {
 
-/// Of --runs.
+/// Help of --runs.
 inline constexpr const char* runs_help =
     "Timed runs of every case; default: until the median is known to 5 %, at least 6 and at most 30";
 
-/// Measures while it shows the progress, and then writes the report's files and prints it.
-/// @param measure the study's report; nothing if it was stopped
-/// @throws what measure throws
+/// Runs measurements with a progress display, then writes and prints the report.
+/// @param measure returns the report; nothing if it was stopped
+/// @throws errors of measure
 /// @throws OutputError
 ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& common,
                    const std::function<std::optional<StudyReport>(const std::stop_token&, Progress&)>& measure);
@@ -27,16 +27,16 @@ ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& com
 /// @throws OutputError
 ExitCode conclude_study(const StudyReport& report, const std::filesystem::path& folder, const CommonOptions& common);
 
-/// The report of a study of stability whose shards are in these folders.
-/// @throws UsageError if they are not of one study
+/// Merges the shards of a stability study in these folders into a report.
+/// @throws UsageError if they are from different studies
 ExitCode merge_stability_study(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
                                const CommonOptions& common);
 
-/// The same of a study of validation, whose runs it also writes there.
+/// Merges the shards of a validation study likewise; also writes its runs.
 ExitCode merge_validation_study(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
                                 const CommonOptions& common);
 
-/// A study's report, if it was not stopped.
+/// Returns a study's report, unless it was stopped.
 template <class Study>
 std::optional<StudyReport> report_of(const std::optional<Study>& study, StudyReport (*report)(const Study&)) {
   return study ? std::optional(report(*study)) : std::nullopt;

@@ -43,7 +43,7 @@ void add_homework_study(CLI::App& study, const CommonOptions& common, Command& c
 
 ExitCode run_study(const std::filesystem::path& folder, const CommonOptions& common,
                    const std::function<std::optional<StudyReport>(const std::stop_token&, Progress&)>& measure) {
-  require_writable(folder / report_page);  // not only after the measurements
+  require_writable(folder / report_page);  // fail before the measurements
   std::optional<StudyReport> report;
   run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) { report = measure(stop, progress); });
   if (!report) {

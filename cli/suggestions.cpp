@@ -15,13 +15,13 @@
 namespace drape {
 namespace {
 
-/// The subcommand that was chosen, and what was chosen of its own; the app itself where there is none.
+/// Returns the most specific subcommand that was chosen, or the app itself.
 const CLI::App& chosen_command(const CLI::App& app) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
   return chosen.empty() ? app : chosen_command(*chosen.front());
 }
 
-/// The words that could have been meant at the place where parsing stopped: the options of the chosen subcommand.
+/// Returns the options that may have been intended: those of the app and the chosen subcommand.
 std::vector<std::string> known_options(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* of : {&app, &chosen_command(app)}) {
@@ -42,7 +42,7 @@ std::vector<std::string> subcommand_names(const CLI::App& app) {
   return names;
 }
 
-/// A key of a scene with its table, "caption.size", and whether it takes two whole numbers.
+/// A key of a scene with its table, "caption.size". `pair` means that it takes two whole numbers.
 struct NamedKey {
   std::string path;
   bool pair;
@@ -69,7 +69,7 @@ std::vector<NamedKey> keys_named(std::string name) {
   return found;
 }
 
-/// "640x480" or "640,480" as an array of a scene, "[640,480]"; other texts as they are.
+/// Converts "640x480" or "640,480" to a scene's array, "[640,480]"; returns other texts unchanged.
 std::string as_pair(const std::string& text) {
   const std::size_t between = text.find_first_of("x,");
   const auto whole = [](std::string_view part) {
@@ -80,13 +80,13 @@ std::string as_pair(const std::string& text) {
   return whole(first) && whole(second) ? fmt::format("[{},{}]", first, second) : text;
 }
 
-/// "'--set video.fps=30'", which a shell takes as it is written between the outer quotes.
+/// Returns "'--set video.fps=30'", quoted for a shell if necessary.
 std::string set_option(const std::string& assignment) {
   const std::string word = shell_word(assignment);
   return word == assignment ? fmt::format("'--set {}'", word) : fmt::format("--set {}", word);
 }
 
-/// What was given to an option: behind its '=', or the word after it.
+/// Returns the value given to an option: after its '=', or the next word.
 std::string value_of(const std::string& option, std::span<const char* const> words) {
   if (const std::size_t equals = option.find('='); equals != std::string::npos) return option.substr(equals + 1);
   const auto found = std::find(words.begin(), words.end(), option);
@@ -95,7 +95,7 @@ std::string value_of(const std::string& option, std::span<const char* const> wor
   return next.starts_with("--") ? "VALUE" : std::string(next);
 }
 
-/// What to say of an option that is a key of the scene; nothing if it is none, or if the command takes no keys.
+/// Returns a hint for an option that is a key of the scene; nothing otherwise, or if the command takes no keys.
 std::optional<std::string> key_instead(const CLI::App& app, const std::string& word,
                                        std::span<const char* const> words) {
   if (!word.starts_with("--") || chosen_command(app).get_option_no_throw("--set") == nullptr) return std::nullopt;
@@ -105,7 +105,7 @@ std::optional<std::string> key_instead(const CLI::App& app, const std::string& w
   const std::string given = value_of(word, words), pair = as_pair(given);
   const bool is_pair = pair.starts_with("[");
   const auto takes = [is_pair](const NamedKey& key) { return key.pair == is_pair; };
-  const bool any = std::ranges::any_of(keys, takes);  // or the form of the value was not meant
+  const bool any = std::ranges::any_of(keys, takes);  // otherwise ignore the form of the value
   constexpr std::size_t most = 3;
   std::size_t told = 0;
   std::string meant;

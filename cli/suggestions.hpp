@@ -6,13 +6,13 @@
 
 namespace drape {
 
-/// What is wrong with a command line, and what was probably meant: another command or option, `drape render` for a
-/// scene that stands where a command should, `--set` for a key of the scene that is written as an option.
+/// Explains a command line error and suggests a correction: another command or option, `drape render` for a scene in
+/// place of a command, or `--set` for a key of the scene written as an option.
 /// @param words the command line, from its second word on
 std::string explain(const CLI::App& app, const CLI::ParseError& error, std::span<const char* const> words);
 
-/// The subcommand that some names lead to, as in `study accuracy`.
-/// @throws UsageError if there is none, with the nearest
+/// Returns the subcommand at a path of names, as in `study accuracy`.
+/// @throws UsageError if there is none, with the nearest name
 const CLI::App& find_command(const CLI::App& app, std::span<const std::string> names);
 
 }  // namespace drape

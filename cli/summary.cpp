@@ -29,13 +29,13 @@ std::string out_of_balance(const Exactness::Unbalanced& unbalanced) {
   return fmt::format("{:.2g} % of its weight out of balance", 100 * *unbalanced.of_weight);
 }
 
-/// Of the files of an output.
+/// Returns the name of an output by its files.
 std::string name(const std::vector<OutputFile>& files) {
   const std::string first = shown(files.front().path);
   return files.size() == 1 ? first : fmt::format("{} … {}", first, shown(files.back().path));
 }
 
-/// How steps are computed, and where that was chosen, why.
+/// Describes the method and, if it was chosen automatically, the reason.
 std::string method_text(const Scene& scene) {
   const IntegratorSettings& integrator = scene.simulation.integrator;
   std::string text = step_method_name(integrator.step_method());
@@ -138,7 +138,7 @@ std::string describe_files(const std::vector<std::vector<OutputFile>>& outputs) 
 
 namespace {
 
-/// How they went, and how long they took.
+/// Describes the results and the duration of the steps.
 std::string of_steps(const Statistics& s) {
   std::string text = fmt::format("{} steps", s.steps());
   const auto& asked = s.exactness().asked();

@@ -7,24 +7,23 @@
 
 namespace drape {
 
-/// One line that says what is about to be simulated.
+/// Describes a simulation before its start, in one line.
 std::string describe(const Scene& scene, const RunOptions& options);
 
-/// One line with the part of the steps' time that each effect took.
+/// Describes the share of each effect in the steps' time, in one line.
 std::string effect_shares(const Statistics& statistics);
 
-/// How far a run came that ended early, and which files have what there is of it: "after 36 of 417 steps; out/5.gif has
-/// …".
-/// @param resume the command that goes on with its motion file, if there is one
+/// Describes how far an interrupted run came and its partial files: "after 36 of 417 steps; out/5.gif has …".
+/// @param resume command that resumes its motion file, if there is one
 std::string describe_end(const RunResult& result, const std::string& resume = {});
 
-/// Why the result of a run should not be trusted, a sentence for each reason.
+/// Returns the reasons to distrust the result of a run, a sentence each.
 std::vector<std::string> doubts(const RunResult& result);
 
-/// The files of each output with their sizes, a line each.
+/// Lists the files of each output with their sizes, a line each.
 std::string describe_files(const std::vector<std::vector<OutputFile>>& outputs);
 
-/// What a run did, in a few lines without a final line end.
+/// Summarises a run in a few lines without a final line end.
 std::string summarize(const RunResult& result);
 
 }  // namespace drape

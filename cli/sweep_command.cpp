@@ -40,7 +40,7 @@ std::string readable_time(double seconds) {
   return seconds < 36000 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.0f} h", seconds / 3600);
 }
 
-/// The request with what files say in [sweep].
+/// Completes the request with the [sweep] tables of files.
 SweepRequest complete_request(const SweepArguments& arguments) {
   SweepRequest request = arguments.request;
   std::vector<std::string> scenes;
@@ -70,7 +70,7 @@ ExitCode list_runs(const SweepPlan& plan, const SweepOptions& options) {
   return ExitCode::ok;
 }
 
-/// @throws UsageError if the folder's runs are another program's
+/// @throws UsageError if the folder has runs of another version of the program
 void require_same_program(const SweepOptions& options, const SweepPlan& plan) {
   const std::optional<SweepFile> before = read_sweep_file(options.folder);
   if (!before || before->plan.program == plan.program) return;
@@ -87,10 +87,10 @@ ExitCode report_again(const SweepArguments& arguments, const CommonOptions& comm
   return conclude_sweep(read_results(arguments.folder, std::move(*file)), arguments.folder, common);
 }
 
-/// Writes the jobs that do it on a cluster, and submits them if that is asked for.
+/// Writes jobs for a cluster, and submits them if requested.
 ExitCode write_jobs(const SweepArguments& arguments, const SweepPlan& plan, const CommonOptions& common) {
   std::string command = command_of(plan.request);
-  command.erase(0, command.find(' ') + 1);  // the program's name
+  command.erase(0, command.find(' ') + 1);  // remove the program's name
   const std::size_t tasks = std::min(arguments.tasks, plan.runs.size());
   const std::filesystem::path submit = write_slurm_jobs(
       {.sweep = fmt::format("{} -o {} --jobs {}{}", command, shell_word(arguments.folder), arguments.jobs,
@@ -120,7 +120,7 @@ ExitCode sweep(const SweepArguments& arguments, const CommonOptions& common) {
   if (arguments.resume) {
     require_links_inside(options.folder);
     require_same_program(options, plan);
-    for (const PlannedRun& run : plan.runs) read_run(options.folder, run.key);  // or it throws
+    for (const PlannedRun& run : plan.runs) read_run(options.folder, run.key);  // throws if damaged
   }
   if (arguments.dry_run) return list_runs(plan, options);
   if (arguments.tasks > 0) return write_jobs(arguments, plan, common);

@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// Writes the report of a sweep and says what came of it.
+/// Writes the report of a sweep and prints a summary.
 /// @returns the exit code of the worst run
 ExitCode conclude_sweep(const SweepResults& results, const std::filesystem::path& folder, const CommonOptions& common);
 

@@ -24,9 +24,9 @@ std::string_view environment(const char* name) {
   return value == nullptr ? std::string_view() : std::string_view(value);
 }
 
-/// The smaller of what COLUMNS says and of what a terminal has.
+/// Returns the smaller of COLUMNS and the terminal's width.
 std::size_t width_of(int descriptor, bool is_terminal) {
-  constexpr std::size_t usual_width = 80;  // of a terminal that does not say
+  constexpr std::size_t usual_width = 80;  // for terminals of unknown width
   const std::string_view columns = environment("COLUMNS");
   std::size_t width = 0;
   const auto read = std::from_chars(columns.data(), columns.data() + columns.size(), width);
@@ -38,10 +38,10 @@ std::size_t width_of(int descriptor, bool is_terminal) {
   return is_terminal && width == unlimited_width ? usual_width : width;
 }
 
-/// Whether standard error ends in a line that shall not stay.
+/// True while standard error ends in a line that will be erased.
 std::atomic<bool> passing_line_shown = false;
 
-/// Standard error, a message in a line of its own or in as many as its width asks for.
+/// Log sink for standard error: each message starts a line and is wrapped to the width.
 class TerminalSink : public spdlog::sinks::base_sink<std::mutex> {
  public:
   explicit TerminalSink(const Terminal& where) : where_(where) {}
@@ -74,7 +74,7 @@ Terminal terminal(std::FILE* stream, ColorMode mode) {
 }
 
 std::string inked(std::string_view text, Ink ink, const Terminal& where) {
-  static constexpr std::array<std::string_view, 4> codes{"31", "33", "32", "1"};  // as the enumeration
+  static constexpr std::array<std::string_view, 4> codes{"31", "33", "32", "1"};  // in the enumeration's order
   if (!where.color) return std::string(text);
   return std::string("\x1b[")
       .append(codes.at(static_cast<std::size_t>(ink)))

@@ -28,7 +28,7 @@ struct ValidationArguments {
   bool report_only = false, resume = false;
 };
 
-/// The command line again, but for what does not change the result.
+/// Returns the command line without options that do not change the result.
 std::string command_line(const ValidationArguments& arguments) {
   std::string text = "drape study validation";
   for (const std::string& name : arguments.options.cases) text += " " + shell_word(name);
@@ -40,7 +40,7 @@ std::string command_line(const ValidationArguments& arguments) {
 
 ExitCode unless_missed(ExitCode code, bool met) { return code == ExitCode::ok && !met ? ExitCode::differs : code; }
 
-/// The report of what a folder holds.
+/// Writes the report of existing measurements.
 ExitCode validation_again(const ValidationArguments& arguments, const CommonOptions& common) {
   if (!arguments.options.cases.empty())
     throw UsageError("--report-only measures nothing: it takes no case, but -o with the folder");
@@ -48,10 +48,10 @@ ExitCode validation_again(const ValidationArguments& arguments, const CommonOpti
   return unless_missed(conclude_study(validation_report(study), arguments.folder, common), all_met(study));
 }
 
-/// Measures a shard and leaves it for drape merge.
+/// Measures a shard and stores it for drape merge.
 ExitCode run_shard(ValidationStudy& study, const ValidationOptions& options, const std::filesystem::path& file,
                    const std::function<void()>& save, const CommonOptions& common) {
-  require_writable(file);  // not only after the first run
+  require_writable(file);  // fail before the first run
   bool complete = false;
   run_watched(common.quiet, [&](const std::stop_token& stop, Progress& progress) {
     complete = measure_validation(study, options, stop, progress, save);

@@ -8,21 +8,21 @@
 
 namespace drape {
 
-/// Work on a thread of its own, whose progress this one shows. The token is that of interruption().
+/// Work on its own thread; the calling thread shows its progress. The token is that of interruption().
 class WatchedWork {
  public:
-  /// @param let_others_begin to be called, at most once, when what is left takes one core
+  /// @param let_others_begin called at most once, when the rest needs only one core
   using Work = std::function<void(const std::stop_token&, Progress&, const std::function<void()>& let_others_begin)>;
 
-  /// Begins it.
+  /// Starts the work.
   explicit WatchedWork(const Work& work);
 
-  /// Shows its progress until others may begin, at the latest at its end.
-  /// @param quiet no progress is shown
+  /// Shows progress until others may begin, at the latest until the end.
+  /// @param quiet show no progress
   void watch_until_others_may_begin(bool quiet) { watch(quiet, others_may_begin_); }
 
-  /// Shows its progress until its end.
-  /// @throws what the work throws
+  /// Shows progress until the end.
+  /// @throws errors of the work
   void watch_to_its_end(bool quiet);
 
  private:
@@ -31,13 +31,13 @@ class WatchedWork {
   Progress progress_;
   std::promise<void> told_;
   std::future<void> others_may_begin_ = told_.get_future();
-  std::future<void> done_;  // last: it is waited for before the others go
+  std::future<void> done_;  // last member: its destructor waits, and the others are still needed
 };
 
-/// Does work on a thread of its own while this one shows its progress. The token is that of interruption().
-/// @param quiet no progress is shown
-/// @returns whether it was interrupted
-/// @throws what the work throws
+/// Runs work on its own thread and shows its progress. The token is that of interruption().
+/// @param quiet show no progress
+/// @returns true if interrupted
+/// @throws errors of the work
 bool run_watched(bool quiet, const std::function<void(const std::stop_token&, Progress&)>& work);
 
 }  // namespace drape

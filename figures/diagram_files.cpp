@@ -14,13 +14,13 @@ namespace {
 
 constexpr double png_scale = 2;
 
-/// The shortest that reads back as the same.
+/// Returns the shortest text that reads back as the same number.
 std::string shortest(double value) { return fmt::format("{}", value); }
 
-/// Of how many points a table for a text has one.
+/// Returns the stride that keeps a table short enough for a document.
 std::size_t sparse(std::size_t rows) { return (rows + most_set_rows - 1) / most_set_rows; }
 
-/// The places of one in so many of those points that are seen, the last among them.
+/// Returns the indices of every `every`-th finite point, including the last.
 std::vector<std::size_t> finite_points(const html::ChartSeries& series, std::size_t every) {
   std::vector<std::size_t> finite, chosen;
   for (std::size_t i = 0; i < series.points.size(); ++i) {

@@ -16,7 +16,7 @@
 namespace drape {
 namespace {
 
-/// Whether a spreadsheet computes a cell with such a begin, apostrophes aside.
+/// Returns true if a spreadsheet would treat a cell as a formula, leading apostrophes aside.
 bool begins_formula(std::string_view cell) {
   const std::size_t first = cell.find_first_not_of('\'');
   return first != std::string_view::npos && std::string_view("=+-@\t\r").find(cell[first]) != std::string_view::npos;
@@ -37,7 +37,7 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
-/// How many columns from the first on tell the rows apart: they are there in every part of a table.
+/// Returns the number of first columns that identify the rows; every part of a split table repeats them.
 std::size_t leading_columns(const ResultTable& table) {
   for (std::size_t count = 1; count < table.columns.size(); ++count) {
     std::set<std::vector<std::string>> seen;
@@ -47,7 +47,7 @@ std::size_t leading_columns(const ResultTable& table) {
   return 1;
 }
 
-/// The columns of a table that is too wide in parts, each of which begins with the leading ones.
+/// Splits the columns of a wide table into parts, each of which starts with the leading columns.
 std::vector<std::vector<std::size_t>> parts_within(std::size_t width, const std::vector<std::size_t>& widths,
                                                    std::size_t leading) {
   std::vector<std::size_t> begin;
@@ -70,7 +70,7 @@ std::vector<std::vector<std::size_t>> parts_within(std::size_t width, const std:
   return parts;
 }
 
-/// Whether everything in the column starts like a number, or there is nothing.
+/// Returns true if every non-empty cell of a column starts like a number.
 bool is_numeric(const ResultTable& table, std::size_t column) {
   return std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
     const std::string& cell = row[column];
@@ -78,7 +78,7 @@ bool is_numeric(const ResultTable& table, std::size_t column) {
   });
 }
 
-/// A line of a tabular environment.
+/// Returns a line of a tabular environment.
 std::string latex_line(const std::vector<std::string>& cells) {
   std::vector<std::string> texts;
   for (const std::string& cell : cells) texts.push_back(html::latex(cell));

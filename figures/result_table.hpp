@@ -9,42 +9,42 @@
 
 namespace drape {
 
-/// A table of results, which is printed, written as CSV, Markdown and LaTeX, and shown on a page.
+/// A table of results, for the terminal, CSV, Markdown, LaTeX and pages.
 struct ResultTable {
-  std::string name;   ///< of its file: "table1"
+  std::string name;   ///< name of its file: "table1"
   std::string title;  ///< "Table 1: no sphere, k = 18 N/m"
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
-  std::vector<std::string> notes;  ///< sentences below it
+  std::vector<std::string> notes;  ///< sentences below the table
 };
 
-/// A cell with three digits, or all before the point: "2.35", "23.5", "2347"; "–" for what is no number.
+/// Formats a number with three digits, or all before the point: "2.35", "23.5", "2347"; "–" if it is not finite.
 std::string three_digits(double value);
 
-/// Cells as a line of RFC 4180, quoted where they have to be. A text that a spreadsheet would compute, as it begins
-/// with = + - or @ and is no number, is written with an apostrophe before it.
+/// Returns cells as a line of RFC 4180, quoted if necessary. Text that a spreadsheet would treat as a formula (it
+/// starts with = + - or @ and is not a number) gets an apostrophe in front.
 std::string csv_line(const std::vector<std::string>& cells);
-/// The cell that csv_line() wrote so.
+/// Returns the original text of a cell that csv_line() wrote.
 std::string csv_text(std::string cell);
 
-/// For a terminal: columns in line, those that are numbers to the right. A table wider than `width` comes in parts,
-/// each of which begins with the columns that tell its rows apart.
+/// Formats a table for a terminal: aligned columns, numbers to the right. A table wider than `width` is split into
+/// parts, each of which starts with the columns that identify its rows.
 std::string to_text(const ResultTable& table, std::size_t width = unlimited_width);
 std::string to_markdown(const ResultTable& table);
-/// RFC 4180.
+/// Formats a table as RFC 4180.
 std::string to_csv(const ResultTable& table);
-/// A tabular environment, as \input takes it; needs booktabs and nothing else.
+/// Formats a table as a tabular environment for \input; needs only booktabs.
 std::string to_latex(const ResultTable& table);
-/// The rows of the longest table that somebody would set into a text.
+/// Most rows of a table in a document.
 inline constexpr std::size_t most_set_rows = 200;
 
-/// Writes NAME.csv, and NAME.md and NAME.tex of a table that is not too long for a text.
+/// Writes NAME.csv; also NAME.md and NAME.tex if the table is short enough for a document.
 /// @throws OutputError
 void write_table(const ResultTable& table, const std::filesystem::path& folder);
-/// Writes NAME.md and NAME.tex alone.
+/// Writes only NAME.md and NAME.tex.
 /// @throws OutputError
 void write_set_table(const ResultTable& table, const std::filesystem::path& folder);
-/// @param cards whether its rows are cards in a narrow window
+/// @param cards show rows as cards in a narrow window
 html::Markup to_html(const ResultTable& table, bool cards = false);
 
 }  // namespace drape

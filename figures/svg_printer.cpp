@@ -8,8 +8,8 @@
 
 namespace drape {
 
-// What is used of rsvg.h, cairo.h, cairo-pdf.h and glib-object.h. Written down here, so that building needs none of
-// their packages; the numbers and structures are part of the libraries' ABI, which stays.
+// Declarations from rsvg.h, cairo.h, cairo-pdf.h and glib-object.h, repeated here so that building needs none of their
+// packages. The numbers and structures belong to the libraries' stable ABI.
 struct RsvgHandle;
 struct Cairo;
 struct CairoSurface;
@@ -30,7 +30,7 @@ int append(void* closure, const unsigned char* bytes, unsigned int count) {
 
 }  // namespace
 
-/// The functions of the three libraries.
+/// Functions of the three libraries.
 struct SvgPrinter::Functions {
   RsvgHandle* (*read)(const unsigned char* bytes, std::size_t count, void** error) = nullptr;
   void (*set_dpi)(RsvgHandle*, double) = nullptr;
@@ -113,7 +113,7 @@ std::string SvgPrinter::pdf(const std::string& svg) const {
   height *= points_per_pixel;
   std::string bytes;
   const Functions::Surface surface = call_->own(call_->make_pdf(append, &bytes, width, height));
-  call_->restrict_pdf(surface.get(), cairo_pdf_1_4);  // which every LaTeX includes without a warning
+  call_->restrict_pdf(surface.get(), cairo_pdf_1_4);  // every LaTeX includes this version without a warning
   call_->fill(surface, handle, width, height);
   call_->finish(surface.get());
   call_->require(call_->surface_status(surface.get()));

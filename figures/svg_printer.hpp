@@ -6,25 +6,25 @@
 
 namespace drape {
 
-/// Turns SVG into what LaTeX and word processors take, with librsvg and cairo, which are loaded when one is made.
+/// Converter of SVG to PDF and PNG with librsvg and cairo, which the constructor loads.
 class SvgPrinter {
  public:
-  /// The libraries in the order of librsvg, cairo and GObject.
+  /// Returns the names of librsvg, cairo and GObject, in this order.
   static std::vector<std::string> library_names();
-  /// The Debian packages that bring them.
+  /// Returns the Debian packages of the libraries.
   static const char* packages();
 
-  /// @throws OutputError if a library is not there, with what to install
+  /// @throws OutputError if a library is missing, with the packages to install
   explicit SvgPrinter(const std::vector<std::string>& names = library_names());
   ~SvgPrinter();
   SvgPrinter(const SvgPrinter&) = delete;
   SvgPrinter& operator=(const SvgPrinter&) = delete;
 
-  /// A PDF file of one page, with the fonts that it uses; a pixel of the SVG is 0.75 points.
-  /// @throws OutputError if it is no SVG, or nothing can be drawn
+  /// Returns a PDF file of one page with embedded fonts; a pixel of the SVG is 0.75 points.
+  /// @throws OutputError if the text is not SVG, or drawing fails
   [[nodiscard]] std::string pdf(const std::string& svg) const;
 
-  /// A PNG file with so many pixels for one of the SVG.
+  /// Returns a PNG file with `scale` pixels per pixel of the SVG.
   /// @throws OutputError likewise
   [[nodiscard]] std::string png(const std::string& svg, double scale) const;
 

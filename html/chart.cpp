@@ -9,9 +9,9 @@
 namespace drape::html {
 namespace {
 
-constexpr std::size_t table_rows = 500;  // more would be no help to anybody
+constexpr std::size_t table_rows = 500;  // longer tables are not useful on a page
 
-/// The commands that make whole series.
+/// Returns the commands that make whole series.
 Markup series_commands(const Chart& chart) {
   Markup commands;
   for (const ChartSeries& series : chart.series) {
@@ -20,7 +20,7 @@ Markup series_commands(const Chart& chart) {
   return commands;
 }
 
-/// What tells points apart, and commands, have no column where there are none.
+/// Returns the points as a table; empty columns of series names or commands are omitted.
 Markup points_table(const Chart& chart) {
   const bool named = std::ranges::any_of(chart.series, [](const ChartSeries& s) { return !s.name.empty(); });
   const bool commanded = std::ranges::any_of(chart.series, [](const ChartSeries& s) {

@@ -13,44 +13,43 @@ namespace drape::html {
 
 struct ChartPoint {
   double x = 0, y = 0;
-  std::string label;    ///< what the point says when it is pointed at: "step 37: 2.1 mm"
-  std::string command;  ///< that makes this point again, or several, a line each; may be empty
-  /// How far x was found to spread, from and to: drawn as a bar.
+  std::string label;    ///< text of the tooltip: "step 37: 2.1 mm"
+  std::string command;  ///< commands that reproduce this point, a line each; may be empty
+  /// Range of x, drawn as a bar.
   std::optional<std::array<double, 2>> spread = {};
 };
 
 struct ChartSeries {
   std::string name;
   std::vector<ChartPoint> points;
-  bool markers = true;                    ///< a sign at every point, or only the line through them
-  std::string command = {};               ///< that makes every point which has none of its own; may be empty
-  std::optional<std::size_t> style = {};  ///< its colour and sign; absent: those of its place in the chart
-  bool other = false;  ///< dashed, with open signs: another source of what a series of the same style shows
+  bool markers = true;                    ///< a marker at every point; otherwise only the line
+  std::string command = {};               ///< command that reproduces every point without its own; may be empty
+  std::optional<std::size_t> style = {};  ///< index of colour and marker; absent: position in the chart
+  bool other = false;                     ///< dashed with open markers: another source for the series of the same style
 };
 
-/// A level to compare with, drawn across the chart.
+/// A reference level, drawn across the chart.
 struct ChartLevel {
   double y = 0;
   std::string label;
 };
 
-/// Series of points against two axes.
+/// Data series with two axes.
 struct Chart {
-  std::string title;  ///< what it shows, in a sentence: also for who cannot see it
+  std::string title;  ///< description in a sentence, also for screen readers
   std::string x_title, y_title;
   Scale x_scale = Scale::linear, y_scale = Scale::linear;
   std::vector<ChartSeries> series;
   std::vector<ChartLevel> levels;
-  std::vector<std::string> x_names = {};  ///< of the places 0, 1, 2… where the horizontal axis has no numbers
-  std::vector<double> x_holds = {}, y_holds = {};  ///< values that an axis has in any case
+  std::vector<std::string> x_names = {};  ///< names of the places 0, 1, 2… on a horizontal axis without numbers
+  std::vector<double> x_holds = {}, y_holds = {};  ///< values that the axes must include
 };
 
-/// A chart as inline SVG with a legend. A point that is pointed at, or reached with the arrow keys, shows its label
-/// and its command. The points are also there as a table.
-/// Points that are not finite are left out, and the line has a gap there.
+/// Returns a chart as inline SVG with a legend. A point under the pointer or selected with the arrow keys shows its
+/// label and command. A table lists the points as well. Non-finite points are omitted and leave a gap in the line.
 Markup chart(const Chart& chart);
 
-/// The same for a file of its own: no points but those that are seen.
+/// Returns the chart for a separate file: only the visible points.
 Diagram still_chart(const Chart& chart);
 
 }  // namespace drape::html

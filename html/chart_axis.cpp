@@ -9,14 +9,14 @@
 namespace drape::html {
 namespace {
 
-constexpr int wanted_ticks = 6;        // of decades
-constexpr std::size_t most_ticks = 7;  // of a linear axis
+constexpr int wanted_ticks = 6;        // decades with ticks
+constexpr std::size_t most_ticks = 7;  // on a linear axis
 constexpr std::size_t fewest_ticks = 3;
-constexpr double room_around = 0.05;                // values, as a part of an axis
-constexpr double room_for_zero = 0.1, near = 0.02;  // as parts of an axis
-constexpr double rounding = 1e-9;                   // by which a value may be beyond a tick that is meant to be it
+constexpr double room_around = 0.05;                // margin, as a fraction of the axis
+constexpr double room_for_zero = 0.1, near = 0.02;  // fractions of the axis
+constexpr double rounding = 1e-9;                   // tolerance for a value beyond its tick
 
-/// A power of ten: "10⁻⁷".
+/// Returns a power of ten: "10⁻⁷".
 std::string power(int exponent) {
   constexpr std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string text = exponent < 0 ? "10⁻" : "10";
@@ -24,13 +24,13 @@ std::string power(int exponent) {
   return text;
 }
 
-/// A digit times ten to a power: "0.02", "500", or else "10⁻⁷", "2·10⁵".
+/// Returns a digit times a power of ten: "0.02" or "500" if plain, otherwise "10⁻⁷" or "2·10⁵".
 std::string factor_and_power(int factor, int exponent, bool plain) {
   if (plain) return short_number(factor * std::pow(10, exponent));
   return (factor == 1 ? "" : fmt::format("{}·", factor)) + power(exponent);
 }
 
-/// What stands at the multiples of a step, all in one way: "0", "0.5", "1", or "5·10⁻⁶".
+/// Labels for the multiples of a step in one format: "0", "0.5", "1", or "5·10⁻⁶".
 class TickLabels {
  public:
   TickLabels(double step, double low, double high) {
@@ -48,7 +48,7 @@ class TickLabels {
   }
 
  private:
-  static constexpr int most_digits = 5;  // before the point, or behind it
+  static constexpr int most_digits = 5;  // before or after the point
   int exponent_ = 0, decimals_ = 0;
 };
 
@@ -59,7 +59,7 @@ std::vector<double> multiples(double step, double low, double high) {
   return numbers;
 }
 
-/// The shortest round one between the ticks of a linear axis that has room for them all; at least three of them.
+/// Returns the smallest round step with at most most_ticks ticks on a linear axis.
 double round_step(double low, double high) {
   for (double decade = std::pow(10, std::floor(std::log10((high - low) / most_ticks)));; decade *= 10) {
     for (const int factor : {1, 2, 5}) {
@@ -68,7 +68,7 @@ double round_step(double low, double high) {
   }
 }
 
-/// Moves the ends of an axis out to ticks that nobody could tell from them.
+/// Extends the ends of an axis to ticks that are almost there.
 void widen(double& low, double& high, double step) {
   const double reach = near * (high - low);
   const double below = std::floor(low / step) * step, above = std::ceil(high / step) * step;
@@ -108,7 +108,7 @@ AxisMap::AxisMap(Scale scale, const std::vector<double>& values) : scale_(scale)
 
 AxisMap::AxisMap(const std::vector<std::string>& names)
     : scale_(Scale::linear), low_(-0.5), high_(static_cast<double>(names.size()) - 0.5) {
-  constexpr std::size_t room = 80;  // letters, about
+  constexpr std::size_t room = 80;  // letters, approximately
   std::size_t letters = 0;
   for (const std::string& name : names) letters += name.size() + 1;
   const std::size_t stride = letters / room + 1;
@@ -133,7 +133,7 @@ void AxisMap::make_logarithmic(double low, double high) {
   const int first = static_cast<int>(std::floor(low + rounding)), last = static_cast<int>(std::floor(high + rounding));
   const int stride = (last - first + wanted_ticks) / (wanted_ticks + 1);
   const bool plain = is_plain(first, last);
-  const bool between = high - low < 2.5;  // there is room for ticks within a decade
+  const bool between = high - low < 2.5;  // narrow range: ticks within a decade
   for (int exponent = first; exponent <= last; exponent += std::max(1, stride)) {
     for (const int factor : {1, 2, 5}) {
       const double place_of_it = exponent + std::log10(factor);

@@ -7,22 +7,22 @@ namespace drape::html {
 
 enum class Scale { linear, logarithmic };
 
-/// Where values lie on an axis, with room before the first and after the last, and its ticks at round numbers. A
-/// logarithmic axis has, where values of zero or less occur, a place for them below the smallest other.
+/// Map from values to positions on an axis, with margins and ticks at round numbers. On a logarithmic axis, values of
+/// zero or less share a position below the smallest positive value.
 class AxisMap {
  public:
   struct Tick {
-    double place = 0;  ///< 0 at the axis' beginning to 1 at its end
+    double place = 0;  ///< 0 at the start to 1 at the end of the axis
     std::string label;
   };
 
-  /// @param values that the axis must hold; those that are not finite do not count
+  /// @param values values to include; non-finite ones are ignored
   AxisMap(Scale scale, const std::vector<double>& values);
 
-  /// An axis that has names instead of numbers, at 0, 1, 2…
+  /// Makes an axis of names instead of numbers, at 0, 1, 2…
   explicit AxisMap(const std::vector<std::string>& names);
 
-  /// 0 at the beginning to 1 at the end.
+  /// Returns the position of a value: 0 at the start to 1 at the end.
   [[nodiscard]] double place(double value) const;
   [[nodiscard]] const std::vector<Tick>& ticks() const { return ticks_; }
 
@@ -31,20 +31,20 @@ class AxisMap {
   void make_logarithmic(double low, double high);
 
   Scale scale_;
-  double low_ = 0, high_ = 1;  // of the values, or of their decimal logarithms
-  double floor_ = 0;           // the part of what is between the rooms that is kept for zero
-  double room_ = 0;            // the part of the axis on either side where no value is
+  double low_ = 0, high_ = 1;  // range of the values, or of their decimal logarithms
+  double floor_ = 0;           // fraction between the margins that is reserved for zero
+  double room_ = 0;            // margin at both ends, as a fraction of the axis
   std::vector<Tick> ticks_;
 };
 
-/// Whether powers of ten of these exponents are written out on an axis, "0.01" and "100". All its ticks are of one
-/// kind.
+/// Returns true if an axis writes powers of ten with these exponents as "0.01" and "100". All of its ticks have the
+/// same format.
 bool is_plain(int lowest, int highest);
 
-/// 10 to a power: "0.01" or "10⁻²".
+/// Returns 10 to a power: "0.01" or "10⁻²".
 std::string power_of_ten(int exponent, bool plain);
 
-/// A number as people write it: "0.25", "1e-06".
+/// Formats a number: "0.25", "1e-06".
 std::string short_number(double value);
 
 }  // namespace drape::html

@@ -12,14 +12,14 @@
 namespace drape::html {
 namespace {
 
-// In the units of the drawing, which is scaled to the page.
+// Lengths in units of the drawing, which is scaled to the page.
 constexpr double width = 640, height = 340, left = 72, right = 24, top = 12, bottom = 50;
-constexpr double large = 19;         // height of the letters in a narrow window, see chart.css
-constexpr double wide_letter = 0.6;  // their width, by their height
-constexpr std::size_t styles = 6;    // colours and signs of the style sheet
-constexpr std::size_t deepest = 3;   // curves below others that it tells apart
-constexpr double told_apart = 2.5;   // how far apart two points of curves must be to be seen as two
-constexpr std::size_t crowded = 60;  // points in a series from which on signs would cover the line
+constexpr double large = 19;         // font size in a narrow window, see chart.css
+constexpr double wide_letter = 0.6;  // letter width relative to the font size
+constexpr std::size_t styles = 6;    // colours and markers of the style sheet
+constexpr std::size_t deepest = 3;   // most distinguished levels of hidden curves
+constexpr double told_apart = 2.5;   // least distance of two distinct points
+constexpr std::size_t crowded = 60;  // points per series beyond which markers would cover the line
 
 struct Frame {
   AxisMap x, y;
@@ -40,9 +40,9 @@ Frame frame_of(const Chart& chart) {
   return {chart.x_names.empty() ? AxisMap(chart.x_scale, xs) : AxisMap(chart.x_names), AxisMap(chart.y_scale, ys)};
 }
 
-/// The ticks whose labels would run into that of the one before where letters are as large as in a narrow window.
-/// @param room  along the axis
-/// @param needs what a label takes of it
+/// Finds ticks whose labels would overlap the previous label at the font size of a narrow window.
+/// @param room  length of the axis
+/// @param needs returns the length of a label along the axis
 std::vector<bool> spare_ticks(const std::vector<AxisMap::Tick>& ticks, double room,
                               const std::function<double(const std::string&)>& needs) {
   std::vector<bool> spare(ticks.size(), false);
@@ -83,7 +83,7 @@ struct Box {
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// Whether the way from one point to another leads through a box (Liang and Barsky 1984).
+/// Returns true if the line between two points crosses a box (Liang and Barsky 1984).
 bool crosses(const Box& box, double x0, double y0, double x1, double y1) {
   double from = 0, to = 1;
   const auto clip = [&](double step, double room) {  // step·t ≤ room
@@ -97,7 +97,7 @@ bool crosses(const Box& box, double x0, double y0, double x1, double y1) {
   return clip(-dx, x0 - box.x0) && clip(dx, box.x1 - x0) && clip(-dy, y0 - box.y0) && clip(dy, box.y1 - y0);
 }
 
-/// How many pieces of curves are in a box.
+/// Returns the number of curve segments in a box.
 int curves_in(const Box& box, const Chart& chart, const Frame& frame) {
   int count = 0;
   for (const ChartSeries& series : chart.series) {
@@ -114,16 +114,15 @@ int curves_in(const Box& box, const Chart& chart, const Frame& frame) {
   return count;
 }
 
-/// The label of a level, above or below its line, where the fewest curves are in its way: at the right if that is as
-/// good as elsewhere.
+/// Returns the label of a level, above or below its line, where it covers the fewest curves; preferably on the right.
 Markup level_label(const Chart& chart, const ChartLevel& level, const Frame& frame) {
-  constexpr double gap = 4, capitals = 0.75;  // of the letters' height
+  constexpr double gap = 4, capitals = 0.75;  // relative to the font size
   constexpr int places = 12;
   const double y = frame.down(level.y), length = large * wide_letter * letters(level.label);
   const double first = left + gap, last = std::max(first, width - right - gap - length);
   int fewest = INT_MAX;
   std::pair<double, double> best;
-  bool at_end = false;  // where the label may be as wide as the reader's letters are
+  bool at_end = false;  // at the end, where a wider font does no harm
   for (const double base : {y - 5, y + 5 + capitals * large}) {
     if (base - large < top || base > height - bottom) continue;
     for (int k = places; k >= 0; --k) {
@@ -147,7 +146,7 @@ Markup levels(const Chart& chart, const Frame& frame) {
   return element("g", {{"class", "levels"}}, parts);
 }
 
-/// The sign of a style, around the origin: a circle, a square, a diamond, triangles, a cross.
+/// Returns the marker of a style, around the origin: a circle, a square, a diamond, triangles, a cross.
 Markup sign(std::size_t style) {
   constexpr std::array<const char*, styles> paths{"M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z",
                                                   "M-3.6 -3.6h7.2v7.2h-7.2z",
@@ -162,7 +161,7 @@ std::size_t style_of(const Chart& chart, std::size_t number) {
   return chart.series[number].style.value_or(number) % styles;
 }
 
-/// Whether no point of a curve can be told from one of another curve.
+/// Returns true if every point of a curve coincides with a point of another one.
 bool lies_under(const ChartSeries& lower, const ChartSeries& upper, const Frame& frame) {
   std::size_t points = 0;
   auto other = upper.points.begin();
@@ -172,7 +171,7 @@ bool lies_under(const ChartSeries& lower, const ChartSeries& upper, const Frame&
       return std::abs(frame.across(p.x) - frame.across(point.x)) < told_apart &&
              std::abs(frame.down(p.y) - frame.down(point.y)) < told_apart;
     };
-    // Points of two curves are mostly in one order, so the search goes on where it ended.
+    // Points of two curves mostly have the same order, so the search continues from the last match.
     other = std::find_if(other, upper.points.end(), same);
     if (other == upper.points.end()) other = std::find_if(upper.points.begin(), upper.points.end(), same);
     if (other == upper.points.end()) return false;
@@ -181,7 +180,7 @@ bool lies_under(const ChartSeries& lower, const ChartSeries& upper, const Frame&
   return points > 1;
 }
 
-/// The curve under which another one is hidden: the first that is drawn over all of it; none if it is seen.
+/// Returns the first later curve that covers a curve completely, if any.
 std::optional<std::size_t> hidden_under(const Chart& chart, std::size_t number, const Frame& frame) {
   for (std::size_t i = number + 1; i < chart.series.size(); ++i) {
     if (lies_under(chart.series[number], chart.series[i], frame)) return i;
@@ -189,7 +188,7 @@ std::optional<std::size_t> hidden_under(const Chart& chart, std::size_t number, 
   return std::nullopt;
 }
 
-/// How many curves lie upon one another above this one.
+/// Returns the number of curves stacked above this one.
 std::size_t depth(const Chart& chart, std::size_t number, const Frame& frame) {
   const auto over = hidden_under(chart, number, frame);
   return over ? 1 + depth(chart, *over, frame) : 0;
@@ -199,7 +198,7 @@ std::string style_class(const Chart& chart, std::size_t number) {
   return fmt::format("s{}{}", style_of(chart, number), chart.series[number].other ? " other" : "");
 }
 
-/// Whether a series is seen as a line only.
+/// Returns true if a series is drawn as a line only.
 bool is_line(const ChartSeries& series) { return series.points.size() > crowded || !series.markers; }
 
 Markup draw_point(const ChartSeries& series, const ChartPoint& point, const Markup& sign, const std::string& place,
@@ -235,7 +234,7 @@ Markup draw_series(const Chart& chart, std::size_t number, const Frame& frame, M
     }
   }
   std::string style = "series " + style_class(chart, number);
-  // One that would be hidden is seen on both sides of those upon it.
+  // A hidden curve is widened, so that it shows on both sides of the curves above.
   if (const std::size_t below = std::min(depth(chart, number, frame), deepest); below > 0) {
     style += fmt::format(" beneath{}", below);
   }

@@ -4,10 +4,10 @@
 
 namespace drape::html {
 
-/// What a drawing is for.
+/// Purpose of a drawing.
 enum class Medium {
-  page,  ///< every point is there with its label and its command, also where only the line is seen
-  file   ///< what is seen
+  page,  ///< every point has its label and its command, even if only the line is visible
+  file   ///< only visible parts
 };
 
 Diagram draw_chart(const Chart& chart, Medium medium);

@@ -5,7 +5,7 @@
 namespace drape::html {
 namespace {
 
-/// One of several choices of which one holds.
+/// Returns a radio button of a group.
 Markup choice(const std::string& group, const std::string& value, const Markup& label, bool chosen) {
   return element("label", element("input", {{"type", "radio"},
                                             {"name", group},
@@ -29,10 +29,10 @@ Markup view(const std::string& kind, const std::string& title, const std::string
 
 std::string percent(int place, int size) { return fmt::format("{:.3f}%", 100 * (place + 0.5) / size); }
 
-/// @param index of the moment in its viewer
+/// @param index index of the moment in its viewer
 Markup moment_panel(const ComparedPictures& m, std::size_t index, bool shown) {
   std::string style = fmt::format("--split: 50%; --width: {}; --height: {}", m.size[0], m.size[1]);
-  Markup ring;  // and what else is drawn over every picture
+  Markup ring;  // the ring and other overlays
   if (m.worst) {
     style += fmt::format("; --x: {}; --y: {}", percent((*m.worst)[0], m.size[0]), percent((*m.worst)[1], m.size[1]));
     ring = element("span", {{"class", "ring"}, {"aria-hidden", "true"}});

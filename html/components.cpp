@@ -5,7 +5,7 @@
 namespace drape::html {
 namespace {
 
-constexpr std::size_t narrow = 9;  // columns that fit on paper at the usual size
+constexpr std::size_t narrow = 9;  // most columns that fit on paper at the usual size
 
 std::string tone_class(Tone tone) {
   switch (tone) {
@@ -77,7 +77,7 @@ Markup table(const Table& table) {
     for (std::size_t c = 0; c < cells.size(); ++c) line += cell("td", c, cells[c]);
     body += element("tr", line);
   }
-  // What scrolls must be reachable by keyboard, and then it needs a name.
+  // Scrollable areas must be reachable by keyboard, and need a name for that.
   return element(
       "div", {{"class", "scroll"}, {"role", "region"}, {"tabindex", "0"}, {"aria-label", table.caption}},
       element("table", style.empty() ? Attributes{} : Attributes{{"class", style}},
@@ -96,7 +96,7 @@ Markup details(const Markup& summary, const Markup& content, bool open) {
 }
 
 Markup picture(const std::string& type, const std::string& bytes, const std::string& alt) {
-  // Whatever looks at the page as soon as it is loaded, such as a printer, finds the picture in its place.
+  // Synchronous decoding: a printer finds the picture as soon as the page is loaded.
   return element("img", {{"src", data_uri(type, bytes)}, {"alt", alt}, {"decoding", "sync"}});
 }
 

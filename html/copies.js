@@ -1,5 +1,5 @@
 "use strict";
-// Copies what is shown: tables for spreadsheets, Markdown and LaTeX, and diagrams as drawings.
+// Copies tables for spreadsheets, Markdown and LaTeX, and diagrams as pictures.
 (() => {
   const cells = (table) => [...table.rows].map((row) => [...row.cells].map((cell) => cell.textContent.trim()));
   const numeric = (table) => [...table.rows[0].cells].map((cell) => cell.classList.contains("number"));
@@ -7,7 +7,7 @@
 
   const forms = {
     CSV: (table) => {
-      // A spreadsheet would compute a text with such a begin.
+      // A spreadsheet would treat such a text as a formula.
       const plain = (text) => (/^'*[=+\-@\t\r]/.test(text) && Number.isNaN(Number(text)) ? `'${text}` : text);
       const cell = (text) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
       return cells(table).map((row) => row.map((text) => cell(plain(text))).join(",") + "\n").join("");
@@ -26,7 +26,7 @@
     },
   };
 
-  // The styles of a drawing are the page's; a drawing of its own must have them with it.
+  // Copy the styles of the page into the drawing, so that it stands alone.
   const drawn = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "opacity", "font-size",
     "font-family", "text-anchor", "paint-order"];
   function svg(figure) {
@@ -43,7 +43,7 @@
     return copy.outerHTML;
   }
 
-  /// The drawing as a picture of twice its size on the page, on its paper.
+  /// Renders a drawing as PNG, at twice its size on the page and on the page's background.
   async function png(figure) {
     const { width, height } = figure.querySelector("svg[role=img]").getBoundingClientRect();
     const picture = new Image();
@@ -59,7 +59,7 @@
     return new Promise((done) => canvas.toBlob(done));
   }
 
-  // Where the clipboard takes no pictures, it is saved.
+  // Copies the picture; saves it as a file if the clipboard accepts no pictures.
   async function givePng(button) {
     const picture = await png(button.closest("figure"));
     try {
@@ -80,7 +80,7 @@
     setTimeout(() => (button.textContent = name), 1500);
   }
 
-  // A page opened as a file may not use the clipboard everywhere; then the text is there, chosen, to be copied by hand.
+  // Copies text. Some browsers block the clipboard for local files; then the text is shown, selected, for manual copying.
   async function give(button, text) {
     try {
       await navigator.clipboard.writeText(text);

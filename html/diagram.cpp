@@ -9,13 +9,13 @@
 namespace drape::html {
 namespace {
 
-// Of a file [CSS pixels].
+// Layout of a file [CSS pixels].
 constexpr double margin = 20, least_width = 400, line_height = 20;
 constexpr double title_size = 15, label_size = 13;
-constexpr double letter = 0.56;  // width of a letter by its size, that of a wide font: the reader's is not known
+constexpr double letter = 0.56;  // letter width relative to the font size, for a wide font: the reader's is unknown
 constexpr double key_width = 24, key_gap = 8, entry_gap = 20;
 
-/// The text in lines of so many letters at most, unless a word has more.
+/// Wraps text to lines of at most `widest` letters; longer words stay whole.
 std::vector<std::string> wrapped(std::string_view text, double widest) {
   std::vector<std::string> lines;
   while (!text.empty()) {
@@ -31,7 +31,7 @@ std::vector<std::string> wrapped(std::string_view text, double widest) {
   return lines;
 }
 
-/// The style sheet with the light theme's colours in place of their names, which not every reader of SVG knows.
+/// Returns the style sheet with the light theme's colours in place of variables, which some SVG readers do not support.
 std::string plain_style() {
   std::string css(diagram_css);
   for (std::size_t at = 0; (at = css.find("var(", at)) != std::string::npos;) {
@@ -43,7 +43,7 @@ std::string plain_style() {
   return css;
 }
 
-/// Places the parts of a file one below another.
+/// Vertical layout of the parts of a file.
 class FileLayout {
  public:
   explicit FileLayout(double width) : width_(width) {}

@@ -15,30 +15,30 @@ struct LegendEntry {
   std::string label;
 };
 
-/// A drawing and the words around it, which a page and a file set each in its own way.
+/// A drawing and its texts, which pages and files lay out differently.
 struct Diagram {
-  std::string title;    ///< what it shows, in a sentence: also for who cannot see it
-  std::string y_title;  ///< of the vertical axis; stands above it
+  std::string title;    ///< description in a sentence, also for screen readers
+  std::string y_title;  ///< title of the vertical axis, above it
   std::vector<LegendEntry> legend;
-  double width = 0, height = 0;  ///< of the drawing [CSS pixels]
+  double width = 0, height = 0;  ///< size of the drawing [CSS pixels]
   Markup drawing;                ///< SVG
 };
 
-/// The drawing alone, inline in a page; it grows and shrinks with it.
+/// Returns the drawing alone, inline in a page; it scales with the page.
 /// @param more attributes of the svg element
 Markup inline_svg(const Diagram& diagram, const Attributes& more = {});
 
-/// A legend of a page; empty if it has no entries.
+/// Returns the legend for a page; empty without entries.
 Markup legend(const std::vector<LegendEntry>& entries);
 
-/// A file of its own: an SVG document with title, legend, axes and style, light, on white, in the reader's font without
-/// serifs.
+/// Returns a complete SVG document with title, legend, axes and style: light, on white, in the reader's sans-serif
+/// font.
 std::string svg_file(const Diagram& diagram);
 
-/// The letters of a text in UTF-8.
+/// Returns the number of letters in a UTF-8 text.
 double letters(std::string_view text);
 
-/// A number of a drawing.
+/// Formats a number for a drawing.
 std::string coordinate(double value);
 /// @param anchor "start", "middle" or "end"
 Markup svg_text(double x, double y, const std::string& anchor, const std::string& text, const Attributes& more = {});

@@ -10,36 +10,35 @@
 
 namespace drape::html {
 
-/// Several moments of a film in one picture: as a contact sheet, without gaps.
+/// Several moments of a film in one picture: a contact sheet without gaps.
 struct Strip {
-  std::string bytes;              ///< of a PNG file
-  int columns = 1;                ///< pictures in a row
-  int count = 1;                  ///< pictures
-  std::array<int, 2> size{1, 1};  ///< of one [pixels]
-  int poster = 0;                 ///< the picture that tells most
-  std::string alt;                ///< what it shows, for who cannot see it
+  std::string bytes;              ///< content of a PNG file
+  int columns = 1;                ///< pictures per row
+  int count = 1;                  ///< number of pictures
+  std::array<int, 2> size{1, 1};  ///< size of one picture [pixels]
+  int poster = 0;                 ///< index of the most informative picture
+  std::string alt;                ///< description for screen readers
 };
 
-/// One of its pictures, or all of them, as the strips() around it say.
+/// Returns one of the pictures or all of them, controlled by the enclosing strips().
 Markup strip(const Strip& strip);
 
-/// Whatever has strips in it. Each shows its poster, until they show the same moment: it plays, and a slider or the
-/// arrow keys choose it; or they are seen as contact sheets, as they are on paper. Without a script they show the
-/// first.
+/// Wraps content with strips. Each shows its poster until a common moment is chosen by playing, a slider or the arrow
+/// keys. Alternatively, and in print, they are contact sheets. Without scripts they show the first moment.
 /// @param moments their names, at least one: "t = 0.40 s"
 Markup strips(const std::string& id, const std::vector<std::string>& moments, const Markup& content);
 
-/// A table whose rows are put in another order by choosing a column's head.
+/// Returns a table whose column heads sort its rows.
 Markup sortable_table(const Table& table);
 
-/// Pieces of which one is seen: the one for what is chosen in each of the lists. Without a script all are seen.
+/// Pieces of which one is visible, selected by several lists. Without scripts all are visible.
 struct Choices {
-  std::vector<std::pair<std::string, std::vector<std::string>>> lists;  ///< their labels, and what they have
+  std::vector<std::pair<std::string, std::vector<std::string>>> lists;  ///< label and items of each list
   struct Piece {
-    std::vector<std::size_t> chosen;  ///< by list
+    std::vector<std::size_t> chosen;  ///< selected item of each list
     Markup content;
   };
-  std::vector<Piece> pieces;  ///< the first is seen first
+  std::vector<Piece> pieces;  ///< the first is visible initially
 };
 Markup choices(const std::string& id, const Choices& choices);
 

@@ -1,8 +1,8 @@
 "use strict";
-// Tables that are sorted, and pieces that are chosen.
+// Sortable tables, and pieces selected by lists.
 (() => {
   const all = (selector, root = document) => [...root.querySelectorAll(selector)];
-  // Numbers before words, and what has no value last.
+  // Numbers before words, empty cells last.
   const rank = (text) => (text === "" || text === "–" ? 2 : Number.isNaN(Number(text)) ? 1 : 0);
   const compare = (a, b) =>
     rank(a) - rank(b) || (rank(a) === 0 ? Number(a) - Number(b) : a.localeCompare(b, undefined, { numeric: true }));

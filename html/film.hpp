@@ -9,27 +9,27 @@
 
 namespace drape::html {
 
-/// A moment of a film: one picture for each of its panels, as the bytes of PNG files.
+/// A moment of a film: one picture for each panel, as bytes of PNG files.
 struct FilmMoment {
   std::string name;  ///< "t = 0.40 s"
   std::vector<std::string> pictures;
 };
 
-/// How many moments of a film or an animation a printed page shows at most.
+/// Most moments of a film or an animation on a printed page.
 inline constexpr std::size_t most_printed = 4;
 
-/// Which of `count` moments a printed page shows: evenly spread, the first and the last among them.
+/// Returns the moments out of `count` that a printed page shows: evenly spread, including the first and the last.
 /// @param count at least one
 std::set<std::size_t> printed_moments(std::size_t count);
 
-/// What plays the moments of the element `id` in which it stands: a button, a slider and the moment's name.
-/// @param names of the moments, at least one
-/// @param more  controls behind these
+/// Returns the controls of the enclosing element `id`: a play button, a slider and the moment's name.
+/// @param names names of the moments, at least one
+/// @param more  further controls
 Markup film_controls(const std::string& id, const std::vector<std::string>& names, const Markup& more = {});
 
-/// Panels side by side, as far as there is room, that show the same moment: it plays, and a slider or the arrow keys
-/// choose it. Without a script it shows the first, and on paper the printed_moments().
-/// @param labels  of the panels
+/// Returns panels side by side (wrapped to the width) that show the same moment, chosen by playing, a slider or the
+/// arrow keys. Without scripts they show the first moment, in print the printed_moments().
+/// @param labels  labels of the panels
 /// @param moments at least one, each with a picture for every label
 Markup film(const std::string& id, const std::vector<std::string>& labels, const std::vector<FilmMoment>& moments);
 

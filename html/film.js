@@ -1,7 +1,7 @@
 "use strict";
-// Films, whose panels show one moment, and strips, which do so wherever on the page they are.
+// Films with panels for one moment, and strips, which share a moment across the page.
 (() => {
-  /// Lets the controls of a film show its moments, by their numbers, and play them, one in so many milliseconds.
+  /// Connects a film's controls: show(i) shows the i-th moment; playing advances once per `interval` [ms].
   function player(root, interval, show) {
     const slider = root.querySelector("input[type=range]");
     const play = root.querySelector(".play");

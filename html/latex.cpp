@@ -11,8 +11,7 @@
 namespace drape::html {
 namespace {
 
-// In LaTeX as pandoc understands it, too, which leaves out macros that it does not know. µ, ° and ½ are letters of
-// every LaTeX since 2020.
+// LaTeX that pandoc understands as well; it drops unknown macros. µ, ° and ½ are letters of every LaTeX since 2020.
 constexpr auto signs = std::to_array<std::pair<std::string_view, std::string_view>>({
     {"\\", "\\textbackslash{}"},
     {"~", "\\textasciitilde{}"},
@@ -24,8 +23,8 @@ constexpr auto signs = std::to_array<std::pair<std::string_view, std::string_vie
     {"_", "\\_"},
     {"{", "\\{"},
     {"}", "\\}"},
-    {"--", "-{}-"},  // else a dash
-    {"[", "{[}"},    // after a line's end it would be an option
+    {"--", "-{}-"},  // otherwise a dash
+    {"[", "{[}"},    // otherwise an option after the end of a line
     {"]", "{]}"},
     {"*", "{*}"},
     {"<", "\\textless{}"},
@@ -63,7 +62,7 @@ constexpr auto signs = std::to_array<std::pair<std::string_view, std::string_vie
     {"\n", " "},
 });
 
-/// A text of JavaScript.
+/// Returns a JavaScript string literal.
 std::string quoted(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {

@@ -5,10 +5,10 @@
 
 namespace drape::html {
 
-/// A text that LaTeX sets as it is, whatever its fonts have.
+/// Escapes a text for LaTeX, with any font.
 std::string latex(std::string_view text);
 
-/// What latex() writes for signs, as an object of JavaScript: for scripts that write LaTeX.
+/// Returns the replacements of latex() as a JavaScript object, for scripts that write LaTeX.
 std::string latex_signs();
 
 }  // namespace drape::html

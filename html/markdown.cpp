@@ -31,7 +31,7 @@ std::string markdown_code(std::string_view text) {
     run = c == '`' ? run + 1 : 0;
     longest = std::max(longest, run);
   }
-  // A fence that is longer than every run of its sign within; the spaces belong to it (CommonMark, 6.1).
+  // The fence is longer than every run of backticks inside; the spaces belong to it (CommonMark, 6.1).
   const std::string fence(longest + 1, '`');
   return longest == 0 ? fence + code + fence : fence + " " + code + " " + fence;
 }

@@ -5,13 +5,13 @@
 
 namespace drape {
 
-/// The text as Markdown shows it, also in a cell of a table: on one line, and none of its signs means anything.
+/// Escapes a text for Markdown, also for table cells: on one line, without special characters.
 std::string markdown(std::string_view text);
 
-/// The text as code in a line of Markdown, whatever is in it.
+/// Returns a text as inline code in Markdown, with any content.
 std::string markdown_code(std::string_view text);
 
-/// A file's name as the target of a link (RFC 3986).
+/// Encodes a file name as the target of a link (RFC 3986).
 std::string link_target(std::string_view file);
 
 }  // namespace drape

@@ -1,7 +1,7 @@
 "use strict";
-// Unpacks the motion of a page, which output/motion_packer.cpp has packed. unpackMotion(description, base64) promises
-// the description with
-//   meshes    cloth first, with the uvs of its corners where it has a texture: { vertices, triangles, frames: an array of whole numbers for each, x, y, z of each vertex }
+// Unpacks the motion of a page, packed by output/motion_packer.cpp. unpackMotion(description, base64) returns a promise
+// of the description with
+//   meshes    cloth first, with the uvs of its corners if textured: { vertices, triangles, frames: an array of whole numbers for each, x, y, z of each vertex }
 //   strains   for each frame the logarithmic strain of each vertex
 //   balls     for each frame x, y, z and radius of each sphere
 //   planes    for each frame x, y, z of the normal and the height of each ground
@@ -31,7 +31,7 @@ const unpackMotion = (() => {
     }
   }
 
-  // The adjacent vertices of lower numbers: those of vertex i are list[begin[i]] to list[begin[i + 1] - 1].
+  // Finds the adjacent vertices of lower numbers: list[begin[i]] to list[begin[i + 1] - 1] for vertex i.
   function lowerNeighbours(triangles, vertices) {
     const sets = Array.from({ length: vertices }, () => new Set());
     for (let t = 0; t < triangles.length; t += 3) {
@@ -47,7 +47,7 @@ const unpackMotion = (() => {
     return { begin, list };
   }
 
-  // Whole numbers of vertices that change from frame to frame, see output/integer_track.hpp.
+  // Reads whole numbers per vertex and frame, see output/integer_track.hpp.
   class Track {
     constructor(triangles, vertices, columns) {
       this.neighbours = lowerNeighbours(triangles, vertices);
@@ -94,7 +94,7 @@ const unpackMotion = (() => {
     return triangles;
   }
 
-  // u and v of each corner of a triangle.
+  // Reads u and v of each corner of a triangle.
   function uvsOf(reader, corners) {
     const uvs = new Float32Array(2 * corners);
     const last = [0, 0];

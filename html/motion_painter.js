@@ -11,10 +11,10 @@ const MotionPainter = (() => {
 
   const vertexShader = `#version 300 es
     uniform mat4 projection;
-    uniform vec4 ball, plane;  // what is drawn is moved by ball.xyz and enlarged by ball.w; its shadow falls on a plane
+    uniform vec4 ball, plane;  // translation ball.xyz and scale ball.w of the object; plane of its shadow
     uniform vec3 sun;
     uniform bool flat_;
-    uniform float lift;  // towards the eye, of lines on a surface and of shadows on a ground
+    uniform float lift;  // offset towards the eye, for lines on a surface and shadows on a ground
     in vec3 position, normal;
     in float strain;
     in vec2 place;
@@ -34,8 +34,8 @@ const MotionPainter = (() => {
   const fragmentShader = `#version 300 es
     precision highp float;
     uniform vec3 eye, color, sun;
-    uniform float limit, grid, reach;  // above 0: of the colours; between the lines of a ground, which fades out
-    uniform vec4 paint;                // with an alpha above 0: a colour without light
+    uniform float limit, grid, reach;  // above 0: range of the colours; line distance and fade-out distance of a ground
+    uniform vec4 paint;                // alpha above 0: a colour without lighting
     uniform vec3 middle, across, along;
     uniform sampler2D scale, picture;
     uniform bool textured;
@@ -73,7 +73,7 @@ const MotionPainter = (() => {
       pixel = vec4(pow(base * light, vec3(1.0 / 2.2)) * alpha, alpha);
     }`;
 
-  /// A unit sphere of triangles.
+  /// Returns a unit sphere of triangles.
   function sphere() {
     const rings = 32, parts = 64, positions = [], triangles = [];
     for (let i = 0; i <= rings; ++i) {
@@ -87,7 +87,7 @@ const MotionPainter = (() => {
     return [new Float32Array(positions), new Uint32Array(triangles)];
   }
 
-  /// Both ends of each edge, once.
+  /// Returns both ends of each edge, once.
   function edgesOf(triangles, vertices) {
     const seen = new Set(), ends = [];
     for (let t = 0; t < triangles.length; t += 3) {
@@ -102,7 +102,7 @@ const MotionPainter = (() => {
     return new Uint32Array(ends);
   }
 
-  /// The normals of the vertices, weighted by area.
+  /// Computes vertex normals, weighted by area.
   function normalsOf(positions, triangles, normals) {
     normals.fill(0);
     for (let t = 0; t < triangles.length; t += 3) {
@@ -118,8 +118,8 @@ const MotionPainter = (() => {
     }
   }
 
-  /// The vertices of a mesh with one texture coordinate each: one that has several is repeated.
-  /// @returns for each of them the vertex of the mesh and u, v; and the triangles of them
+  /// Splits vertices of a mesh so that each has one texture coordinate.
+  /// @returns the original vertex and u, v of each split vertex, and the triangles
   function unfolded(triangles, uvs) {
     const known = new Map(), sources = [], places = [];
     const corners = triangles.map((vertex, corner) => {
@@ -134,7 +134,7 @@ const MotionPainter = (() => {
     return { sources, places: new Float32Array(places), corners };
   }
 
-  /// Numbers of a mesh's vertices as its surface shows them.
+  /// Maps values per mesh vertex to the split vertices of the surface.
   function spread(surface, numbers, columns) {
     if (!surface.unfolded) return numbers;
     const { sources } = surface.unfolded, all = new Float32Array(columns * sources.length);
@@ -144,7 +144,7 @@ const MotionPainter = (() => {
     return all;
   }
 
-  /// Coordinates are relative to the motion's origin.
+  /// Painter of a motion. Coordinates are relative to the motion's origin.
   return class {
     constructor(gl, motion) {
       this.gl = gl;
@@ -194,7 +194,7 @@ const MotionPainter = (() => {
       return buffer;
     }
 
-    /// @param uvs of the triangles' corners; none without a texture
+    /// @param uvs texture coordinates of the triangles' corners; none without a texture
     surface(positions, triangles, moves, uvs) {
       const { gl } = this;
       const s = { positions, triangles, normals: new Float32Array(positions.length), array: gl.createVertexArray(),
@@ -231,7 +231,7 @@ const MotionPainter = (() => {
       }
     }
 
-    /// The cloth's texture, an image that is loaded.
+    /// Sets the cloth's texture, a loaded image.
     makePicture(image) {
       const { gl } = this;
       gl.activeTexture(gl.TEXTURE1);
@@ -261,7 +261,7 @@ const MotionPainter = (() => {
       gl.enableVertexAttribArray(2);
     }
 
-    /// Puts everything where it is at a moment, which may lie between two frames.
+    /// Moves everything to its position at a moment, which may lie between two frames.
     place(moment) {
       const { motion, gl } = this;
       const frame = Math.min(Math.floor(moment), motion.frames - 1), next = Math.min(frame + 1, motion.frames - 1);
@@ -302,7 +302,7 @@ const MotionPainter = (() => {
       gl.drawElements(gl.TRIANGLES, s.triangles.length, gl.UNSIGNED_INT, 0);
     }
 
-    /// Everything but grounds, with more values for its shadow.
+    /// Draws everything except grounds; extra values turn it into its shadow.
     things(look, more = {}) {
       const { motion, gl } = this;
       this.surfaces.forEach((s, k) => {
@@ -320,7 +320,7 @@ const MotionPainter = (() => {
       }
     }
 
-    /// A plane relative to the origin: its normal and its height.
+    /// Returns a plane relative to the origin: its normal and its height.
     plane(i) {
       const normal = [...this.planes.subarray(i, i + 3)];
       return [...normal, this.planes[i + 3] - dot(normal, this.motion.origin)];

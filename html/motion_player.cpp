@@ -48,7 +48,7 @@ Markup data(const std::string& style, std::string text) {
   return element("script", {{"type", "text/plain"}, {"class", style}}, Markup::trusted(std::move(text)));
 }
 
-/// JSON that cannot end the element that it stands in.
+/// Escapes JSON so that it cannot end the enclosing element.
 std::string harmless(std::string json) {
   for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) json.replace(at, 1, "\\u003c");
   return json;

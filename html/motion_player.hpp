@@ -7,20 +7,20 @@
 
 namespace drape::html {
 
-/// A motion that a page can play, see output/motion_packer.hpp and motion_data.js.
+/// A motion for playback in a page, see output/motion_packer.hpp and motion_data.js.
 struct PlayedMotion {
   std::string description;  ///< JSON: sizes, times, colours
-  std::string data;         ///< its numbers, a zlib stream
-  std::string texture;      ///< of the cloth, a PNG file; empty: it has none
+  std::string data;         ///< numbers of the motion, a zlib stream
+  std::string texture;      ///< texture of the cloth, a PNG file; empty: none
   int frames = 0;
-  double precision = 0;  ///< coordinates are whole multiples of it [m]
-  double size = 0;       ///< diagonal of the box around the motion [m]
+  double precision = 0;  ///< unit of the coordinates [m]
+  double size = 0;       ///< diagonal of the motion's bounding box [m]
   std::size_t vertices = 0, triangles = 0;
 };
 
-/// A cloth to turn: WebGL shows a motion from any side, plays it, and colours it by its stretch. Without WebGL 2 or a
-/// script a sentence stands in its place.
-/// @param label of the canvas, for who cannot see it: "The cloth of scene 5"
+/// Returns an interactive WebGL view of a motion: it can be turned, played, and coloured by its stretch. Without WebGL
+/// 2 or scripts a sentence replaces it.
+/// @param label name of the canvas for screen readers: "The cloth of scene 5"
 Markup motion_player(const std::string& id, const PlayedMotion& motion, const std::string& label);
 
 /// Describes a motion's size and precision in a sentence.

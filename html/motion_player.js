@@ -1,18 +1,18 @@
 "use strict";
-// A cloth to turn: shows the motion of each ".turn" as soon as it is in the window.
+// Interactive view of a cloth: shows the motion of each ".turn" once it scrolls into the window.
 (() => {
   const { dot, cross, unit } = vectors;
   const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
-  const half = Math.tan((15 * Math.PI) / 180); // of the field of view, from top to bottom
+  const half = Math.tan((15 * Math.PI) / 180); // half of the vertical field of view
 
-  /// A camera that goes round the middle of a motion.
+  /// A camera that orbits the middle of a motion.
   class Orbit {
     constructor(motion) {
       this.motion = motion;
       this.box = [motion.lowest, motion.highest].map((corner) => corner.map((x, c) => x - motion.origin[c]));
       this.size = Math.max(Math.hypot(...this.box[1].map((x, c) => x - this.box[0][c])), 1e-6);
       this.points = this.sample();
-      this.fits = new Map(); // distances, by aspect
+      this.fits = new Map(); // camera distances, by aspect ratio
       this.reset();
     }
     reset() {
@@ -21,8 +21,8 @@
       this.zoom = 1;
       this.target = this.middle;
     }
-    /// Points that stand for the whole motion, some 20 000, along the right, the top and the back of the first view, from
-    /// their middle: x, y, z and the radius of a ball each.
+    /// Samples about 20 000 points of the whole motion, in axes right, top and back of the first view, relative to their
+    /// middle: x, y, z and the radius of a ball each.
     sample() {
       const { motion } = this, points = [];
       const axes = this.axes(motion.azimuth, motion.elevation);
@@ -55,7 +55,7 @@
       this.azimuth = (this.azimuth + azimuth + 540) % 360 - 180;
       this.elevation = clamp(this.elevation + elevation, -89, 89);
     }
-    /// At most 8 times as large: beyond it a pixel is smaller than the precision.
+    /// Zooms by up to 8 times: beyond it a pixel is smaller than the precision.
     enlarge(factor) {
       this.zoom = clamp(this.zoom * factor, 0.2, 8);
     }
@@ -65,7 +65,7 @@
       const right = [-Math.sin(a), Math.cos(a), 0];
       return [right, cross(back, right), back];
     }
-    /// The distance from which the whole motion is in the first view.
+    /// Computes the distance that fits the whole motion into the first view.
     distance(aspect) {
       if (!this.fits.has(aspect)) {
         let most = 0;
@@ -100,7 +100,7 @@
 
   const prefersDark = matchMedia("(prefers-color-scheme: dark)");
 
-  /// A player: the controls of a ".turn", and what they do.
+  /// A player: the controls of a ".turn" and their actions.
   class Player {
     constructor(root, motion) {
       this.root = root;
@@ -176,7 +176,7 @@
       }
     }
 
-    /// One pointer turns, or moves with a key or another button; two move and enlarge.
+    /// Handles pointers: one turns, or moves with a key or another button; two move and zoom.
     drag(event) {
       const before = this.pointers.get(event.pointerId);
       if (!before) return;

@@ -11,7 +11,7 @@
 namespace drape::html {
 namespace {
 
-// A browser that obeys this cannot reach the network, whatever is in the page.
+// Blocks all network access of the page, whatever its content.
 constexpr const char* policy =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; form-action 'none'; "
     "base-uri 'none'";

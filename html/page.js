@@ -1,11 +1,11 @@
 "use strict";
-// What every page of drape can do: copy commands, compare pictures, and point at a diagram's points.
+// Functions of every page: copying commands, comparing pictures, and tooltips at a diagram's points.
 (() => {
   const all = (selector, root = document) => [...root.querySelectorAll(selector)];
 
   // Commands.
 
-  // A page opened as a file may not use the clipboard; then the command is selected, ready to be copied.
+  // Some browsers block the clipboard for local files; then the command is selected for manual copying.
   async function copy(button) {
     const code = button.parentElement.querySelector("code");
     try {
@@ -19,7 +19,7 @@
   }
   all(".copy").forEach((button) => button.addEventListener("click", () => copy(button)));
 
-  // Compared pictures.
+  // Picture comparison.
 
   const blinkInterval = 700; // ms
   const still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -74,10 +74,10 @@
 
   // Diagrams.
 
-  const reach = 40; // px: how far from a point it still counts as pointed at
+  const reach = 40; // px: largest distance between pointer and point
   const tip = document.getElementById("tip");
   let pinned = null;
-  let tipped = null; // the point that the tip is about, while it is seen
+  let tipped = null; // point of the visible tip
 
   function placeTip() {
     const at = tipped.querySelector(".sign").getBoundingClientRect();
@@ -175,7 +175,7 @@
     });
   }
   all(".chart > svg").forEach(setUpChart);
-  // Focusing a diagram scrolls to it, which is reported later than the key that comes next: the tip goes along.
+  // Focusing a diagram scrolls, and the scroll event may follow the next key: move the tip along.
   const follow = () => tip.hidden || placeTip();
   addEventListener("scroll", follow, { passive: true });
   addEventListener("resize", follow, { passive: true });

@@ -6,8 +6,8 @@
 
 namespace drape {
 
-/// The time that drape writes into the comment of a mesh file, "drape: frame 3 at 0.12 s" [s]; nothing where there is
-/// none in the first lines.
+/// Returns the time in drape's comment in a mesh file, "drape: frame 3 at 0.12 s" [s]; nothing unless it is in the
+/// first lines.
 inline std::optional<double> time_in_comment(std::string_view text) {
   constexpr std::string_view begin = "drape: frame ", at = " at ";
   text = text.substr(0, 400);

@@ -18,7 +18,7 @@ namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
-/// An OBJ whose numbers are read back to the bit.
+/// Formats an OBJ with numbers that can be read back exactly.
 std::string exact_obj(const Mesh& mesh) {
   std::string text;
   const auto out = std::back_inserter(text);
@@ -35,7 +35,7 @@ std::string exact_obj(const Mesh& mesh) {
   return text;
 }
 
-/// Writes the scene that a motion without physics is drawn by.
+/// Writer of the scene that an imported motion needs for drawing.
 class ImportedScene {
  public:
   ImportedScene(const fs::path& folder, const TimeGrid& grid) : folder_(folder), grid_(grid) {}
@@ -67,7 +67,7 @@ class ImportedScene {
     for (const auto& body : colliders.bodies) add_body(*body);
   }
 
-  /// A body that moves with the frames of the cloth, or rests.
+  /// Adds a body that moves with the frames of the cloth, or rests.
   void add_body(MotionSource& body) {
     if (body.count() != 1 && body.count() != grid_.steps.size()) {
       fail_import(body.name(), fmt::format("it has {} frames; a body has one, or as many as the cloth, {}",
@@ -124,12 +124,12 @@ class ImportedScene {
   int bodies_ = 0;
 };
 
-/// Hands out the moments of a motion with velocities: those of its files, or central differences.
+/// Iterator over a motion's moments with velocities: those of its files, or central differences.
 class Differences {
  public:
   Differences(MotionSource& source, const TimeGrid& grid) : source_(source), grid_(grid) { after_ = source.moment(0); }
 
-  /// The next moment.
+  /// Returns the next moment.
   ImportedMoment next() {
     before_ = std::move(now_.x);
     now_ = std::move(after_);
@@ -152,7 +152,7 @@ class Differences {
   const TimeGrid& grid_;
   Vertices before_;
   ImportedMoment now_, after_;
-  std::size_t index_ = 0;  // of the moment after
+  std::size_t index_ = 0;  // of after_
 };
 
 std::uint64_t write(const fs::path& file, const Scene& scene, MotionSource& cloth, const TimeGrid& grid,
@@ -189,7 +189,7 @@ std::uint64_t write(const fs::path& file, const Scene& scene, MotionSource& clot
   }
 }
 
-/// Opens a motion or a body in metres with z up.
+/// Opens a motion or a body, converted to metres with z up.
 std::unique_ptr<MotionSource> open_upright(const std::string& file, const std::string& mesh, const std::string& prim,
                                            const ImportAxes& axes) {
   const std::string ending = lower_ending(file);
@@ -199,7 +199,7 @@ std::unique_ptr<MotionSource> open_upright(const std::string& file, const std::s
   return with_axes(open_motion_source(file, mesh, prim), axes);
 }
 
-/// Loads the scene, whose problems are those of the cloth's file.
+/// Loads the scene; problems name the cloth's file.
 Scene load_scene_of(const ImportedScene& text, const MotionSource& cloth, const fs::path& folder) {
   try {
     return text.load();

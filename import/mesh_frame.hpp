@@ -10,7 +10,7 @@
 
 namespace drape {
 
-/// A file that holds one moment of a motion.
+/// The content of a file with one moment of a motion.
 struct MeshFrame {
   Mesh mesh;
   std::optional<double> time = {};  ///< [s]
@@ -18,18 +18,18 @@ struct MeshFrame {
   std::optional<Energies> energies = {};
   std::vector<Eigen::Vector4d> spheres = {}, grounds = {};  ///< centre and radius; normal and height
   std::vector<Mesh> bodies = {};
-  std::optional<std::uint64_t> polygons = {};  ///< a hash of the faces, where the triangles depend on their shape
+  std::optional<std::uint64_t> polygons = {};  ///< hash of the faces, if their shape determines the triangles
 };
 
-/// Turns faces of any number of corners into the triangles of a mesh whose positions are known.
-/// @param sizes   corners of each face
-/// @param corners of all faces, one face after another; numbers of vertices
-/// @throws UsageError "name: …" if a face has fewer than three corners, or one that is no vertex
+/// Triangulates faces with any number of corners and adds them to a mesh with known positions.
+/// @param sizes   corners per face
+/// @param corners vertices of all faces in sequence
+/// @throws UsageError "name: …" if a face has fewer than three corners, or an invalid vertex
 void add_faces(const std::string& name, const std::vector<std::size_t>& sizes, const std::vector<double>& corners,
                Mesh& mesh);
 
-/// Rows of three numbers.
-/// @throws UsageError if there are not three for each vertex
+/// Groups numbers into rows of three.
+/// @throws UsageError unless there are three for each vertex
 Vertices vertices_of(const std::string& name, const std::vector<double>& numbers);
 
 }  // namespace drape

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t most_bytes_of_frame = 4'000'000'000;
 
-/// A hash of the vertices of all polygons of an OBJ, which a reader divides as their shape suggests.
+/// Hashes the vertices of all polygons of an OBJ, whose triangulation depends on their shape.
 std::uint64_t polygons_of(std::string_view text) {
   Hash hash;
   for (std::size_t at = 0; at < text.size();) {
@@ -29,7 +29,7 @@ std::uint64_t polygons_of(std::string_view text) {
     std::string_view line = text.substr(at, end - at);
     at = end + 1;
     if (!line.starts_with("f ") && !line.starts_with("f\t")) continue;
-    bool in_vertex = true;  // before its slashes
+    bool in_vertex = true;  // before the slashes
     for (const char c : line) {
       const bool space = c == ' ' || c == '\t' || c == '\r';
       in_vertex = space || (in_vertex && c != '/');
@@ -39,7 +39,7 @@ std::uint64_t polygons_of(std::string_view text) {
   return hash.value();
 }
 
-/// An OBJ; of one that drape has written, its cloth and, as bodies, its other objects.
+/// Reads an OBJ. If drape has written it, its other objects become bodies.
 MeshFrame read_obj_frame(const fs::path& file) {
   const SourceText source = SourceText::read(file);
   MeshFrame frame{.mesh = {}, .time = time_in_comment(source.text())};
@@ -71,8 +71,8 @@ class MeshSequence final : public MotionSource {
   [[nodiscard]] const Mesh& mesh() const override { return first_.mesh; }
   [[nodiscard]] std::size_t count() const override { return files_.size(); }
 
-  /// Times are in the files themselves, which would have to be read twice: those of the first two tell how far apart
-  /// all are, and a .pvd tells all.
+  /// Returns the times in the files; empty unless the first two and the last have valid ones. Reading them all costs
+  /// an extra pass, which a .pvd avoids.
   [[nodiscard]] std::vector<double> times() override {
     if (!first_.time || files_.size() < 2) return {};
     const std::optional<double> second = read_mesh_frame(files_[1]).time, last = read_mesh_frame(files_.back()).time;
@@ -87,7 +87,7 @@ class MeshSequence final : public MotionSource {
 
   [[nodiscard]] ImportedMoment moment(std::size_t i) override {
     MeshFrame frame = i == 0 ? first_ : read_mesh_frame(files_[i]);
-    // A quad that bends may be divided along its other diagonal.
+    // Keep the first triangulation: a bending quad might be split along its other diagonal.
     if (frame.polygons && frame.polygons == first_.polygons) frame.mesh.triangles = first_.mesh.triangles;
     require_same_mesh(files_[i].string(), first_.mesh, frame.mesh);
     return {.x = std::move(frame.mesh.positions), .v = std::move(frame.velocities), .energies = frame.energies};
@@ -101,7 +101,7 @@ class MeshSequence final : public MotionSource {
   MeshFrame first_;
 };
 
-/// The k-th body of a sequence's files.
+/// The k-th body in the files of a sequence.
 class BodyOfSequence final : public MotionSource {
  public:
   BodyOfSequence(std::vector<fs::path> files, std::size_t k, Mesh first)

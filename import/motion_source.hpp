@@ -11,55 +11,54 @@
 
 namespace drape {
 
-/// A moment of a motion that was made elsewhere.
+/// A moment of an imported motion.
 struct ImportedMoment {
   Vertices x;       ///< n×3 [m]
-  Vertices v = {};  ///< n×3 [m/s]; empty where the file does not say it
+  Vertices v = {};  ///< n×3 [m/s]; empty if unknown
   std::optional<Energies> energies = {};
 };
 
-/// Spheres, or planes, that are at a place in each moment.
+/// Positions of spheres or planes in each moment.
 struct ImportedShapes {
-  /// For each moment and each shape four numbers: centre and radius, or normal and height. Empty: there is none.
+  /// Four numbers for each moment and each shape: centre and radius, or normal and height. Empty: no shapes.
   std::vector<std::vector<Eigen::Vector4d>> by_moment = {};
 };
 
 class MotionSource;
 
-/// Things around a cloth that a file holds beside its motion.
+/// Objects beside the cloth in an imported file.
 struct ImportedColliders {
   ImportedShapes spheres = {}, grounds = {};
   std::vector<std::shared_ptr<MotionSource>> bodies = {};
 };
 
-/// A motion in a file or files, read a moment at a time. All that is wrong with the files is a UsageError that names
-/// the file.
+/// A motion in a file or files, read one moment at a time. Errors in the files are UsageErrors that name the file.
 class MotionSource {
  public:
   virtual ~MotionSource() = default;
 
-  /// The name of the file or files, for messages.
+  /// Returns the name of the file or files, for messages.
   [[nodiscard]] virtual const std::string& name() const = 0;
-  /// The mesh at the first moment.
+  /// Returns the mesh at the first moment.
   [[nodiscard]] virtual const Mesh& mesh() const = 0;
-  /// The number of moments, at least 1.
+  /// Returns the number of moments, at least 1.
   [[nodiscard]] virtual std::size_t count() const = 0;
-  /// The times of the moments [s], as far as they are known before they are read; empty: the file does not say them.
+  /// Returns the times of the moments [s]; empty if they are unknown before reading.
   [[nodiscard]] virtual std::vector<double> times() { return {}; }
-  /// The i-th moment. They are asked for in order, each once.
-  /// @throws UsageError if it is cut short, has another number of vertices or other triangles, or is not finite
+  /// Returns the i-th moment. Callers request each moment once, in order.
+  /// @throws UsageError if it is incomplete or non-finite, or the number of vertices or the triangles have changed
   [[nodiscard]] virtual ImportedMoment moment(std::size_t i) = 0;
-  /// Positions at rest [m], where the file says them.
+  /// Returns rest positions [m], if known.
   [[nodiscard]] virtual std::optional<Vertices> rest() { return std::nullopt; }
-  /// The frames per second of the film, where the file says it.
+  /// Returns the frames per second of the film, if known.
   [[nodiscard]] virtual std::optional<double> fps() { return std::nullopt; }
   [[nodiscard]] virtual ImportedColliders colliders() { return {}; }
 };
 
-/// @throws UsageError "name: …" naming the vertex, if one is not finite or beyond 10¹⁰⁰ m
+/// @throws UsageError "name: …" naming the vertex, if a coordinate is non-finite or beyond 10¹⁰⁰ m
 void require_finite(const std::string& name, const Vertices& x);
 
-/// Names the file in the messages of readers.
+/// Throws a UsageError that names the file.
 [[noreturn]] void fail_import(const std::string& name, const std::string& message);
 
 }  // namespace drape

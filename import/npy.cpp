@@ -12,7 +12,7 @@
 namespace drape {
 namespace {
 
-/// "<f8"; nothing if it is no number that is read.
+/// Parses a type such as "<f8"; returns nothing for unsupported types.
 std::optional<NumberType> numpy_type(const std::string& text) {
   if (text.size() != 3) return std::nullopt;
   const auto size = static_cast<std::size_t>(text[2] - '0');

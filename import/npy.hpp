@@ -11,24 +11,24 @@
 
 namespace drape {
 
-/// An array of an .npz, whose rows are read one after another.
+/// An array of an .npz, read row by row.
 class NpyStream {
  public:
-  /// @throws UsageError "file: array: message" if it is no array of numbers in C's order
+  /// @throws UsageError "file: array: message" unless it is an array of numbers in C order
   NpyStream(const ZipReader& zip, const ZipReader::Member& member);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::vector<std::size_t>& shape() const { return shape_; }
-  /// The length of the first axis; 1 of a single number.
+  /// Returns the length of the first axis; 1 for a single number.
   [[nodiscard]] std::size_t rows() const { return shape_.empty() ? 1 : shape_.front(); }
-  /// The numbers of a row; of records those of all fields.
+  /// Returns the numbers per row; for records those of all fields.
   [[nodiscard]] std::size_t row_size() const;
-  /// The fields of records; empty: it holds plain numbers.
+  /// Returns the fields of records; empty for plain numbers.
   [[nodiscard]] const std::vector<std::string>& fields() const { return fields_; }
 
-  /// The next row.
+  /// Reads the next row.
   [[nodiscard]] std::vector<double> row();
-  /// All rows that are left.
+  /// Reads all remaining rows.
   [[nodiscard]] std::vector<double> rest();
 
   [[noreturn]] void fail(const std::string& message) const;
@@ -44,7 +44,7 @@ class NpyStream {
   std::size_t next_ = 0;
 };
 
-/// The array of the first of some names that an archive has; null if it has none of them.
+/// Returns the array of the first name that the archive contains; null if it has none of them.
 /// @throws UsageError as NpyStream
 std::unique_ptr<NpyStream> array_named(const ZipReader& zip, std::initializer_list<std::string> names);
 

@@ -31,7 +31,7 @@ class NpzMotion final : public MotionSource {
     add_faces(faces->name(), std::vector<std::size_t>(faces->rows(), faces->row_size()), corners, mesh_);
   }
 
-  /// Adds what an archive holds beside the positions of a cloth.
+  /// Reads the archive's other arrays for a cloth.
   void read_more() {
     velocities_ = array_named(*zip_, {"velocities"});
     if (velocities_ && velocities_->shape() != positions_->shape()) velocities_ = nullptr;

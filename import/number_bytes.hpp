@@ -9,17 +9,17 @@
 
 namespace drape {
 
-/// A number's type in a file.
+/// Type of a number in a file.
 struct NumberType {
   enum class Kind { integer, natural, real };
 
   Kind kind = Kind::real;
-  std::size_t size = 8;     ///< [bytes]: 1, 2, 4 or 8; of a real 4 or 8
-  bool big_endian = false;  ///< the most significant byte first
+  std::size_t size = 8;     ///< [bytes]: 1, 2, 4 or 8; 4 or 8 for real
+  bool big_endian = false;  ///< most significant byte first
 };
 
-/// The number that bytes hold.
-/// @param bytes type.size of them
+/// Decodes a number.
+/// @param bytes type.size bytes
 inline double number_at(const char* bytes, const NumberType& type) {
   char ordered[8] = {};
   std::memcpy(ordered, bytes, type.size);
@@ -46,7 +46,7 @@ inline double number_at(const char* bytes, const NumberType& type) {
                           : as(std::uint64_t{});
 }
 
-/// All numbers that stand one after another in bytes; what is left over at the end is passed over.
+/// Decodes consecutive numbers; ignores an incomplete one at the end.
 inline std::vector<double> numbers_in(std::string_view bytes, const NumberType& type) {
   std::vector<double> numbers(bytes.size() / type.size);
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = number_at(bytes.data() + i * type.size, type);

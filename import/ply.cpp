@@ -16,7 +16,7 @@ namespace {
 struct PlyProperty {
   std::string name;
   NumberType type;
-  std::optional<NumberType> count = {};  // of a list
+  std::optional<NumberType> count = {};  // length type of a list
 };
 
 struct PlyElement {

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<std::string_view, 5> mesh_endings{".obj", ".ply", ".vtp", ".vtu", ".vtk"};
 constexpr std::array<std::string_view, 5> film_endings{".npz", ".pc2", ".pvd", ".usda", ".usd"};
 
-/// A motion in other coordinates.
+/// A motion converted to other coordinates.
 class Turned final : public MotionSource {
  public:
   Turned(std::shared_ptr<MotionSource> source, const ImportAxes& axes) : source_(std::move(source)), axes_(axes) {
@@ -77,7 +77,7 @@ Vertices stacked(const Vertices& above, const Vertices& below) {
   return all;
 }
 
-/// Two motions whose meshes are one.
+/// Two motions with their meshes joined into one.
 class Joined final : public MotionSource {
  public:
   Joined(std::unique_ptr<MotionSource> first, std::unique_ptr<MotionSource> second)

@@ -8,47 +8,47 @@
 
 namespace drape {
 
-/// A sequence of mesh files (.obj, .ply, .vtp, .vtu, .vtk), "meshes/{frame:04}.obj", or a single one. A file is read
-/// when its moment is asked for.
+/// Opens a sequence of mesh files (.obj, .ply, .vtp, .vtu, .vtk), "meshes/{frame:04}.obj", or a single one. A file is
+/// read on request of its moment.
 std::unique_ptr<MotionSource> open_mesh_sequence(const std::filesystem::path& file);
 
-/// A ParaView collection (.pvd) of .vtp files. Its part 0 is the cloth; other parts are bodies, unless the files of the
-/// cloth name the spheres and grounds that drape draws there.
+/// Opens a ParaView collection (.pvd) of .vtp files. Part 0 is the cloth. Other parts are bodies, unless the cloth's
+/// files contain the spheres and grounds as drape writes them.
 std::unique_ptr<MotionSource> open_pvd(const std::filesystem::path& file);
 
-/// numpy's arrays (.npz): positions, f×n×3, and faces; if there are any, times, velocities, energies, rest, uvs, fps,
-/// spheres, grounds, and bodyK_positions with bodyK_faces. An array that is compressed is read as a stream.
+/// Opens an archive of numpy arrays (.npz): positions, f×n×3, and faces; optionally times, velocities, energies, rest,
+/// uvs, fps, spheres, grounds, and bodyK_positions with bodyK_faces. Compressed arrays are read as streams.
 std::unique_ptr<MotionSource> open_npz(const std::filesystem::path& file);
 
-/// A point cache (.pc2), whose faces are in a mesh file.
+/// Opens a point cache (.pc2), whose faces are in a mesh file.
 /// @param mesh empty: the .obj of the same name beside it
 std::unique_ptr<MotionSource> open_pc2(const std::filesystem::path& file, const std::filesystem::path& mesh);
 
-/// A Mesh of an ASCII USD file, in metres with z up. Of its samples of points only the places are in memory. Spheres
-/// and Planes are spheres and grounds.
-/// @param prim its path; empty: the one that is called Cloth, or the only one. Other meshes are bodies then.
+/// Opens a Mesh of an ASCII USD file, in metres with z up. Only the places of its point samples are in memory. Spheres
+/// and Planes become spheres and grounds.
+/// @param prim path; empty: the Mesh called Cloth, or the only one. Other meshes become bodies then.
 std::unique_ptr<MotionSource> open_usd(const std::filesystem::path& file, const std::string& prim);
 
-/// How a file's coordinates become metres with z up.
+/// Conversion of a file's coordinates to metres with z up.
 struct ImportAxes {
-  bool y_up = false;  ///< (x, y, z) becomes (x, −z, y)
-  double scale = 1;   ///< metres of its unit
+  bool y_up = false;  ///< true: (x, y, z) becomes (x, −z, y)
+  double scale = 1;   ///< metres per unit of the file
 };
 
-/// Opens a motion of any of the formats above, which its name says.
-/// @param mesh of a .pc2
-/// @param prim of a .usda
-/// @throws UsageError also for a name that is none of them
+/// Opens a motion in any of the formats above, by its name.
+/// @param mesh mesh file of a .pc2
+/// @param prim prim of a .usda
+/// @throws UsageError also for an unknown format
 std::unique_ptr<MotionSource> open_motion_source(const std::filesystem::path& file, const std::filesystem::path& mesh,
                                                  const std::string& prim);
-/// Returns true if a name is that of a motion that can be imported: a film or a sequence, or a single mesh.
+/// Returns true for the name of an importable motion: a film, a sequence, or a single mesh.
 bool is_importable(const std::filesystem::path& file);
 
-/// The same motion in metres with z up.
+/// Converts a motion to metres with z up.
 std::unique_ptr<MotionSource> with_axes(std::unique_ptr<MotionSource> source, const ImportAxes& axes);
 
-/// Several cloths as one mesh, one after another.
-/// @throws UsageError if they do not have as many moments
+/// Joins several cloths into one mesh, in sequence.
+/// @throws UsageError if their numbers of moments differ
 std::unique_ptr<MotionSource> joined(std::vector<std::unique_ptr<MotionSource>> sources);
 
 }  // namespace drape

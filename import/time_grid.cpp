@@ -11,10 +11,10 @@ namespace drape {
 namespace {
 
 constexpr double usual_fps = 25;
-constexpr double on_a_step = 0.02;  // of a step: times may be written with few digits
+constexpr double on_a_step = 0.02;  // fraction of a step; files may round their times
 constexpr double most_steps = 1e9;
 
-/// The speed at which a film of so many frames per second shows each step, to the bit where there is such a number.
+/// Returns the film speed that shows one step per frame, exactly if such a number exists.
 double speed_of(double step, double fps) {
   const double about = step * fps;
   for (const double speed : {about, std::nextafter(about, 0), std::nextafter(about, HUGE_VAL)}) {
@@ -23,7 +23,7 @@ double speed_of(double step, double fps) {
   return about;
 }
 
-/// The film that shows a step in each of its frames, unless steps are too short or too long for that.
+/// Chooses a film with one frame per step, unless the steps are too short or too long.
 void choose_film(TimeGrid& grid, std::optional<double> of_file) {
   constexpr double slowest = 4, fastest = 120;
   const double rate = 1 / grid.step;

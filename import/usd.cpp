@@ -11,7 +11,7 @@ namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
-/// Where the prims of a type are at the times of a motion.
+/// Returns the shapes of all prims of a type at the given times.
 template <class Row>
 ImportedShapes shapes_of(const UsdStage& stage, const char* type, const std::vector<double>& times, Row row_of) {
   ImportedShapes shapes;
@@ -25,7 +25,7 @@ ImportedShapes shapes_of(const UsdStage& stage, const char* type, const std::vec
   return shapes;
 }
 
-/// The spheres of a stage. One keeps the radius that it has first.
+/// Returns the spheres of a stage. Each keeps its initial radius.
 ImportedShapes spheres_of(const UsdStage& stage, const std::vector<double>& times) {
   return shapes_of(stage, "Sphere", times, [](const UsdPrim&, const TransformTrack& track, double time) {
     const SphereShape sphere = track.sphere_at(time);
@@ -33,7 +33,7 @@ ImportedShapes spheres_of(const UsdStage& stage, const std::vector<double>& time
   });
 }
 
-/// Which of its own axes a Plane is perpendicular to.
+/// Returns the axis of its own that a Plane is perpendicular to.
 Eigen::Vector3d axis_of(const UsdPrim& plane) {
   const UsdAttribute* axis = plane.find("axis");
   if (axis == nullptr || axis->first() == nullptr) return Eigen::Vector3d::UnitZ();
@@ -44,18 +44,18 @@ Eigen::Vector3d axis_of(const UsdPrim& plane) {
   axis->first()->place.fail("axis: expected \"X\", \"Y\" or \"Z\"");
 }
 
-/// The planes of a stage, each as a ground without end, as simulators of rigid bodies take them.
+/// Returns the planes of a stage as infinite grounds, as rigid-body simulators treat them.
 ImportedShapes grounds_of(const UsdStage& stage, const std::vector<double>& times) {
   return shapes_of(stage, "Plane", times, [](const UsdPrim& plane, const TransformTrack& track, double time) {
     const Eigen::Affine3d to_world = track.at(time);
-    // A normal goes by the inverse transpose.
+    // Normals transform by the inverse transpose.
     const Eigen::Vector3d normal = (to_world.linear().inverse().transpose() * axis_of(plane)).normalized();
     if (!normal.allFinite()) plane.place.fail("its transform leaves no plane of it");
     return Eigen::Vector4d(normal.x(), normal.y(), normal.z(), normal.dot(to_world.translation()));
   });
 }
 
-/// A file that is open: what it says beside the samples of points, which stay in it.
+/// An open file, without its point samples, which stay on disk.
 struct OpenStage {
   SourceText source;
   UsdStage stage;
@@ -64,7 +64,7 @@ struct OpenStage {
       : source(SourceText::open(file)), stage(source, {.moving_points = true, .located_points = true}) {}
 };
 
-/// A mesh whose points are read a sample at a time.
+/// A mesh whose points are read one sample at a time.
 class UsdMotion final : public MotionSource {
  public:
   UsdMotion(std::string name, std::shared_ptr<const OpenStage> open, const std::string& prim)

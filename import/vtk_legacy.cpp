@@ -18,7 +18,7 @@ class LegacyReader {
 
   MeshFrame read() {
     if (!line().starts_with("# vtk DataFile")) fail("it is no legacy VTK file: it does not begin with # vtk DataFile");
-    line();  // a title
+    line();  // title
     const std::string format = upper(word());
     if (format != "ASCII" && format != "BINARY") fail(fmt::format("expected ASCII or BINARY, found {}", format));
     binary_ = format == "BINARY";
@@ -101,14 +101,14 @@ class LegacyReader {
       for (std::size_t i = 0; i < amount; ++i) found.push_back(number());
       return found;
     }
-    line();  // what is left of the words before
+    line();  // rest of the line
     if (amount > rest_.size() / of.size) fail("it is cut short");
     found = numbers_in(rest_.substr(0, amount * of.size), of);
     rest_.remove_prefix(amount * of.size);
     return found;
   }
 
-  /// Reads what follows its name. @returns whether there may be more that counts
+  /// Reads the section of this name. @returns false after the last useful section
   bool section(const std::string& name) {
     constexpr NumberType ints{NumberType::Kind::integer, 4, true};
     if (name == "POINTS") {
@@ -129,7 +129,7 @@ class LegacyReader {
     } else if (name == "VERTICES" || name == "LINES" || name == "TRIANGLE_STRIPS") {
       fail(fmt::format("it has {}: expected polygons alone", name));
     } else {
-      return false;  // data of points and cells
+      return false;  // point or cell data
     }
     return true;
   }
@@ -138,7 +138,7 @@ class LegacyReader {
     constexpr NumberType ints{NumberType::Kind::integer, 4, true};
     const std::size_t cells = count(), amount = count();
     const std::string_view before = rest_;
-    if (skip_blanks() && upper(rest_.substr(0, 7)) == "OFFSETS") {  // version 5: one offset more than cells
+    if (skip_blanks() && upper(rest_.substr(0, 7)) == "OFFSETS") {  // version 5: offsets has one entry more than cells
       word();
       const std::vector<double> offsets = numbers(cells, type(word()));
       if (upper(word()) != "CONNECTIVITY") fail("expected CONNECTIVITY");

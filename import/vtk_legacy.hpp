@@ -7,9 +7,9 @@
 
 namespace drape {
 
-/// Reads a legacy VTK file (.vtk), ASCII or binary: the points and polygons of POLYDATA, or of an UNSTRUCTURED_GRID
-/// whose cells are polygons. What else it holds is passed over.
-/// @param name of the file, for messages
+/// Reads a legacy VTK file (.vtk), ASCII or binary: the points and polygons of POLYDATA, or of an UNSTRUCTURED_GRID of
+/// polygons. Other content is ignored.
+/// @param name file name for messages
 /// @throws UsageError "name: message"
 MeshFrame read_vtk_legacy(const std::string& name, std::string_view text);
 

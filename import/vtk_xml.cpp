@@ -17,7 +17,7 @@ namespace {
 
 using Element = tinyxml2::XMLElement;
 
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 32;  // of an array
+constexpr std::uint64_t most_bytes = std::uint64_t{1} << 32;  // limit of an array
 
 std::string attribute(const Element& of, const char* key) {
   const char* const text = of.Attribute(key);
@@ -36,7 +36,7 @@ std::optional<NumberType> vtk_type(const std::string& name) {
   return found == types.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// The value of a letter of base64; −1 for any other character.
+/// Returns the value of a base64 letter; −1 for any other character.
 int base64_value(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;
@@ -62,7 +62,7 @@ class VtkXml {
   [[noreturn]] void fail(const std::string& message) const { fail_import(name_, message); }
   [[nodiscard]] const Element& root() const { return *root_; }
 
-  /// The numbers of a DataArray.
+  /// Returns the numbers of a DataArray.
   [[nodiscard]] std::vector<double> numbers(const Element& array) const {
     std::optional<NumberType> type = vtk_type(attribute(array, "type"));
     if (!type)
@@ -76,7 +76,7 @@ class VtkXml {
   }
 
  private:
-  /// Keeps raw or encoded bytes behind the underscore of AppendedData apart, as they need not be XML.
+  /// Cuts out the bytes behind the underscore of AppendedData, raw or encoded, as they may be invalid XML.
   std::string cut_out_appended(const std::string& text) {
     const std::size_t element = text.find("<AppendedData");
     if (element == std::string::npos) return text;
@@ -119,13 +119,13 @@ class VtkXml {
     return raw_ ? block(array, from) : encoded(array, from);
   }
 
-  /// Bytes in base64, of which a head of sizes may be encoded by itself.
+  /// Decodes base64. A header of sizes may be encoded separately.
   [[nodiscard]] std::string encoded(const Element& array, std::string_view text) const {
     std::string bytes;
     std::uint32_t bits = 0;
     int count = 0;
     for (const char c : text) {
-      if (c == '=') {  // the end of a part: what follows begins anew
+      if (c == '=') {  // end of a part: start again
         bits = 0;
         count = 0;
         continue;
@@ -155,7 +155,7 @@ class VtkXml {
     fail(fmt::format("the array {} is cut short", attribute(array, "Name")));
   }
 
-  /// The bytes behind their size, or behind the sizes of their compressed pieces.
+  /// Returns the bytes of a block after its size, or uncompresses its pieces after their sizes.
   [[nodiscard]] std::string block(const Element& array, std::string_view bytes) const {
     const std::uint64_t first = size_at(array, bytes, 0);
     if (!compressed_) {
@@ -231,7 +231,7 @@ void read_polygons(const VtkXml& file, const std::string& name, const Element* c
   add_faces(name, sizes, file.numbers(*corners), mesh);
 }
 
-/// Those that the point data say are texture coordinates, one pair for each vertex.
+/// Reads the point data marked as texture coordinates, one pair for each vertex.
 void read_texture_coordinates(const VtkXml& file, const Element* points, Mesh& mesh) {
   const Element* const array = points == nullptr ? nullptr : named(points, attribute(*points, "TCoords").c_str());
   if (array == nullptr) return;

@@ -8,14 +8,14 @@
 
 namespace drape {
 
-/// Reads a VTK XML file of PolyData or an unstructured grid of polygons (.vtp, .vtu): its points, its polygons, the
-/// point data "velocity", and of the field data what drape writes: TimeValue, energies, spheres and grounds. Arrays may
-/// be ASCII, base64 or appended, of either byte order, and compressed with zlib.
-/// @param name of the file, for messages
+/// Reads a VTK XML file of PolyData or an unstructured grid of polygons (.vtp, .vtu): points, polygons, the point data
+/// "velocity", and drape's field data: TimeValue, energies, spheres and grounds. Arrays may be ASCII, base64 or
+/// appended, of either byte order, and compressed with zlib.
+/// @param name file name for messages
 /// @throws UsageError "name: message"
 MeshFrame read_vtk_xml(const std::string& name, const std::string& text);
 
-/// A line of a .pvd.
+/// An entry of a .pvd.
 struct PvdEntry {
   double time = 0;  ///< [s]
   int part = 0;

@@ -68,7 +68,7 @@ ZipReader::ZipReader(std::filesystem::path file) : file_(std::move(file)) {
     for (std::size_t extra = at + 46 + name_size, last = extra + extra_size;
          extra + 4 <= last && extra + 4 <= directory.size();) {
       const std::size_t length = whole(directory, extra + 2, 2);
-      if (whole(directory, extra, 2) == 1) {  // sizes of 64 bits, of those fields that are full
+      if (whole(directory, extra, 2) == 1) {  // 64-bit sizes, for fields at their maximum
         std::size_t field = extra + 4;
         for (std::uint64_t* number : {&member.size, &member.packed, &member.offset}) {
           if (*number != 0xFFFFFFFF) continue;

@@ -9,17 +9,17 @@
 
 namespace drape {
 
-/// The members of a ZIP archive, each of which is read as a stream.
+/// A ZIP archive whose members are read as streams.
 class ZipReader {
  public:
   struct Member {
     std::string name;
-    std::uint64_t offset = 0;            // of its local header
+    std::uint64_t offset = 0;            // offset of its local header
     std::uint64_t packed = 0, size = 0;  // [bytes]
     bool deflated = false;
   };
 
-  /// @throws UsageError "file: message" if it is no whole archive
+  /// @throws UsageError "file: message" unless it is a complete archive
   explicit ZipReader(std::filesystem::path file);
 
   [[nodiscard]] const std::vector<Member>& members() const { return members_; }
@@ -30,7 +30,7 @@ class ZipReader {
   std::vector<Member> members_;
 };
 
-/// Reads a member of an archive from its begin to its end.
+/// Sequential reader of an archive member.
 class ZipStream {
  public:
   /// @throws UsageError "file: message"
@@ -39,7 +39,7 @@ class ZipStream {
   ZipStream(const ZipStream&) = delete;
   ZipStream& operator=(const ZipStream&) = delete;
 
-  /// The next bytes. @throws UsageError if there are fewer
+  /// Reads the next bytes. @throws UsageError if there are fewer
   std::string read(std::size_t count);
   [[nodiscard]] std::uint64_t left() const { return left_; }
 
@@ -50,7 +50,7 @@ class ZipStream {
   std::string name_;
   std::ifstream stream_;
   std::uint64_t packed_left_, left_;
-  std::unique_ptr<Inflater> inflater_;  // null: it is stored
+  std::unique_ptr<Inflater> inflater_;  // null for a stored member
 };
 
 }  // namespace drape

@@ -48,7 +48,7 @@ _drape() {
 complete -o bashdefault -o default -F _drape drape
 )";
 
-/// An associative array of the script.
+/// Returns an associative array of the script.
 std::string table(const char* name, const std::string& rows) {
   return fmt::format("declare -gA {}=(\n{})\n", name, rows);
 }

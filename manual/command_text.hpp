@@ -6,11 +6,11 @@
 
 namespace drape {
 
-/// An option, or a positional, as manuals and completions show it.
+/// An option or a positional argument, for manuals and completions.
 struct OptionText {
-  std::vector<std::string> names;    ///< "-o", "--output"; of a positional its only one, "SCENE"
-  std::string value;                 ///< what is written after it: "FILE"; empty: nothing
-  std::vector<std::string> choices;  ///< what that may be, where it is one of a few words
+  std::vector<std::string> names;    ///< "-o", "--output"; for a positional only "SCENE"
+  std::string value;                 ///< value placeholder, "FILE"; empty: no value
+  std::vector<std::string> choices;  ///< accepted values, if they are a fixed set
   std::string help;                  ///< may have several lines
   bool positional = false, required = false, repeatable = false;
 };
@@ -22,12 +22,12 @@ struct CommandText {
   std::vector<OptionText> options;
   std::vector<CommandText> subcommands;
 
-  /// Its last word: "accuracy".
+  /// Returns the last word of the name: "accuracy".
   [[nodiscard]] std::string word() const { return name.substr(name.rfind(' ') + 1); }
 };
 
-/// Everything that a command says of itself, but for what is hidden. The name of a value that is one of a few words
-/// lists them, "auto|osmesa|egl".
+/// Describes a command and its subcommands, without hidden ones. A value with a fixed set of words is named by them:
+/// "auto|osmesa|egl".
 CommandText describe_command(const CLI::App& app);
 
 }  // namespace drape

@@ -8,8 +8,8 @@
 
 namespace drape {
 
-// Scripts that complete drape's commands, options, the values of options, the keys that --set and --vary take with
-// their values, and the names of scene files.
+// Return scripts that complete drape's commands, options and their values, the keys and values of --set and --vary, and
+// the names of scene files.
 
 std::string bash_completion(const CommandText& drape, const std::vector<TableText>& tables);
 std::string zsh_completion(const CommandText& drape, const std::vector<TableText>& tables);

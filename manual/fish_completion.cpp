@@ -9,7 +9,7 @@ namespace {
 
 std::string fish_quoted(const std::string& text) { return single_quoted(text, "\\", "\\'"); }
 
-/// The condition that the line is about this command: render, or study and accuracy, and nothing below it.
+/// Returns the condition for this command line: render, or study and accuracy, and no subcommand of it.
 std::string condition(const CommandText& command) {
   std::string text;
   for (std::size_t at = command.name.find(' '); at != std::string::npos; at = command.name.find(' ', at + 1)) {
@@ -55,7 +55,7 @@ std::string fish_completion(const CommandText& drape, const std::vector<TableTex
       text += fmt::format("{} -a '{}'\n", start, fmt::join(words, " "));
     }
     if (takes_scenes(command)) text += start + " -k -a '(__fish_complete_suffix .toml)'\n";
-    // What all commands share is written of drape itself, and holds behind any.
+    // Options shared by all commands belong to drape itself and complete after any command.
     for (const OptionText& option : command.options) {
       if (!option.positional) text += fish_option(option, &command == &drape ? "complete -c drape" : start);
     }

@@ -11,7 +11,7 @@
 namespace drape {
 namespace {
 
-/// Text as man reads it. What starts with a dot or an apostrophe would be a macro.
+/// Escapes text for man, where a dot or an apostrophe at the start of a line begins a macro.
 std::string escaped(std::string_view text) {
   std::string result;
   bool line_begins = true;
@@ -21,7 +21,7 @@ std::string escaped(std::string_view text) {
     if (c == '\\') {
       result += "\\e";
     } else if (c == '-') {
-      result += "\\-";  // or it may become a hyphen, which nobody can copy into a shell
+      result += "\\-";  // otherwise it may become a hyphen, which is wrong when copied into a shell
     } else {
       result += c;
     }
@@ -32,14 +32,14 @@ std::string escaped(std::string_view text) {
 std::string bold(std::string_view text) { return fmt::format("\\fB{}\\fR", escaped(text)); }
 std::string italic(std::string_view text) { return fmt::format("\\fI{}\\fR", escaped(text)); }
 
-/// Each line in a line of its own.
+/// Returns text with line breaks preserved.
 std::string lines(std::string_view text) {
   std::string result = escaped(text);
   for (std::size_t at = 0; (at = result.find('\n', at)) != std::string::npos; at += 5) result.replace(at, 1, "\n.br\n");
   return result;
 }
 
-/// Markdown's `code` in bold; of [links](there) only the text.
+/// Converts Markdown: `code` becomes bold; a [link](there) keeps only its text.
 std::string from_markdown(std::string_view text) {
   std::string result;
   for (std::size_t at = 0; at < text.size();) {
@@ -72,7 +72,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// The beginning of a page: title, name, what it is.
+/// Returns the start of a page: title, name and short description.
 std::string head(const std::string& name, int section, const std::string& help, const std::string& manual) {
   std::string what = help.substr(0, help.find('\n'));
   if (what.ends_with('.')) what.pop_back();
@@ -82,7 +82,7 @@ std::string head(const std::string& name, int section, const std::string& help, 
 
 std::string reference(const std::string& name, int section) { return fmt::format("{}({})", bold(name), section); }
 
-/// The option as a synopsis has it: [--set KEY=VALUE].
+/// Returns an option as in a synopsis: [--set KEY=VALUE].
 std::string in_synopsis(const OptionText& option) {
   std::string text = option.positional ? italic(option.names.front()) : bold(option.names.back());
   if (!option.value.empty()) text += "\\ " + italic(option.value);
@@ -126,7 +126,7 @@ std::string commands(const CommandText& command) {
 
 std::string examples(const CommandText& command) {
   if (command.examples.empty()) return {};
-  constexpr std::string_view heading = "Examples:\n";  // which the page has anyway
+  constexpr std::string_view heading = "Examples:\n";  // the page has its own heading
   const std::string_view text = command.examples;
   return ".SH EXAMPLES\n.nf\n" + escaped(text.starts_with(heading) ? text.substr(heading.size()) : text) + "\n.fi\n";
 }

@@ -29,7 +29,7 @@ Json tuple(Json item, int count) {
 
 Json list(Json item) { return {{"type", "array"}, {"items", std::move(item)}}; }
 
-/// A table that has no other keys than these.
+/// Returns the schema of a table with only these keys.
 Json closed(Json properties, std::vector<std::string> required = {}) {
   Json table{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
   if (!required.empty()) table["required"] = std::move(required);
@@ -46,7 +46,7 @@ Json any_of(std::vector<Json> forms) { return {{"anyOf", std::move(forms)}}; }
 
 Json number_of(const Key& key, const char* type) {
   Json number = of_type(type);
-  // As a whole number where it is one, which editors show without a point.
+  // Write whole limits as integers; editors show them without a point.
   const auto limit = [](double value) { return value == std::round(value) ? Json(std::llround(value)) : Json(value); };
   if (std::isfinite(key.minimum)) number[key.minimum_excluded ? "exclusiveMinimum" : "minimum"] = limit(key.minimum);
   if (std::isfinite(key.maximum)) number["maximum"] = limit(key.maximum);
@@ -65,12 +65,12 @@ Json shape_schema(const BodyShapeKey& key) {
   return table_of(body_shape_keys(shape));
 }
 
-/// The schema of a key's value, by its target, with what holds without the key as "default".
+/// Converter of a key's target to the schema of its value, with the default.
 class ValueSchema {
  public:
   explicit ValueSchema(const Key& key) : key_(key) {}
 
-  // Without a value there is no default.
+  // A null value means no default.
   Json operator()(const bool* value) const { return with_default(of_type("boolean"), value); }
   Json operator()(const int* value) const { return with_default(number_of(key_, "integer"), value); }
   Json operator()(const double* value) const { return with_default(number_of(key_, "number"), value); }
@@ -95,7 +95,7 @@ class ValueSchema {
     return any_of({positive, tuple(positive, 3)});
   }
   Json operator()(const KeyframeList& keyframes) const {
-    std::vector<Json> forms;  // each of which has one name throughout
+    std::vector<Json> forms;  // each form has one name throughout
     for (const std::string& name : keyframes.names) {
       const Json time{{"type", "number"}, {"minimum", 0}};
       Json form = list(closed({{"time", time}, {name, tuple(of_type("number"), 3)}}, {"time", name}));
@@ -128,14 +128,14 @@ class ValueSchema {
   const Key& key_;
 };
 
-/// The meaning of a key, with its unit: "Length of a time step. Unit: s".
+/// Returns the meaning of a key with its unit: "Length of a time step. Unit: s".
 std::string description(const Key& key) {
   return key.unit.empty() ? key.help : fmt::format("{} Unit: {}.", key.help, key.unit);
 }
 
 Json key_schema(const Key& key) {
   Json schema = std::visit(ValueSchema(key), key.target);
-  // Draft 7 ignores whatever stands beside a reference.
+  // Draft 7 ignores all siblings of a reference.
   if (schema.contains("$ref")) {
     Json all{{"allOf", Json::array({{{"$ref", schema["$ref"]}}})}};
     if (schema.contains("default")) all["default"] = schema["default"];
@@ -168,7 +168,7 @@ Json table_schema(const TableType& table) {
   return schema;
 }
 
-/// One table, or several in an array.
+/// Returns the schema of one table or an array of tables.
 Json repeatable(const Json& table) {
   Json several = list(table);
   several["minItems"] = 1;
@@ -223,7 +223,7 @@ Json color_schema() {
                  {{"type", "string"}, {"pattern", "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$"}}});
 }
 
-/// The table that `drape sweep` reads.
+/// Returns the schema of the table for `drape sweep`.
 Json sweep_schema() {
   const Json texts = any_of({of_type("string"), list(of_type("string"))});
   return text_and("What `drape sweep` runs; nothing else reads it.",
@@ -236,7 +236,7 @@ Json sweep_schema() {
                           {"steps", {{"type", "integer"}, {"minimum", 0}}}}));
 }
 
-/// Puts the schema of a table that belongs to another one among the properties of that.
+/// Adds a table's schema to the properties of its parent table.
 void add_table(Json& root, const std::string& name, Json schema) {
   const std::size_t dot = name.find('.');
   if (dot == std::string::npos) {
@@ -259,7 +259,7 @@ std::string scene_schema() {
   ClothTable cloth;
   Scene scene;
   for (const TableType& table : scene_tables(cloth, scene)) add_table(root, table.name, table_schema(table));
-  // A cloth that is simulated, or a motion that is read.
+  // Alternatives: a simulated cloth, or a motion that is read.
   NamedMotion motion;
   const TomlValue* body = nullptr;
   Json read = table_schema(named_motion_table(motion, body));

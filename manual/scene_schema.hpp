@@ -4,8 +4,8 @@
 
 namespace drape {
 
-/// A JSON schema (draft 7) of scene files: every table and key with its form, limits, choices, default, unit and
-/// meaning, made from the same descriptions as the reader and the reference page. Rules between keys are not in it.
+/// Returns a JSON schema (draft 7) of scene files: every table and key with its form, limits, choices, default, unit
+/// and meaning. The reader and the reference page use the same descriptions. Rules between keys are not included.
 std::string scene_schema();
 
 }  // namespace drape

@@ -20,7 +20,7 @@ _drape_key_value() {
 }
 )";
 
-/// A help beside an option: '[what it does]'.
+/// Returns a help text beside an option: '[description]'.
 std::string bracketed(const std::string& help) {
   const std::string text = single_quoted(brief(help), "[]\\", "'\\''");
   return fmt::format("'[{}]'", text.substr(1, text.size() - 2));
@@ -32,7 +32,7 @@ std::string function_name(const CommandText& command) {
   return name;
 }
 
-/// What follows an option, as zsh's _arguments reads it.
+/// Returns the value specification of an option for zsh's _arguments.
 std::string zsh_value(const OptionText& option) {
   if (option.value.empty()) return {};
   if (!option.choices.empty()) return fmt::format("':value:({})'", fmt::join(option.choices, " "));

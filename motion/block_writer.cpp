@@ -21,7 +21,7 @@ std::uint32_t checksum(std::uint32_t before, std::string_view bytes) {
   return static_cast<std::uint32_t>(crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-/// Where files cannot be locked, nobody is kept out.
+/// Locks the file exclusively, where the file system supports locks.
 void lock_blocks(int descriptor, const std::filesystem::path& file) {
   if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   throw UsageError(fmt::format("{} is being written by another process", shown(file)));

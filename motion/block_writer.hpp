@@ -10,28 +10,28 @@
 
 namespace drape {
 
-/// What every block begins with: tag, size of the payload, and a checksum of both and the payload.
+/// Returns the header of a block: tag, payload size, and a checksum of both and the payload.
 std::string block_head(std::string_view tag, std::string_view payload);
 
 /// Removes a file of blocks. @throws UsageError if another process is writing it
 void remove_unless_written(const std::filesystem::path& file);
 
-/// A file of blocks that grows, visibly, and is locked while it does.
+/// A growing file of blocks, visible under its name and locked while open.
 class BlockWriter {
  public:
-  /// Makes a new file. @throws UsageError if it is there; OutputError if it cannot be made
+  /// Creates a file. @throws UsageError if it exists; OutputError if it cannot be created
   BlockWriter(std::filesystem::path file, std::string_view magic);
-  /// Goes on after the first `size` bytes of a file; what is after them goes.
+  /// Appends after the first `size` bytes of a file and discards the rest.
   /// @throws UsageError if another process is writing it; OutputError if it cannot be written
   BlockWriter(std::filesystem::path file, std::uint64_t size);
 
-  /// Appends a block. @returns where it begins @throws OutputError
+  /// Appends a block. @returns its offset @throws OutputError
   std::uint64_t add(std::string_view tag, std::string_view payload);
   /// Appends bytes. @throws OutputError
   void write(std::string_view bytes);
-  /// Waits until all is on the disk. @throws OutputError
+  /// Waits until all bytes are on disk. @throws OutputError
   void sync();
-  /// Gives the file another name when all of it is on the disk. Nothing can be added then. @throws OutputError
+  /// Syncs the file and renames it; nothing can be added afterwards. @throws OutputError
   void complete_as(const std::filesystem::path& name);
 
   [[nodiscard]] std::uint64_t size() const { return size_; }

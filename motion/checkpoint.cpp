@@ -18,8 +18,8 @@ namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
-// Blocks like a motion file's: how long the growing file is that counts, the state, and where there is any what held
-// it back, what the guard remembers, and the rows that are in no block; then the times.
+// Blocks as in a motion file: valid length of the growing file and the state; optionally the strain limits' restraint
+// (HELD, PULL), the stability guard's energies (BOOK) and rows in no block yet; last the times.
 constexpr const char* checkpoint_magic = "drape checkpoint 1\n";
 constexpr const char* length_tag = "SIZE";
 constexpr const char* books_tag = "BOOK";
@@ -51,7 +51,7 @@ EnergyMemory unpack_books(std::string_view payload, Eigen::Index vertices) {
   return books;
 }
 
-/// As many as there are.
+/// Returns all packed numbers.
 template <class Numbers>
 Numbers unpack_numbers(std::string_view payload) {
   const std::string bytes = unpack(payload);
@@ -60,7 +60,7 @@ Numbers unpack_numbers(std::string_view payload) {
   return numbers;
 }
 
-/// Whether a growing file has the states that a run has written until a step.
+/// Returns true if a growing file has every state that a run has written until a step.
 bool has_states_until(const MotionReader& partial, std::int64_t step) {
   if (partial.states() == 0 || partial.last_step() > step) return false;
   const std::optional<std::int64_t> every = partial.header().recorded.every;
@@ -76,7 +76,7 @@ bool is_finite(const Resumption& found) {
          std::ranges::all_of(found.microseconds, [](float time) { return std::isfinite(time); });
 }
 
-/// What is in the blocks after the first.
+/// Reads the blocks after the first.
 void read_blocks(const BlockReader& blocks, std::uint64_t begin, Resumption& found) {
   const MotionHeader& header = found.partial->header();
   Restraint restraint;
@@ -98,7 +98,7 @@ void read_blocks(const BlockReader& blocks, std::uint64_t begin, Resumption& fou
     begin = block.end;
   }
   found.checkpoint.state.restraint = std::move(restraint);
-  // The steps from 0 on, in the blocks and in the rest.
+  // Rows must cover all steps from 0 on, in the growing file's blocks and in the checkpoint.
   const std::int64_t step = found.checkpoint.state.step, in_blocks = found.partial->rows();
   const bool whole = found.checkpoint.state.x.rows() == header.vertices &&
                      (found.rows.empty() || found.rows.front().step == in_blocks) &&
@@ -151,7 +151,7 @@ Resumption read_resumption(const fs::path& file) {
     found.length = ByteReader(size.payload).whole();
     found.partial = std::make_shared<MotionReader>(growing, found.length);
     if (found.partial->size() != found.length) throw std::invalid_argument("is of a longer file than there is");
-    found.partial->verify();  // or the complete file could not be read
+    found.partial->verify();  // a damaged growing file could never be completed
     read_blocks(blocks, size.end, found);
     return found;
   } catch (const std::invalid_argument& error) {

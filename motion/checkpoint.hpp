@@ -10,27 +10,27 @@
 
 namespace drape {
 
-/// Where a motion that ended early can be gone on from.
+/// Data to resume a motion whose run ended early.
 struct Resumption {
-  std::shared_ptr<MotionReader> partial;  ///< its growing file, as far as it counts
-  std::uint64_t length = 0;               ///< of that
+  std::shared_ptr<MotionReader> partial;  ///< reader of the valid part of the growing file
+  std::uint64_t length = 0;               ///< length of that part [bytes]
   Simulation::Checkpoint checkpoint;
-  std::vector<StepRow> rows;        ///< of the last steps before it, that are in no block yet
-  std::vector<float> microseconds;  ///< that each step has taken
+  std::vector<StepRow> rows;        ///< rows of the last steps before the checkpoint, in no block yet
+  std::vector<float> microseconds;  ///< computing time of each step [µs]
 
-  /// The row of any step up to there.
+  /// Returns the row of any step up to the checkpoint.
   [[nodiscard]] const StepRow& row(std::int64_t step) const;
 };
 
-/// Reads what a run that ended early has left of a motion.
-/// @param file its name when it is complete
-/// @throws UsageError if there is nothing to go on from, or it is damaged
+/// Reads the checkpoint and the growing file of a run that ended early.
+/// @param file name of the complete motion
+/// @throws UsageError if there is no checkpoint, or it is damaged
 Resumption read_resumption(const std::filesystem::path& file);
 
-/// The bytes of a checkpoint file.
+/// Returns the bytes of a checkpoint file.
 /// @param step   h [s]
-/// @param length of the growing file
-/// @param rows   that are not in it yet
+/// @param length length of the growing file [bytes]
+/// @param rows   rows in no block of it yet
 std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double step, std::uint64_t length,
                             const std::vector<StepRow>& rows, std::span<const float> microseconds);
 

@@ -6,7 +6,7 @@
 
 namespace drape {
 
-/// An open file that is closed at the end.
+/// An open file descriptor, closed by the destructor.
 class Descriptor {
  public:
   Descriptor() = default;

@@ -30,7 +30,7 @@ std::int64_t count(const Json& json, const char* key, std::int64_t least, std::i
   return value;
 }
 
-/// Four numbers that say where a collider is: of a mesh, the ball around the middle of its vertices.
+/// Returns four numbers that locate a collider; for a mesh, the ball around the middle of its vertices.
 std::array<double, columns_of_collider> numbers_of(const Collider& collider) {
   if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
     return {sphere->center[0], sphere->center[1], sphere->center[2], sphere->radius};
@@ -141,7 +141,7 @@ std::string pack_rows(const std::vector<StepRow>& rows) {
 
 namespace {
 
-constexpr std::size_t error_column = 6, estimate_column = 8;  // which are not known of every step
+constexpr std::size_t error_column = 6, estimate_column = 8;  // may be unknown (NaN)
 
 double number_of_row(std::uint64_t word, std::size_t column) {
   const auto number = std::bit_cast<double>(word);

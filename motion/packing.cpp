@@ -13,10 +13,10 @@
 namespace drape {
 namespace {
 
-// The numbers of a file are those of the machines that drape runs on.
+// Numbers are stored in the native format of the supported machines.
 static_assert(std::endian::native == std::endian::little && std::numeric_limits<double>::is_iec559);
 
-constexpr std::uint64_t most_packed = 1100;  // times smaller than it was: zlib packs nothing further
+constexpr std::uint64_t most_packed = 1100;  // upper bound of zlib's compression ratio
 
 std::string deflated(std::string_view bytes, int strategy) {
   z_stream stream{};

@@ -7,21 +7,21 @@
 
 namespace drape {
 
-// How a motion file's parts are made into bytes: docs/motion-file.md. All that goes wrong with bytes that are read is a
-// std::invalid_argument that completes "the file …".
+// Encoding of a motion file's parts as bytes, see docs/motion-file.md. Invalid bytes throw a std::invalid_argument
+// whose text completes "the file …".
 
-/// The number of bytes, and then they themselves as a stream of zlib's.
+/// Compresses bytes: their number, followed by a zlib stream.
 std::string pack(std::string_view bytes);
-/// For words whose bytes, laid in planes, are either all alike or noise: much faster, and hardly larger.
+/// Compresses words whose byte planes are either constant or noise: much faster, and hardly larger.
 std::string pack_planes(const std::vector<std::uint64_t>& words);
 
-/// The inverses. Nothing larger is made than the packed bytes can be, or than there may be.
-/// @param most bytes
+/// Decompresses bytes. Memory is limited by the packed size and by `most`.
+/// @param most largest number of bytes
 std::string unpack(std::string_view packed, std::uint64_t most = UINT64_MAX);
-/// @param count how many words there must be
+/// Decompresses exactly `count` words.
 std::vector<std::uint64_t> unpack_planes(std::string_view packed, std::size_t count);
 
-/// Numbers as bytes, little endian, one after another.
+/// Writer of numbers as bytes, little endian, one after another.
 class ByteWriter {
  public:
   ByteWriter& whole(std::uint64_t number);
@@ -33,13 +33,13 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads them again.
+/// Reader of such numbers.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
   std::uint64_t whole();
   double number();
-  /// All that is left.
+  /// Returns all remaining bytes.
   [[nodiscard]] std::string_view rest() const { return bytes_; }
 
  private:

@@ -12,7 +12,7 @@ namespace drape {
 namespace {
 
 constexpr std::uint64_t end_size = 16;
-/// A scene's places and velocities are up to 1e90, see scene/values.hpp; this has room for where they lead [m, m/s].
+/// Largest accepted coordinate or velocity [m, m/s]. Scenes allow 1e90, see scene/values.hpp; motion may go beyond.
 constexpr double largest = 1e100;
 const std::string magic = motion_magic;
 
@@ -38,7 +38,7 @@ MotionReader::MotionReader(const std::filesystem::path& file, std::uint64_t leng
   for (const std::string& name : header_.files) name_in_folder(name, file, "block HEAD: files");
   first_ = head.end;
   for (std::size_t k = 0; k <= header_.files.size(); ++k) {
-    const bool named = k < header_.files.size();  // whose checksum is looked at when it is needed
+    const bool named = k < header_.files.size();  // scene files: checksum verified on use
     const Block block = named ? blocks_.first_bytes(first_, 0) : blocks_.block(first_);
     if (block.tag != (named ? file_tag : mesh_tag)) blocks_.fail("the file has not all its parts");
     if (named) files_.push_back(first_);

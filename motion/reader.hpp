@@ -11,37 +11,37 @@
 
 namespace drape {
 
-/// Reads a motion file, in any order but best in that of the steps: of the motion itself, a few states are in memory.
-/// What is wrong with the file is a UsageError that names it.
+/// Random-access reader of a motion file, fastest in the order of steps. Only a few states are in memory. Errors in the
+/// file are UsageErrors that name it.
 class MotionReader {
  public:
-  /// A complete file.
+  /// Opens a complete file.
   explicit MotionReader(const std::filesystem::path& file);
-  /// The first `length` bytes of one that still grows.
+  /// Opens the first `length` bytes of a growing file.
   MotionReader(const std::filesystem::path& file, std::uint64_t length);
 
   [[nodiscard]] const std::filesystem::path& file() const { return blocks_.file(); }
   [[nodiscard]] std::uint64_t size() const { return blocks_.size(); }
   [[nodiscard]] const MotionHeader& header() const { return header_; }
-  /// What was in the k-th of the files that the scene names.
+  /// Returns the content of the k-th file of the scene.
   [[nodiscard]] std::string scene_file(std::size_t k) const;
 
-  /// How many states there are, and of which step the i-th is.
+  /// Returns the number of states; step(i) is the step of the i-th.
   [[nodiscard]] std::size_t states() const { return state_index_.size() / 2; }
   [[nodiscard]] std::int64_t step(std::size_t i) const { return static_cast<std::int64_t>(state_index_[2 * i]); }
   [[nodiscard]] std::int64_t last_step() const { return step(states() - 1); }
-  /// The i-th state, to the bit; holds until the next call.
+  /// Returns the i-th state, exact to the bit; valid until the next call.
   const State& state(std::size_t i);
 
-  /// How many rows there are: those of steps 0, 1, …
+  /// Returns the number of rows, for steps 0, 1, ….
   [[nodiscard]] std::int64_t rows() const { return row_count_; }
   const StepRow& row(std::int64_t step);
 
-  // For who goes on with the file:
+  // Functions for resuming the file:
 
-  /// Reads every block to its end. @throws UsageError if one is damaged
+  /// Reads and verifies every block. @throws UsageError if one is damaged
   void verify();
-  /// As it is after the last state.
+  /// Returns the codec after the last state.
   const StateCodec& codec();
   [[nodiscard]] const std::vector<std::uint64_t>& state_index() const { return state_index_; }
   [[nodiscard]] const std::vector<std::uint64_t>& rows_index() const { return rows_index_; }
@@ -50,23 +50,23 @@ class MotionReader {
   void read_index();
   void scan(std::uint64_t begin);
   void check_index();
-  /// The payload of the block at a place, which must have this tag.
+  /// Returns the payload of the block at an offset. @throws UsageError if its tag differs
   [[nodiscard]] std::string payload(std::uint64_t begin, const char* tag) const;
-  /// Does a thing with a block's payload, and names the file and the block if that is wrong.
+  /// Calls `work` on a block's payload; errors name the file and the block.
   template <class Work>
   auto understood(const char* tag, std::uint64_t begin, const Work& work) const;
 
   BlockReader blocks_;
   MotionHeader header_;
-  std::vector<std::uint64_t> files_;                     // where their blocks are
-  std::uint64_t first_ = 0;                              // where the motion begins
+  std::vector<std::uint64_t> files_;                     // offsets of the scene files' blocks
+  std::uint64_t first_ = 0;                              // offset of the motion
   std::vector<std::uint64_t> state_index_, rows_index_;  // step, offset, step, offset, …
   std::int64_t row_count_ = 0;
 
   std::optional<StateCodec> codec_;
-  std::size_t decoded_ = 0;  // states of this number were: the next is foretold from them
+  std::size_t decoded_ = 0;  // states decoded so far; the next is predicted from them
   State state_;
-  std::vector<StepRow> rows_;  // of the last block that was read
+  std::vector<StepRow> rows_;  // rows of the last block read
 };
 
 }  // namespace drape

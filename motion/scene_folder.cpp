@@ -12,7 +12,7 @@ namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
-/// A motion's scene, whose problems are those of the motion's file.
+/// Loads the scene of a motion; problems name the motion's file.
 Scene load_scene_of(const MotionReader& motion, const fs::path& file) {
   try {
     return load_scene(file);
@@ -24,7 +24,7 @@ Scene load_scene_of(const MotionReader& motion, const fs::path& file) {
   }
 }
 
-/// The file has all that its scene is read from. @throws UsageError if the scene names a file elsewhere
+/// Checks that the motion contains all input files of its scene. @throws UsageError if the scene names a file elsewhere
 void require_own_inputs(const MotionReader& motion, const Scene& scene, const fs::path& folder) {
   for (const fs::path& input : scene.inputs) {
     if (input.lexically_normal().parent_path() == folder.lexically_normal()) continue;

@@ -10,16 +10,16 @@
 
 namespace drape {
 
-/// The scene of a motion, put into a folder of its own for as long as this lives: its texture is read from there.
+/// The scene of a motion, unpacked into a temporary folder for the lifetime of this object, e.g. for its texture.
 class MotionScene {
  public:
-  /// @throws UsageError  if the scene is not that of the motion any more
-  /// @throws OutputError if there is no room for it
+  /// @throws UsageError  if the unpacked scene no longer matches the motion
+  /// @throws OutputError if it cannot be written to disk
   explicit MotionScene(const MotionReader& motion);
 
-  /// As it was when the motion was computed.
+  /// Returns the scene as it was when the motion was computed.
   [[nodiscard]] const Scene& scene() const { return scene_; }
-  /// With overrides, see load_scene().
+  /// Loads the scene with overrides, see load_scene().
   [[nodiscard]] Scene load(const std::vector<std::string>& overrides) const;
 
  private:
@@ -28,8 +28,8 @@ class MotionScene {
   Scene scene_;
 };
 
-/// Looks whether a scene moves as another one.
-/// @param name of where the other one is from
+/// Checks that two scenes have the same physics.
+/// @param name name of the source of `other`
 /// @throws UsageError that lists the keys that differ
 void require_same_physics(const std::string& motion, const Scene& scene, const Scene& other, const std::string& name);
 

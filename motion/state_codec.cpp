@@ -12,8 +12,8 @@ namespace {
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-/// Differences of bits are taken modulo 2⁶⁴, where every one can be undone, and small ones of either sign become small
-/// ones without: 0, −1, 1, −2, …
+/// Returns the difference of bits modulo 2⁶⁴, which is invertible. Zigzag encoding maps small differences of either
+/// sign to small words: 0, −1, 1, −2, …
 std::uint64_t difference(double value, double foretold) {
   const std::uint64_t d = bits(value) - bits(foretold);
   return d << 1 ^ (d >> 63 == 0 ? 0 : ~std::uint64_t{0});
@@ -68,7 +68,7 @@ void StateCodec::foretell(int how, bool velocities, const State& state, Eigen::I
 }
 
 int StateCodec::best(bool velocities, const State& state) const {
-  constexpr Eigen::Index looked_at = 512;  // numbers
+  constexpr Eigen::Index looked_at = 512;  // sampled numbers
   const Eigen::Index stride = std::max<Eigen::Index>(1, 3 * vertices_ / looked_at);
   const double* const values = velocities ? state.v.data() : state.x.data();
   int best = 0;

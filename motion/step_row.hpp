@@ -9,17 +9,17 @@
 
 namespace drape {
 
-/// What is known of a step beside where it ends.
+/// Statistics of a step.
 struct StepRow {
-  std::int64_t step = 0;  ///< 0: the start, of which only the energies and colliders are known
-  Energies energies;      ///< where it ends [J]
+  std::int64_t step = 0;  ///< 0: the start, which has only energies and colliders
+  Energies energies;      ///< at its end [J]
   int iterations = 0;
   bool converged = true;
-  std::int64_t substeps = 1;        ///< that it was cut into
-  std::optional<double> estimate;   ///< of the error that it has added, where an accuracy was asked for [m]
-  double residual = 0;              ///< ‖∇g‖ where it ends [N]
-  std::optional<double> error;      ///< of its solve, where it was estimated [m]
-  std::vector<Collider> colliders;  ///< at its end, in the order of the scene
+  std::int64_t substeps = 1;        ///< number of substeps
+  std::optional<double> estimate;   ///< estimated error added by the step, if an accuracy is set [m]
+  double residual = 0;              ///< ‖∇g‖ at its end [N]
+  std::optional<double> error;      ///< estimated error of its solve, if available [m]
+  std::vector<Collider> colliders;  ///< at its end, in the scene's order
 };
 
 }  // namespace drape

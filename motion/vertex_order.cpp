@@ -16,7 +16,7 @@ double mean_edge(const Vertices& x, const std::vector<Triangle>& triangles) {
 
 std::optional<VertexOrder> match_vertices(const Vertices& x, const Vertices& other, double tolerance) {
   if (x.rows() != other.rows()) return std::nullopt;
-  // Ordered along a direction in which no usual mesh has many vertices side by side.
+  // Sort along a direction that separates vertices in usual meshes.
   const Eigen::Vector3d along = Eigen::Vector3d(0.5772, 0.6421, 0.5047).normalized();
   const Eigen::VectorXd places = other * along;
   VertexOrder sorted(static_cast<std::size_t>(other.rows()));
@@ -51,7 +51,7 @@ Cloth in_order(Cloth cloth, const VertexOrder& order) {
   cloth.velocities = in_order(cloth.velocities, order);
   cloth.rest = in_order(cloth.rest, order);
   const Eigen::VectorXd masses = cloth.masses;
-  std::vector<int> number(order.size());  // the new one, by the old one
+  std::vector<int> number(order.size());  // new number by old number
   for (std::size_t i = 0; i < order.size(); ++i) {
     cloth.masses[static_cast<Eigen::Index>(i)] = masses[order[i]];
     number[static_cast<std::size_t>(order[i])] = static_cast<int>(i);

@@ -7,21 +7,21 @@
 
 namespace drape {
 
-/// The numbers that vertices have in another mesh: vertex i of this one is vertex order[i] of that one.
+/// Map between the vertices of two meshes: vertex i of one is vertex order[i] of the other.
 using VertexOrder = std::vector<int>;
 
-/// The mean length of the triangles' sides [m]; 0 without triangles.
+/// Returns the mean length of the triangles' sides [m]; 0 without triangles.
 double mean_edge(const Vertices& x, const std::vector<Triangle>& triangles);
 
 /// Matches the vertices of two meshes by their positions.
-/// @param tolerance the largest distance of two that match [m]
-/// @returns for each vertex of `x` the one of `other`; nothing unless each has exactly one within the tolerance
+/// @param tolerance largest distance of a matching pair [m]
+/// @returns for each vertex of `x` its partner in `other`; nothing unless each has exactly one within the tolerance
 std::optional<VertexOrder> match_vertices(const Vertices& x, const Vertices& other, double tolerance);
 
-/// Returns rows in another order: row i is row order[i] of `x`.
+/// Reorders rows: row i of the result is row order[i] of `x`.
 Vertices in_order(const Vertices& x, const VertexOrder& order);
 
-/// Numbers a cloth's vertices anew: vertex i is the one that was order[i].
+/// Renumbers a cloth's vertices: vertex i of the result is vertex order[i].
 Cloth in_order(Cloth cloth, const VertexOrder& order);
 
 }  // namespace drape

@@ -18,7 +18,7 @@ namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 31;  // of a file that a scene names
+constexpr std::size_t most_bytes = std::size_t{1} << 31;  // limit of a scene's file
 
 MotionHeader complete(MotionHeader header, const Scene& scene) {
   const Cloth& cloth = scene.simulation.cloth;
@@ -34,13 +34,13 @@ MotionHeader complete(MotionHeader header, const Scene& scene) {
   return header;
 }
 
-/// @throws UsageError also if a file of the scene has a name with which the motion could not be read
+/// Frees and returns the growing name. @throws UsageError also for a scene's file whose name a motion cannot hold
 fs::path free_growing_name(const fs::path& file, const PortableScene& scene) {
   require_not_growing(file);
   for (const PortableScene::File& input : scene.files) name_in_folder(input.name, input.place, "a scene's file");
   if (file.has_parent_path()) fs::create_directories(file.parent_path());
   fs::path growing = growing_name(file);
-  // Killed before there was anything to go on with, or right after the file was complete.
+  // A run was killed before its first checkpoint, or right after the file was complete.
   if (fs::exists(growing)) remove_unless_written(growing);
   fs::remove(checkpoint_name(file));
   return growing;

@@ -15,41 +15,41 @@ namespace drape {
 
 struct Resumption;
 
-/// "motion.drape.partial": where a motion is as long as it grows; of use only to who goes on with it.
+/// Returns the name of a growing motion: "motion.drape.partial". Only a resumed run can use that file.
 std::filesystem::path growing_name(const std::filesystem::path& file);
-/// "motion.drape.checkpoint": from where it can be gone on with.
+/// Returns the name of the checkpoint: "motion.drape.checkpoint".
 std::filesystem::path checkpoint_name(const std::filesystem::path& file);
 
-/// Refuses to begin where somebody may want to go on.
-/// @throws UsageError if there is a growing file
+/// Protects a run that may be resumed from being overwritten.
+/// @throws UsageError if there is a growing file with a checkpoint
 void require_not_growing(const std::filesystem::path& file);
 
-/// Writes a motion file. What is added is on its way to the disk at once; what a killed process has left is a growing
-/// file and its checkpoint, from which the rest of the motion can be computed. The bytes of the complete file depend on
-/// the motion alone, and not on where it was interrupted.
+/// Writer of a motion file. Data goes to the disk at once; a killed process leaves a growing file and its checkpoint,
+/// from which the rest of the motion can be computed. The bytes of the complete file depend only on the motion, not on
+/// interruptions.
 class MotionFileWriter {
  public:
   /// Begins a file.
-  /// @param header without what can be told from the scene
-  /// @throws UsageError  if a growing file of that name is there
+  /// @param header without the fields that follow from the scene
+  /// @throws UsageError  if a growing file of that name exists
   /// @throws OutputError if it cannot be written
   MotionFileWriter(std::filesystem::path file, MotionHeader header, const Scene& scene);
-  /// Goes on with one. @throws as above
+  /// Resumes a file. @throws as above
   MotionFileWriter(std::filesystem::path file, const Resumption& from);
 
-  /// The next step, from 0 on.
+  /// Adds the row of the next step, from 0 on.
   void add(const StepRow& row);
-  /// The state in which the step of the last row has ended.
+  /// Adds the state at the end of the last row's step.
   void add(const State& state);
 
-  /// Makes sure that all up to now can be gone on from.
-  /// @param microseconds that each step has taken
+  /// Writes a checkpoint to resume from.
+  /// @param microseconds computing time of each step
   void keep(const Simulation::Checkpoint& checkpoint, std::span<const float> microseconds);
 
-  /// Removes what there is.
+  /// Removes the growing file and its checkpoint.
   void discard();
 
-  /// Completes the file under its name. @returns its size [bytes]
+  /// Completes the file under its final name. @returns its size [bytes]
   std::uint64_t finish();
 
  private:
@@ -59,7 +59,7 @@ class MotionFileWriter {
   BlockWriter blocks_;
   MotionHeader header_;
   StateCodec codec_;
-  std::vector<StepRow> rows_;                            // that are not in a block yet
+  std::vector<StepRow> rows_;                            // rows in no block yet
   std::vector<std::uint64_t> state_index_, rows_index_;  // step, offset, step, offset, …
 };
 

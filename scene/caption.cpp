@@ -15,7 +15,7 @@ namespace {
 
 struct MomentField {
   const char* name;
-  bool asked_for;  ///< frames only have it when they are asked for it
+  bool asked_for;  ///< frames carry it only on request
   FieldValue (*value)(const Frame& frame, double step);
 };
 
@@ -45,7 +45,7 @@ const MomentField* find_moment(const std::string& name) {
   return found == moments.end() ? nullptr : &*found;
 }
 
-/// The name that was meant by one that there is not: the nearest, or one that ends in it.
+/// Suggests an existing name for an unknown one: the nearest name, or one that ends in it.
 std::string suggestion(const std::string& name, const std::vector<SceneField>& fields) {
   std::vector<std::string> names = moment_fields();
   for (const SceneField& field : fields) names.push_back(field.path);
@@ -96,7 +96,7 @@ TextTemplate fill_caption(const std::string& text, const std::vector<SceneField>
       if (find_moment(piece.text) != nullptr) {
         format_field(moment_value(piece.text, Frame{}, 1), piece.format);
       } else if (field != fields.end()) {
-        // What is left open is a word where others have a number: no format suits both.
+        // An open value is a word; others have a number there. No format suits both.
         const bool open = field->value == FieldValue("default");
         filled.replace(i, format_field(field->value, open ? "" : piece.format));
       } else {

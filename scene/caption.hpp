@@ -11,20 +11,20 @@
 
 namespace drape {
 
-/// The names of what changes with time: "time", "step", "energy.total".
+/// Returns the names of fields that vary in time: "time", "step", "energy.total".
 std::vector<std::string> moment_fields();
 
-/// What such a name stands for at a frame.
-/// @param step of the simulation [s]
+/// Returns the value of such a field at a frame.
+/// @param step simulation step [s]
 FieldValue moment_value(const std::string& name, const Frame& frame, double step);
 
-/// Whether a text says something of the energies or iterations, which frames only have when they are asked for.
+/// Returns true if a text uses energies or iteration counts, which frames carry only on request.
 bool needs_motion_facts(const TextTemplate& text);
 
-/// Makes a caption's text into one in which what stays the same is filled in.
-/// @param text     of the caption, as the scene has it
-/// @param fields   that it can name beside moment_fields()
-/// @param place    where it is written, for what is added to `problems`: unknown names and formats
+/// Fills in the constant fields of a caption's text; the time-dependent fields stay open.
+/// @param text     caption text as the scene has it
+/// @param fields   fields that the text can name beside moment_fields()
+/// @param place    place of the text, for `problems`: unknown names and formats
 TextTemplate fill_caption(const std::string& text, const std::vector<SceneField>& fields, const Place& place,
                           Problems& problems);
 

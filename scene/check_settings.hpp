@@ -7,26 +7,27 @@
 
 namespace drape {
 
-/// How far two pictures may be apart and still count as the same but for rounding. All of them must hold.
+/// Largest difference between two pictures that still count as equal up to rounding. All limits must hold.
 struct PictureLimits {
-  int channel = 3;        ///< the largest difference of a pixel in any channel, of 255
-  double pixels = 0.005;  ///< the largest fraction of pixels that differ at all
-  double flip = 0.05;     ///< the largest FLIP error of a pixel
+  int channel = 3;        ///< largest difference of a pixel in any channel, of 255
+  double pixels = 0.005;  ///< largest fraction of pixels that differ at all
+  double flip = 0.05;     ///< largest FLIP error of a pixel
 };
 
 /// A rectangle of golden pixels: column and row of its top left one, width and height.
 using PixelRectangle = std::array<int, 4>;
 
-/// A scene's [check] table: what its golden frames and golden motion are, and what still counts as the same.
+/// The [check] table of a scene: which golden frames and motion to compare, and with which tolerances.
 struct CheckSettings {
-  std::vector<int> frames;              ///< of the film, ascending; empty: those in which something happens
-  std::optional<Eigen::Vector2i> size;  ///< of the golden pictures [pixels]; absent: the film's
-  double window_time = 0.4;             ///< after which the motion starts again from a golden state [s]
-  double motion_tolerance = 1e-6;       ///< how far a vertex may be from its golden place [m]
+  std::vector<int> frames;              ///< film frames to compare, ascending; empty: chosen automatically, where
+                                        ///< something happens
+  std::optional<Eigen::Vector2i> size;  ///< size of the golden pictures [pixels]; absent: film size
+  double window_time = 0.4;             ///< interval between restarts of the motion from a golden state [s]
+  double motion_tolerance = 1e-6;       ///< largest distance of a vertex from its golden position [m]
   PictureLimits limits;
-  std::optional<double> time;  ///< how many times as long as the golden the first steps may take; absent: not measured
-  std::vector<PixelRectangle> ignore;  ///< what is not judged in any picture
-  std::vector<int> ignore_frames;      ///< whose pictures are not judged at all
+  std::optional<double> time;          ///< largest ratio of the first steps' time to the golden's; absent: not measured
+  std::vector<PixelRectangle> ignore;  ///< rectangles left out of the comparison in every picture
+  std::vector<int> ignore_frames;      ///< frames whose pictures are not compared
 };
 
 }  // namespace drape

@@ -39,7 +39,7 @@ void scale_by(const Eigen::Vector3d& factors, Mesh& mesh) {
   for (int axis = 0; axis < 3; ++axis) mesh.positions.col(axis) *= factors[axis];
 }
 
-/// Says how two meshes differ that should have the same vertices and triangles; empty if they do.
+/// Describes how two meshes differ that should have the same vertices and triangles; empty if they match.
 std::string difference(const Mesh& rest, const Mesh& mesh) {
   if (rest.positions.rows() != mesh.positions.rows()) {
     return fmt::format("it has {} vertices, mesh has {}", rest.positions.rows(), mesh.positions.rows());
@@ -56,11 +56,11 @@ std::string difference(const Mesh& rest, const Mesh& mesh) {
   return {};
 }
 
-/// What may not be meant, of a cloth that is complete.
+/// Returns warnings about a complete cloth.
 std::vector<std::string> doubts_of(const ClothTable& table, const ClothAndUvs& result) {
   std::vector<std::string> doubts;
   if (const auto doubt = shape_of(result.cloth).doubt()) doubts.push_back(*doubt);
-  const std::string* file = table.mesh->as<std::string>();  // a table may say which axis is up
+  const std::string* file = table.mesh->as<std::string>();  // a table may give the up axis
   const bool turned = !table.rotate.isZero(0);
   if (file != nullptr && !turned && is_obj(*file) && seems_y_up(result.mesh.positions)) {
     doubts.push_back(
@@ -75,7 +75,7 @@ SelectableMesh selectable_mesh(const Mesh& mesh, const TomlValue& value, const s
   SelectableMesh selectable{mesh.positions, mesh.triangles, {}, {}};
   const TomlTable* table = value.as<TomlTable>();
   if (table != nullptr && (table->find("grid") != nullptr || mesh_shape_kind(value))) return selectable;
-  Problems told({}, {});  // when the mesh was read
+  Problems told({}, {});  // discarded: reported when the mesh was read
   const std::optional<MeshName> named = read_mesh_name(value, "mesh", false, told);
   if (!named) return selectable;
   selectable.file = folder / named->file;
@@ -83,20 +83,20 @@ SelectableMesh selectable_mesh(const Mesh& mesh, const TomlValue& value, const s
   return selectable;
 }
 
-/// Whether a value is a table with this key.
+/// Returns true if a value is a table with this key.
 bool says(const TomlValue& value, const char* key) {
   const TomlTable* table = value.as<TomlTable>();
   return table != nullptr && table->find(key) != nullptr;
 }
 
-/// Whether a grid's cells have both diagonals, alternating or crossed.
+/// Returns true if a grid's cells have both diagonals, alternating or crossed.
 bool has_both_diagonals(const ClothTable& table) {
   const std::optional<Grid> grid = grid_of(*table.mesh);
   return grid && (grid->pattern == GridPattern::alternating || grid->pattern == GridPattern::x) &&
          (table.rest == nullptr || grid_of(*table.rest));
 }
 
-/// Gives a cloth the masses and stiffnesses that its table asks for by area; false if there were problems.
+/// Assigns the masses and stiffnesses that the table gives by area; returns false after problems.
 bool give_material(const ClothTable& table, const TomlValue& value, Cloth& cloth, Problems& problems) {
   const auto by_area = [&](const char* key, bool one, const auto& other, double of_fabric, const auto& give) {
     const bool asked = other || (!one && table.material != nullptr);
@@ -116,7 +116,7 @@ bool give_material(const ClothTable& table, const TomlValue& value, Cloth& cloth
   return by_area("modulus", table.stiffness.has_value(), table.modulus, fabric.modulus, stiffen) && massive;
 }
 
-/// Complains where a table says its mass or its stiffness twice.
+/// Reports a mass or a stiffness that is given twice.
 void check_said_once(const ClothTable& table, const TomlValue& value, Problems& problems) {
   const auto both = [&](const char* one, const char* other) {
     problems.add(place_of(value, other), fmt::format("{}: '{}' already sets it; give only one of them", other, one));
@@ -125,7 +125,7 @@ void check_said_once(const ClothTable& table, const TomlValue& value, Problems& 
   if (table.stiffness && table.modulus) both("stiffness", "modulus");
 }
 
-/// Complains where a table says of its springs what they cannot be.
+/// Reports spring keys that do not fit together.
 void check_springs(const ClothTable& table, const TomlValue& value, Problems& problems) {
   if (table.springs == ClothTable::Springs::edges) {
     for (const char* key : {"shear_stiffness", "bend_stiffness"}) {
@@ -169,7 +169,7 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
   check_springs(table, value, problems);
   if (!start || !scale || problems.count() != problems_before) return std::nullopt;
 
-  // Turning and moving would only round the rest lengths, so they are taken before that.
+  // Scale before the rest lengths are taken, rotate and translate after: these would only add rounding to them.
   scale_by(*scale, *start);
   if (!rest) rest = *start;
   if (!table.rotate.isZero(0)) start->positions = start->positions * rotation(table.rotate).transpose();

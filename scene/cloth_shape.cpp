@@ -9,9 +9,9 @@
 namespace drape {
 namespace {
 
-constexpr double large = 100, small = 1e-3;  // [m]
+constexpr double large = 100, small = 1e-3;  // warning limits [m]
 
-/// The vertices of one piece have one root.
+/// Disjoint sets of vertices; the vertices of one piece have one root.
 class Pieces {
  public:
   explicit Pieces(int count) : parents_(static_cast<std::size_t>(count)) {
@@ -19,12 +19,12 @@ class Pieces {
   }
   int root(int vertex) {
     while (parent(vertex) != vertex) {
-      parent(vertex) = parent(parent(vertex));  // which keeps the ways short
+      parent(vertex) = parent(parent(vertex));  // path compression
       vertex = parent(vertex);
     }
     return vertex;
   }
-  /// Whether they were two.
+  /// Joins the sets of two vertices; returns true if they were separate.
   bool join(int a, int b) {
     const int from = root(a), to = root(b);
     parent(from) = to;
@@ -60,7 +60,7 @@ ClothShape shape_of(const Cloth& cloth) {
 }
 
 std::string ClothShape::text() const {
-  constexpr double rounding = 1e-12;  // of the largest extent: what is thinner is flat
+  constexpr double rounding = 1e-12;  // relative to the largest extent: thinner is flat
   const Eigen::Vector3d shown = (extent.array() > rounding * extent.maxCoeff()).select(extent, 0.0);
   return fmt::format("{} {} of {:.3g} × {:.3g} × {:.3g} m{}, edges of {:.3g} to {:.3g} m", pieces,
                      pieces == 1 ? "piece" : "pieces", shown.x(), shown.y(), shown.z(), pieces == 1 ? "" : " together",

@@ -8,23 +8,23 @@
 
 namespace drape {
 
-/// How large a cloth is where it starts, for people to see whether it is what they meant.
+/// Initial size of a cloth, shown to users so that they can check it.
 struct ClothShape {
-  int pieces = 0;                              ///< that springs hold together; vertices without one are none
-  Eigen::Vector3d extent;                      ///< of its bounding box [m]
+  int pieces = 0;                              ///< connected components with at least one spring
+  Eigen::Vector3d extent;                      ///< size of the bounding box [m]
   double shortest_edge = 0, longest_edge = 0;  ///< [m]
 
-  /// "2 pieces of 2 × 2 × 0 m together, edges of 0.1 to 0.141 m"
+  /// Returns for example "2 pieces of 2 × 2 × 0 m together, edges of 0.1 to 0.141 m".
   [[nodiscard]] std::string text() const;
 
-  /// What is odd about a cloth of this size; nothing if nothing is.
+  /// Returns a warning about an unusual size, if any.
   [[nodiscard]] std::optional<std::string> doubt() const;
 };
 
 ClothShape shape_of(const Cloth& cloth);
 
-/// Whether a mesh looks as if y pointed up in it: it stands on the plane y = 0, or it lies in such a plane. Both may be
-/// meant in a file in which z points up, so this is worth a hint and no more.
+/// Returns true if a mesh looks y-up: flat along y, or standing above y = 0 with its depth centred on z = 0. A z-up
+/// mesh may look so as well; this justifies only a hint.
 bool seems_y_up(const Vertices& positions);
 
 }  // namespace drape

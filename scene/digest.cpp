@@ -9,7 +9,7 @@
 namespace drape {
 namespace {
 
-/// Writes a value in the one form that all ways of saying it share.
+/// Appends the canonical form of a value.
 void write(const TomlValue& value, const std::vector<std::string>& ignored, std::string& text) {
   if (const TomlTable* table = value.as<TomlTable>()) {
     std::vector<const TomlEntry*> entries;

@@ -7,9 +7,9 @@
 
 namespace drape {
 
-/// A hash of what a document says: neither comments nor the order of keys nor the way in which a number is written
-/// (1, 1.0, 1e0) change it. 16 hexadecimal digits.
-/// @param ignored names of tables below the root that do not count
+/// Computes a hash of a document's content, 16 hexadecimal digits. Comments, the order of keys and the notation of
+/// numbers (1, 1.0, 1e0) do not change it.
+/// @param ignored names of top-level tables to leave out
 std::string digest(const TomlValue& document, const std::vector<std::string>& ignored = {});
 
 }  // namespace drape

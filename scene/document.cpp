@@ -38,8 +38,8 @@ TomlValue convert(const toml::node& node, const Locate& locate) {
   return value;
 }
 
-/// Where the string that begins at `begin` ends: its last quote, or the end of its line or of the text if it is not
-/// closed.
+/// Returns the last position of the string that begins at `begin`: its closing quote, or the end of its line or of the
+/// text if it is not closed.
 std::size_t end_of_string(std::string_view text, std::size_t begin) {
   const char quote = text[begin];
   const std::string three(3, quote);
@@ -50,16 +50,15 @@ std::size_t end_of_string(std::string_view text, std::size_t begin) {
     } else if (!multiline && (text[i] == quote || text[i] == '\n')) {
       return i;
     } else if (multiline && text.substr(i).starts_with(three)) {
-      // Up to two quotes may stand right before the three that close it.
+      // Up to two quotes may come right before the closing three.
       return std::min({text.find_first_not_of(quote, i), i + 5, text.size()}) - 1;
     }
   }
   return text.size();
 }
 
-/// Calls fail(offset, message) where a key or a value is nested deeper than any scene's: toml++ follows it by
-/// recursion, and so does what reads its tables. Between other signs a value has one dot at most, so what has many is a
-/// key.
+/// Calls fail(offset, message) for a key or a value that is nested too deeply: toml++ and the table readers recurse
+/// into it. Between separators a value has at most one dot, so more dots mean a key.
 template <class Fail>
 void refuse_depth(std::string_view text, const Fail& fail) {
   constexpr std::size_t most_open = 16;

@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-/// The tables of one effect: one, or several if that makes sense for it.
+/// Returns the tables of one effect: one, or several if it is repeatable.
 std::vector<const TomlValue*> tables_of(const TomlValue& value, bool repeatable) {
   const TomlArray* array = value.as<TomlArray>();
   if (array == nullptr || !repeatable) return {&value};

@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-/// What a key without a value says: it is left to what suits the scene.
+/// Text of a key without a value: the scene chooses.
 constexpr const char* left_open = "default";
 
 std::vector<double> numbers_of(const auto& values) { return {values.begin(), values.end()}; }

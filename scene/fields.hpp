@@ -12,16 +12,16 @@ namespace drape {
 struct ReadEffect;
 struct TableType;
 
-/// What the target of a key holds. What is of a form of its own is as the document has it.
-/// @param written the key's value in the document; null: it is not there
+/// Returns the value of a key's target. A value in a custom form is returned as the document writes it.
+/// @param written the key's value in the document; null if absent
 FieldValue field_value(const Key& key, const TomlValue* written);
 
-/// Every key of a scene with what holds for it, be it given or not; and "scene", its name. Of several effects of one
-/// name, the number is in the path: effects.sphere.0.radius.
+/// Returns every key of a scene with its effective value, given or default, and "scene", the scene's name. The path of
+/// a repeated effect contains its number: effects.sphere.0.radius.
 std::vector<SceneField> scene_fields(const std::string& name, const std::vector<TableType>& tables,
                                      const std::vector<ReadEffect>& effects, const TomlValue& document);
 
-/// A value as a scene file has it, in one line.
+/// Formats a value as in a scene file, on one line.
 std::string toml_text(const TomlValue& value);
 
 }  // namespace drape

@@ -7,7 +7,7 @@
 namespace drape {
 namespace {
 
-/// What form a page says that a key's value has.
+/// Name of a value's form in the reference.
 struct Form {
   std::string operator()(const bool*) const { return "true or false"; }
   std::string operator()(const int*) const { return "whole number"; }
@@ -39,7 +39,7 @@ struct Form {
   }
 };
 
-/// What a key takes, where it takes one of a few words.
+/// Returns the accepted words of a key, if they are a fixed set.
 std::vector<std::string> values_of(const Key::Target& target) {
   if (const auto* choice = std::get_if<Choice>(&target)) return choice->names;
   if (std::holds_alternative<bool*>(target)) return {"true", "false"};

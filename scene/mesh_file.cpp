@@ -59,7 +59,7 @@ Mesh read_obj(const std::filesystem::path& file, const MeshOptions& options, Inp
   std::vector<ObjObject> objects = read_drape_objects(source);
   Mesh mesh = objects.empty() ? read_obj_mesh(source) : std::move(objects.front().mesh);
   add_inputs(file, nullptr, inputs);
-  if (options.up == MeshOptions::Up::y) {  // (x, y, z) → (x, −z, y), as for USD
+  if (options.up == MeshOptions::Up::y) {  // y up: (x, y, z) → (x, −z, y), as for USD
     mesh.positions.col(1).swap(mesh.positions.col(2));
     mesh.positions.col(1) *= -1;
   }

@@ -13,9 +13,9 @@
 namespace drape {
 namespace {
 
-constexpr double most_triangles = 8e6;  // as of a grid
+constexpr double most_triangles = 8e6;  // same limit as for a grid
 
-/// Cells of the given length that fill a distance, at least one.
+/// Returns the number of cells of the given length that fill a distance, at least one.
 int cells_in(double distance, double length) {
   const double count = std::max(std::round(distance / length), 1.0);
   if (!(count < most_triangles)) throw std::invalid_argument("a mesh has at most 8 million triangles");
@@ -26,7 +26,7 @@ void require_size(double triangles) {
   if (triangles > most_triangles) throw std::invalid_argument("a mesh has at most 8 million triangles");
 }
 
-/// Lays a picture on a mesh once.
+/// Adds texture coordinates that cover a mesh once.
 /// @param at the texture coordinates of a vertex
 void cover(Mesh& mesh, const std::function<std::array<float, 2>(int)>& at) {
   for (const Triangle& triangle : mesh.triangles) {
@@ -34,7 +34,7 @@ void cover(Mesh& mesh, const std::function<std::array<float, 2>(int)>& at) {
   }
 }
 
-/// Rings of 6, 12, 18 … vertices around the centre, joined by triangles that are nearly equilateral.
+/// Makes rings of 6, 12, 18 … vertices around the centre, joined by triangles that are nearly equilateral.
 Mesh make_disc(double radius, int rings) {
   require_size(6.0 * rings * rings);
   Mesh mesh;
@@ -74,7 +74,7 @@ Mesh make_strip(double length, double width, int across) {
   return mesh;
 }
 
-/// A frustum's side, open at both ends, seen counterclockwise from outside.
+/// Makes the side of a frustum, open at both ends, counterclockwise seen from outside.
 Mesh make_tube(const SheetShape& shape) {
   const double hem = shape.hem.value_or(shape.radius);
   const double slope = std::hypot(shape.length, hem - shape.radius);

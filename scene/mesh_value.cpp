@@ -16,13 +16,13 @@
 namespace drape {
 namespace {
 
-/// A cloth of four million cells takes about 1 GB before the first step; beyond that a typing error is more likely.
+/// Largest grid: four million cells of cloth take about 1 GB before the first step; more is probably a typing error.
 constexpr std::int64_t most_grid_cells = 4'000'000;
 
 const std::vector<std::string> mesh_name_keys = {"file", "prim", "up"};
 const std::vector<std::string> motion_name_keys = {"file", "prim", "up", "fps"};
 
-/// Reads what a grid's table says beside `grid`; false after a complaint.
+/// Reads a key of a grid's table besides `grid`; returns false after a problem.
 bool read_grid_key(const TomlEntry& entry, const std::string& name, Grid& grid, Problems& problems) {
   static const std::vector<std::string> keys = {"grid", "pattern", "size", "file", "disc", "strip", "tube"};
   static const std::vector<std::string> patterns = {"diagonal", "alternating", "x", "equilateral"};
@@ -127,7 +127,7 @@ std::optional<MeshName> read_mesh_name(const TomlValue& value, const std::string
 std::optional<Grid> grid_of(const TomlValue& value) {
   const TomlTable* table = value.as<TomlTable>();
   if (table == nullptr || table->find("grid") == nullptr) return std::nullopt;
-  Problems told({}, {});  // when the mesh was read
+  Problems told({}, {});  // discarded: reported when the mesh was read
   return read_grid(value, "mesh", told);
 }
 

@@ -12,23 +12,23 @@
 
 namespace drape {
 
-/// A mesh that a scene names.
+/// A reference to a mesh file in a scene.
 struct MeshName {
-  std::filesystem::path file;  ///< as the scene has it
+  std::filesystem::path file;  ///< file name as the scene writes it
   MeshOptions options;
 };
 
-/// Reads the name of a mesh, "cloth.obj", or { file = "cloth.usda", prim = "/World/cloth" }; `up = "y"` beside `file`
-/// says which axis an OBJ means, and `fps`, of one that may move, how fast an OBJ sequence is.
+/// Reads the reference to a mesh, "cloth.obj" or { file = "cloth.usda", prim = "/World/cloth" }. `up = "y"` gives the
+/// up axis of an OBJ; `fps` gives the frame rate of an OBJ sequence if the mesh may move.
 std::optional<MeshName> read_mesh_name(const TomlValue& value, const std::string& name, bool may_move,
                                        Problems& problems);
 
-/// The grid that a mesh which has been read is; nothing where it is from a file.
+/// Returns the grid of a mesh value that was read before; nothing for a mesh from a file.
 std::optional<Grid> grid_of(const TomlValue& value);
 
-/// Reads a mesh: { grid = [columns, rows] }, of a `pattern` and a `size`, or one that is named as above.
-/// @param folder the scene's, where its files are
-/// @param inputs every file that is read for it is added
+/// Reads a mesh: { grid = [columns, rows] } with a `pattern` and a `size`, or a reference as above.
+/// @param folder folder of the scene, which holds its files
+/// @param inputs receives every file read
 std::optional<Mesh> read_mesh_value(const TomlValue& value, const std::string& name,
                                     const std::filesystem::path& folder, std::vector<std::filesystem::path>& inputs,
                                     Problems& problems);

@@ -17,15 +17,15 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array<std::string_view, 3> physics_tables{"time", "integrator", "effects"};
-constexpr double longest_motion = 1e6;  // of a motion that is not read yet
+constexpr double longest_motion = 1e6;  // stand-in until the motion is read
 
-/// "cloth.mass=2" is of cloth.
+/// Returns true for an override of a physics table, for example "cloth.mass=2".
 bool is_of_physics(const std::string& override_text) {
   const std::string_view table(override_text.data(), override_text.find_first_of(".="));
   return table == "cloth" || std::ranges::find(physics_tables, table) != physics_tables.end();
 }
 
-/// Reports and removes what only a motion that is computed has.
+/// Reports and removes keys that only a computed motion has.
 void refuse_physics(TomlTable& root, TomlTable& cloth, const TableType& own, Problems& problems) {
   std::erase_if(root.entries, [&](const TomlEntry& entry) {
     if (std::ranges::find(physics_tables, entry.name) == physics_tables.end()) return false;
@@ -85,7 +85,7 @@ double number_at(const TomlValue& document, const char* path, double otherwise) 
   return found > 0 ? found : otherwise;
 }
 
-/// Puts the smallest cloth, and a film longer than any, in place of the motion.
+/// Adds the smallest cloth, and a film longer than any, as stand-ins for the motion.
 void add_stand_ins(TomlValue& document, const Place& place) {
   const Video usual;
   const double duration =

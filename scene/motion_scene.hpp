@@ -10,18 +10,18 @@
 
 namespace drape {
 
-/// A motion that a scene names, and how its files are read. Paths are relative to the working folder.
+/// A motion that a scene refers to, with options for reading it. Paths are relative to the working folder.
 struct NamedMotion {
   std::string motion;               ///< a file, or a sequence: "meshes/{frame:04}.obj"
-  std::vector<std::string> bodies;  ///< likewise
-  std::string mesh, prim;           ///< of a .pc2, of a .usda; empty: not said
+  std::vector<std::string> bodies;  ///< files or sequences of the bodies
+  std::string mesh, prim;           ///< mesh of a .pc2; prim of a .usda; empty: not given
   std::optional<double> fps;        ///< frames per second
-  double scale = 1;                 ///< metres of a unit of the files
+  double scale = 1;                 ///< metres per unit of the files
   bool y_up = false;
 };
 
-/// A scene of which [cloth] motion names a motion that is read, not computed: its camera, look, film, captions and
-/// [check]. Its cloth and its physics stand for nothing.
+/// A scene whose [cloth] motion refers to a motion that is read, not computed. `look` gives camera, look, film,
+/// captions and [check]; its cloth and physics are placeholders.
 struct SceneOfMotion {
   NamedMotion named;
   Scene look;
@@ -29,11 +29,11 @@ struct SceneOfMotion {
 
 /// Reads a scene of a motion.
 /// @returns nothing for a scene without [cloth] motion
-/// @throws UsageError as load_scene(); also if it has keys of physics, which mean nothing here
+/// @throws UsageError as load_scene(); also if the scene has keys of physics, which have no meaning here
 std::optional<SceneOfMotion> load_scene_of_motion(const std::filesystem::path& file,
                                                   const std::vector<std::string>& overrides = {});
 
-/// The table [cloth] of such a scene, whose keys write to `motion`.
+/// Returns the table [cloth] of such a scene; its keys write to `motion`.
 /// @param body a string, or an array of strings
 TableType named_motion_table(NamedMotion& motion, const TomlValue*& body);
 
@@ -41,7 +41,7 @@ TableType named_motion_table(NamedMotion& motion, const TomlValue*& body);
 /// @throws UsageError as load_scene()
 std::string digest_of_file(const std::filesystem::path& file);
 
-/// The digest of a motion that is drawn without a scene.
+/// Digest of a motion that is drawn without a scene.
 inline constexpr const char* no_scene_digest = "0000000000000000";
 
 }  // namespace drape

@@ -26,19 +26,19 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// A word can be given without quotes: it has nothing that TOML would take for a value that went wrong.
+/// Returns true for a string without quotes: free of characters that suggest a misspelt TOML value.
 bool is_bare_word(std::string_view text) {
   return !text.empty() && text.find_first_of(" \t\r\n\"'[]{},=\\") == std::string_view::npos;
 }
 
-/// What is written as a number, though TOML has no such: 1e400, 007.
+/// Returns true for a number in a notation that TOML rejects: 1e400, 007.
 bool is_like_number(std::string_view text) {
   double number = 0;
   const char* const end = text.data() + text.size();
   return std::from_chars(text.data(), end, number).ptr == end;
 }
 
-/// "cloth.mesh" into its names. Empty if a name is missing, or there are more than in any scene.
+/// Splits "cloth.mesh" into its names; empty if a name is missing or there are too many.
 std::vector<std::string> split_path(std::string_view text) {
   std::vector<std::string> path;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -58,7 +58,7 @@ std::string joined(const std::vector<std::string>& path, std::size_t count) {
   return text;
 }
 
-/// @throws UsageError that says what is wrong with it
+/// Parses "key.path=value". @throws UsageError with the reason
 Assignment parse_assignment(std::string_view text, const Place& place) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) throw UsageError("expected key.path=value, found no '='");
@@ -85,7 +85,7 @@ std::optional<std::size_t> item_number(std::string_view name) {
   return error == std::errc() && stop == end ? std::optional(number) : std::nullopt;
 }
 
-/// The item of an array that path[depth] picks.
+/// Returns the item of an array that path[depth] picks.
 TomlValue& item(TomlArray& items, const std::vector<std::string>& path, std::size_t depth) {
   const std::string owner = joined(path, depth);
   const std::optional<std::size_t> number = item_number(path[depth]);
@@ -97,14 +97,14 @@ TomlValue& item(TomlArray& items, const std::vector<std::string>& path, std::siz
   return items[*number];
 }
 
-/// Whether path[depth] names an item of `value`, which is no array, or the array may be passed through without a
+/// Returns true if `value` is an array of one table, and `name` refers to an entry of that table instead of an item
 /// number.
 bool passes_through(TomlValue& value, std::string_view name) {
   const TomlArray* items = value.as<TomlArray>();
   return items != nullptr && items->size() == 1 && items->front().as<TomlTable>() != nullptr && !item_number(name);
 }
 
-/// What holds where a key of this target is not given, as the document would write it; nothing unless it is an array.
+/// Returns the default of a target as the document would write it; nothing unless it is an array.
 template <class Target>
 std::optional<TomlValue> default_array(Target target, const Place& place) {
   if constexpr (std::is_same_v<Target, Eigen::Vector2i*> || std::is_same_v<Target, Eigen::Vector3d*>) {
@@ -123,8 +123,7 @@ std::optional<TomlValue> default_array(Target target, const Place& place) {
   return std::nullopt;
 }
 
-/// The key of a table, "video" or "effects.wind", that `use` is called with, if there is one. Its target has its
-/// default.
+/// Calls `use` with a key of a table, "video" or "effects.wind", if it exists. The key's target has its default.
 template <class Use>
 void with_key(const std::string& table, const std::string& name, Use use) {
   const auto look_in = [&](const TableType& type) {
@@ -141,12 +140,12 @@ void with_key(const std::string& table, const std::string& name, Use use) {
   }
 }
 
-/// What stands for a name that the document does not have, path[depth]: its default where the path goes on to one of
-/// its items, otherwise a table.
+/// Returns the value to add for a missing name path[depth]: its default if the path goes on to one of its items,
+/// otherwise a table.
 TomlValue value_on_the_way(const std::vector<std::string>& path, std::size_t depth, const Place& place) {
   TomlValue value{.place = place, .data = TomlTable{}};
   if (depth + 1 == path.size() || !item_number(path[depth + 1])) return value;
-  const bool effect = path.front() == "effects" && depth > 1;  // whose tables may have a number
+  const bool effect = path.front() == "effects" && depth > 1;  // effects may have a number in the path
   with_key(joined(path, effect ? 2 : depth), path[depth], [&](const Key& key) {
     const auto initial = std::visit([&](const auto& target) { return default_array(target, place); }, key.target);
     if (!initial) {
@@ -172,7 +171,7 @@ void apply(TomlValue& document, Assignment assignment, const Place& place) {
     if (table == nullptr) {
       throw UsageError(fmt::format("{} is {}, not a table", joined(path, depth), node->kind()));
     }
-    // An effect that is written as one table can also be given a number, like one of several.
+    // An effect written as one table also accepts a number, like one of several.
     if (name == "0" && depth == 2 && path.front() == "effects") continue;
     node = table->find(name);
     if (node == nullptr) {

@@ -8,11 +8,10 @@
 
 namespace drape {
 
-/// Applies "key.path=value" to a document, one after the other, as if the file said so. The value is any TOML value, or
-/// a bare word, which is a string. Tables on the way that do not exist are added. On the way, a number picks an item of
-/// an array, and an array of one table may be passed through without one: effects.sphere.0.radius,
-/// effects.sphere.radius. An array that the document leaves to its default is that: video.size.0. What cannot be
-/// applied is added to `problems`.
+/// Applies assignments "key.path=value" to a document in order, as if the file contained them. The value is any TOML
+/// value, or a bare word, which is a string. Missing tables on the path are added. A number on the path picks an item
+/// of an array; an array of one table needs no number: effects.sphere.0.radius, effects.sphere.radius. An item of an
+/// absent array changes the array's default: video.size.0. Failed assignments are added to `problems`.
 void apply_overrides(TomlValue& document, const std::vector<std::string>& overrides, Problems& problems);
 
 }  // namespace drape

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 31;
 
-/// Of numbers that stand one after another.
+/// Hashes consecutive numbers.
 template <class Number>
 std::string hash_of(const Number* numbers, std::size_t count) {
   Hash hash;
@@ -41,7 +41,7 @@ std::string springs_text(const std::vector<Spring>& springs) {
   return fmt::format("{} springs ({})", springs.size(), hash.text());
 }
 
-/// What is in a file. A pipe gives that only once.
+/// Returns the hash of a file's content. A pipe can be read only once, so its name is returned.
 std::string file_text(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) return file.string();
   Hash hash;
@@ -49,7 +49,7 @@ std::string file_text(const std::filesystem::path& file) {
   return "a file (" + hash.text() + ")";
 }
 
-/// A mesh that moves, wherever it was read from.
+/// Describes a moving mesh, whatever its source.
 std::string motion_text(const MeshMotion* motion) {
   if (motion == nullptr) return "";
   Hash hash;
@@ -60,14 +60,14 @@ std::string motion_text(const MeshMotion* motion) {
   return fmt::format("{} vertices at {} times ({})", motion->mesh.positions.rows(), motion->times.size(), hash.text());
 }
 
-/// A shape of a body, if it is of the key's kind.
+/// Describes the shape of a body, if it is of the key's kind.
 std::string shape_text(const BodyShapeKey& key) {
   if (!*key.shape || (*key.shape)->kind != key.kind) return "";
   const BodyShape& s = **key.shape;
   return fmt::format("{} {} {} {} {} {}", s.radius, s.height, s.top, s.width, s.depth, s.segments);
 }
 
-/// What stands for a value of a form of its own; nothing where it is not one that effects have.
+/// Returns text for a value in a custom form of an effect; nothing for other values.
 std::optional<std::string> own_text(const Key& key) {
   const auto* form = std::get_if<OwnForm>(&key.target);
   if (const auto* shape = form == nullptr ? nullptr : std::any_cast<BodyShapeKey>(&form->target)) {
@@ -85,7 +85,7 @@ std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, 
   for (const TableType& table : tables) {
     if (!table.name.starts_with("cloth") && table.name != "time" && table.name != "integrator") continue;
     for (const Key& key : table.keys.all()) {
-      // A mesh and what is chosen of it is seen in the cloth that is made of it.
+      // The cloth itself records its mesh and the vertices selected from it.
       if (std::holds_alternative<OwnForm>(key.target) || (table.name == "time" && key.name == "duration")) continue;
       values.push_back({table.name + "." + key.name, value_text(key.target)});
     }
@@ -141,7 +141,7 @@ std::string physics_difference(const std::vector<SceneValue>& a, const std::vect
     const std::string in_a = text_in(a, key), in_b = text_in(b, key);
     if (in_a != in_b) text += fmt::format("{}{}: {}, and {} in {}", text.empty() ? "" : "\n", key, in_a, in_b, name);
   };
-  constexpr std::string_view springs = "cloth.rest";  // which are made of what other keys say
+  constexpr std::string_view springs = "cloth.rest";  // computed from other keys
   for (const SceneValue& value : a) {
     if (value.key != springs) add(value.key);
   }

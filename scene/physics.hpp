@@ -7,24 +7,23 @@
 
 namespace drape {
 
-/// Everything in a scene that a motion depends on, key by key, as it holds in the end: left out and given as its
-/// default, a key is the same. Where the camera is, what things look like, the film and how long the motion is are not
-/// among it. What is long (a mesh, a track) is there as a hash.
+/// Returns every value of a scene that affects the motion, key by key. A key that is left out equals its default.
+/// Camera, look, film and duration are not included. Long values (a mesh, a track) are hashed.
 std::vector<SceneValue> physics_values(const Scene& scene);
 
-/// A hash of that: 16 hexadecimal digits.
+/// Computes a hash of these values: 16 hexadecimal digits.
 std::string physics_hash(const std::vector<SceneValue>& values);
 
-/// A line for each key that differs: "cloth.mass: 1, and 2 in look.toml".
-/// @param name of what `b` is from
+/// Describes the differences, a line for each key: "cloth.mass: 1, and 2 in look.toml".
+/// @param name name of the source of `b`
 std::string physics_difference(const std::vector<SceneValue>& a, const std::vector<SceneValue>& b,
                                const std::string& name);
 
 struct TableType;
 struct ReadEffect;
 
-/// The part of physics_values() that tables say.
-/// @param folder where the files are that effects name
+/// Returns the part of physics_values() that tables contain.
+/// @param folder folder of the files that effects name
 std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, const std::vector<ReadEffect>& effects,
                                           const std::filesystem::path& folder);
 

@@ -74,7 +74,7 @@ class PinReader {
     }
   }
 
-  /// Pins every vertex that is as far in a direction as the farthest, but for rounding.
+  /// Pins every vertex that is farthest in a direction, up to rounding.
   void add_edge(const Eigen::Vector3d& direction) {
     const Eigen::VectorXd distances = *vertices_ * direction;
     constexpr double rounding = 1e-6;

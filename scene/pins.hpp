@@ -8,11 +8,11 @@
 
 namespace drape {
 
-/// Reads an array of vertices: numbers from 0; "corner:x-y+", the vertex farthest in that direction, the first of
-/// several; "edge:x-", all that are as far in that direction as the farthest; "border", the mesh's border; and tables
-/// that select at least one, see read_selection().
+/// Reads an array of vertices. Items are numbers from 0; "corner:x-y+", the vertex farthest in that direction (the
+/// first of several); "edge:x-", all vertices farthest in that direction; "border", the border of the mesh; and tables
+/// that select at least one vertex, see read_selection().
 /// @param mesh null if it could not be read: then only the forms are checked
-/// @returns them ascending, each once
+/// @returns vertices, ascending and unique
 std::vector<int> read_pins(const TomlValue& value, const SelectableMesh* mesh, Problems& problems);
 
 }  // namespace drape

@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-/// Gives the strings that name files the names that they have in the portable scene.
+/// Replacer of file names in a scene by their names in the portable scene.
 class FileNames {
  public:
   FileNames(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& inputs,
@@ -29,7 +29,7 @@ class FileNames {
     }
   }
 
-  /// What was read without being named in the scene, since a file names it.
+  /// Adds input files that the scene does not name itself: other files refer to them.
   void add_others() {
     for (const std::filesystem::path& input : inputs_) {
       const std::string name = input.filename().string();
@@ -40,7 +40,7 @@ class FileNames {
   }
 
  private:
-  /// Of a name like "body/{frame:04}.obj".
+  /// Renames a sequence like "body/{frame:04}.obj".
   void replace_frames(std::string& text) {
     const std::filesystem::path named = folder_ / text;
     const std::string before = fmt::format("file-{}-", files_.size() + 1);
@@ -53,7 +53,7 @@ class FileNames {
     if (found) text = before + named.filename().string();
   }
 
-  /// Beside the scene, or else in the data folder's textures/.
+  /// Returns true if `text` names the file, beside the scene or in the data folder's textures/.
   [[nodiscard]] bool is_named(const std::filesystem::path& file, const std::string& text) const {
     return file == folder_ / text || file.native().ends_with("/textures/" + text);
   }

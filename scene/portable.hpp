@@ -8,22 +8,22 @@
 
 namespace drape {
 
-/// A scene as one text, in which its overrides are said as if the file did, and the files that it names, under names
-/// of their own, by which the text calls them: "file-1.obj". Whoever puts all of that into one folder has the scene,
-/// but for [check], which is about goldens beside the scene's own file. Files that a USD file refers to keep their
-/// names, without their folders: they are looked for beside it, too (see UsdStage).
+/// A scene as one self-contained text and its files. The overrides are applied in the text, and the files have new
+/// names in it: "file-1.obj". One folder with all of them holds the whole scene, except [check], whose goldens lie
+/// beside the original file. Files that a USD file refers to keep their names without folders; UsdStage finds them
+/// there.
 struct PortableScene {
   struct File {
-    std::string name;             ///< in the text
-    std::filesystem::path place;  ///< where it is
+    std::string name;             ///< name in the text
+    std::filesystem::path place;  ///< path on disk
   };
-  std::string text;  ///< TOML
+  std::string text;  ///< in TOML
   std::vector<File> files;
 };
 
-/// @param document with its overrides
-/// @param folder   the scene's
-/// @param inputs   every file that was read for it
+/// @param document document after overrides
+/// @param folder   folder of the scene
+/// @param inputs   every file read for the scene
 PortableScene make_portable(TomlValue document, const std::filesystem::path& folder,
                             const std::vector<std::filesystem::path>& inputs);
 

@@ -16,7 +16,7 @@ std::string Problems::text(const Place& place) const {
 }
 
 std::string Problems::text() const {
-  // More than these nobody reads.
+  // Longer lists are not useful to a reader.
   constexpr std::size_t most_told = 100;
   std::vector<const Problem*> sorted;
   for (const Problem& problem : found_) sorted.push_back(&problem);

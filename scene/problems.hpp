@@ -10,33 +10,32 @@
 
 namespace drape {
 
-/// A scene whose values are all valid, but not together: its steps are too long for its method, say.
+/// A scene whose values are valid one by one but not together, for example steps too long for the method.
 class SceneConflict : public UsageError {
  public:
   using UsageError::UsageError;
 };
 
-/// Collects what is wrong with a scene, so that a person sees all of it at once.
+/// Collector of a scene's problems, so that users see all of them at once.
 class Problems {
  public:
-  /// @param file      the scene's name, as messages show it
+  /// @param file      scene file name for messages
   /// @param overrides "key.path=value", in order
   Problems(std::filesystem::path file, std::vector<std::string> overrides)
       : file_(std::move(file)), overrides_(std::move(overrides)) {}
 
-  /// @param message a sentence without a full stop; it may have more lines, which are shown below it
+  /// @param message a sentence without a full stop; further lines are shown below it
   void add(const Place& place, std::string message) { found_.push_back({place, std::move(message)}); }
 
   [[nodiscard]] std::size_t count() const { return found_.size(); }
 
-  /// "scene.toml:4:9" or "--set key.path=value"; the file alone for a place that is in no text.
+  /// Returns "scene.toml:4:9" or "--set key.path=value"; the file alone for a place without a text.
   [[nodiscard]] std::string text(const Place& place) const;
 
-  /// What lists the problems in the order of their places, a line each; of many the first hundred and how many more
-  /// there are.
+  /// Lists the problems in the order of their places, a line each: at most a hundred, then the number of others.
   [[nodiscard]] std::string text() const;
 
-  /// @throws Wrong that says so, if there are any
+  /// @throws Wrong with all problems, if there are any
   template <class Wrong = UsageError>
   void throw_if_any() const {
     if (!found_.empty()) throw Wrong(text());

@@ -10,9 +10,9 @@ namespace {
 using Given = std::function<bool(const char*)>;
 
 void make_draft(Scene& scene, const Given& given) {
-  constexpr int smallest = 16;    // as [video] size
+  constexpr int smallest = 16;    // limit of [video] size
   constexpr double rate = 12.5;   // [1/s]
-  constexpr double coarser = 10;  // of a tolerance
+  constexpr double coarser = 10;  // factor of a tolerance
   if (!given("video.size")) scene.video.size = (scene.video.size / 2).cwiseMax(smallest);
   if (!given("video.fps")) scene.video.fps = std::min(scene.video.fps, rate);
   if (!given("look.samples")) scene.look.samples = 1;
@@ -22,14 +22,14 @@ void make_draft(Scene& scene, const Given& given) {
 }
 
 void make_print(Scene& scene, const Given& given) {
-  constexpr int largest = 8192;  // as [video] size
+  constexpr int largest = 8192;  // limit of [video] size
   constexpr int samples = 4, anisotropy = 16;
   if (!given("video.size")) scene.video.size = (scene.video.size * 2).cwiseMin(largest);
   if (!given("look.samples")) scene.look.samples = samples;
   if (!given("look.anisotropy")) scene.look.anisotropy = anisotropy;
 }
 
-/// Whether every pin in a document is a corner, an edge or a border.
+/// Returns true if every pin in a document is a corner, an edge or a border.
 bool pins_by_name(const TomlValue& value) {
   const TomlTable* table = value.as<TomlTable>();
   const TomlArray* array = value.as<TomlArray>();

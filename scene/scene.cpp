@@ -29,7 +29,7 @@ namespace {
 constexpr double most_steps = 1e9;
 constexpr double most_frames = 1e7;
 
-/// What has to hold between the keys of a scene's tables. Each rule is only asked of values that are in range.
+/// Rules between the keys of a scene's tables. Each rule is checked only if its values are in range.
 class Checks {
  public:
   Checks(const Scene& scene, const TomlValue& document, Problems& problems)
@@ -72,7 +72,7 @@ class Checks {
     }
   }
 
-  /// Of the whole simulation, once nothing else is wrong with it.
+  /// Checks the stability of the whole simulation, after all other checks passed.
   void stability() const {
     const SimulationSettings& settings = scene_.simulation;
     if (settings.integrator.allow_unstable) return;
@@ -81,7 +81,7 @@ class Checks {
     }
   }
 
-  /// What only implicit methods have.
+  /// Reports a time scheme for an explicit method.
   void scheme() const {
     const Method method = scene_.simulation.integrator.method;
     if (!is_explicit(method) || find_path(document_, "integrator.scheme") == nullptr) return;
@@ -114,7 +114,7 @@ class Checks {
     }
   }
 
-  /// Unless the film is shorter only because of an override that has nothing to do with them.
+  /// Reports compared frames beyond the film's end, unless an unrelated override has shortened the film.
   void compared_frames_exist() const {
     const double last = scene_.video.last_frame(static_cast<double>(scene_.step_count()) * scene_.simulation.step);
     const auto& frames = scene_.check.frames;
@@ -129,7 +129,7 @@ class Checks {
                   fmt::format("frames: the film ends with frame {}, found {}", last, *beyond));
   }
 
-  /// Unless the film is shorter or smaller only because of an override that has nothing to do with them.
+  /// Reports ignored frames or areas outside the film, unless an unrelated override has made it shorter or smaller.
   void ignored_exists() const {
     const double last = scene_.video.last_frame(static_cast<double>(scene_.step_count()) * scene_.simulation.step);
     const std::vector<int>& frames = scene_.check.ignore_frames;
@@ -175,7 +175,7 @@ class Checks {
   Problems& problems_;
 };
 
-/// Chooses a method, and has the scene and the document name it, as what is kept of a motion has to.
+/// Chooses a method and writes its name to the scene and the document, so that a recorded motion names it.
 void name_method(Scene& scene, TomlValue& document, Problems& problems) {
   SimulationSettings& settings = scene.simulation;
   scene.choice = choose_method(settings);
@@ -260,14 +260,14 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   }
 
   const bool keys_good = problems.count() == 0;
-  // A rule between keys means nothing where one of them could not be read: the default stands in its place.
+  // Check a rule only if all of its tables were read well; otherwise defaults replace wrong values.
   const Checks checks(scene, document, problems);
   if (reader.good("time") && reader.good("video")) checks.length();
   if (reader.good("integrator")) {
     checks.scheme();
     checks.stopping_rule();
     if (reader.good("time")) checks.accuracy();
-    // An accuracy is reached by schemes of second order, see SubstepScheme.
+    // An accuracy needs second-order schemes, see SubstepScheme.
     IntegratorSettings& integrator = scene.simulation.integrator;
     if (integrator.method == Method::automatic) {
       const bool solved = find_path(document, "integrator.scheme") != nullptr;

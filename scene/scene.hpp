@@ -19,19 +19,19 @@
 
 namespace drape {
 
-/// A value that a text about a scene can name: "integrator.tolerance".
+/// A named value for texts about a scene: "integrator.tolerance".
 struct SceneField {
   std::string path;
   FieldValue value;
   bool operator==(const SceneField&) const = default;
 };
 
-/// The value of a key of a scene, as text.
+/// A key of a scene and its value as text.
 struct SceneValue {
   std::string key, text;
 };
 
-/// How much time a film may take, in one word, see apply_quality().
+/// Trade-off between detail and drawing time, see apply_quality().
 enum class Quality { draft, film, print };
 
 /// A scene: plain data, complete and checked.
@@ -40,59 +40,59 @@ struct Scene {
   std::string name;  ///< the file's name without its ending: "5" for scenes/homework/5.toml
   SimulationSettings simulation;
   double duration = 5;                    ///< [s]
-  std::vector<std::array<float, 2>> uvs;  ///< of the cloth, per triangle corner, see Mesh::uvs
+  std::vector<std::array<float, 2>> uvs;  ///< texture coordinates of the cloth per triangle corner, see Mesh::uvs
   Camera camera;
   Look look;
   Video video;
   CaptionSettings caption;
   OverlaySettings overlay;
   CheckSettings check;
-  std::vector<std::filesystem::path> inputs;  ///< every file that it is read from: itself, meshes, tracks, the texture
-  std::string texture_place;                  ///< where the texture is named, for messages: "scene.toml:9:11"
+  std::vector<std::filesystem::path> inputs;  ///< every file read: the scene itself, meshes, tracks, the texture
+  std::string texture_place;                  ///< place of the texture's name, for messages: "scene.toml:9:11"
   std::vector<SceneField> fields;             ///< every key with its value
-  std::string caption_place;                  ///< where the caption's text is, for messages
-  /// A hash of what the file and the overrides say, except [check], [caption] and [overlay]: comments, the order of
-  /// keys and the way in which a number is written do not change it. 16 hexadecimal digits.
+  std::string caption_place;                  ///< place of the caption's text, for messages
+  /// Hash of the file and the overrides, except [check], [caption] and [overlay]; 16 hexadecimal digits. Comments, the
+  /// order of keys and the notation of numbers do not change it.
   std::string digest;
-  std::vector<SceneValue> tables;      ///< what the tables say on which the motion depends, see physics_values()
-  PortableScene portable;              ///< all that it was read from
-  std::vector<std::string> doubts;     ///< what may not be meant, though it can be simulated: "scene.toml:2:8: …"
-  std::optional<MethodChoice> choice;  ///< of the method, where none is named
-  std::optional<Quality> quality;      ///< that its numbers were changed for
+  std::vector<SceneValue> tables;      ///< values in the tables that affect the motion, see physics_values()
+  PortableScene portable;              ///< the scene and all its input files
+  std::vector<std::string> doubts;     ///< warnings about valid but unlikely values: "scene.toml:2:8: …"
+  std::optional<MethodChoice> choice;  ///< automatic choice of a method if none is named
+  std::optional<Quality> quality;      ///< quality that its numbers were adjusted for
 
-  /// The number of steps that cover the duration: duration/step, rounded to the nearest whole number.
+  /// Returns the number of steps that cover the duration: duration/step, rounded to the nearest whole number.
   [[nodiscard]] std::int64_t step_count() const;
 };
 
-/// How many cells a scene's grid has.
+/// Cells of a scene's grid.
 enum class Cells {
-  of_quality,  ///< as written, or as a draft has them, see coarsen_grid()
+  of_quality,  ///< as written, or coarsened for a draft, see coarsen_grid()
   as_written,
-  of_draft  ///< whatever the quality is
+  of_draft  ///< coarsened, whatever the quality is
 };
 
 /// Reads a scene file.
-/// @param overrides "key.path=value", applied in order as if the file said so, and checked like it; the value is any
-///                  TOML value, or a bare word, which is a string
+/// @param overrides "key.path=value", applied in order as if the file contained them, and checked like it; the value is
+///                  any TOML value, or a bare word, which is a string
 /// @throws UsageError whose message lists every problem of the file and the overrides, a line each:
 ///         "file:line:col: message", or "--set key.path=value: message"
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                  Cells cells = Cells::of_quality);
 
-/// Makes a scene of what a file would say.
-/// @param document a table, whose places messages name; of line 0: the scene was made by a program, and has none
-/// @param file     what messages call it; the files that it names are looked for in its folder
+/// Makes a scene from a parsed document.
+/// @param document a table; messages name its places. Line 0: made by a program, without a text
+/// @param file     file name for messages; files named in the scene are looked up in its folder
 /// @throws UsageError as load_scene()
 Scene make_scene(TomlValue document, const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                  Cells cells = Cells::of_quality);
 
-/// The data folder that holds textures/, shaders/ and scenes/: the one that use_data_folder() has named, else what was
-/// installed with the program or the library (share/drape), else the source tree it was built from.
+/// Returns the data folder, which holds textures/, shaders/ and scenes/: the one set by use_data_folder(), else the one
+/// installed with the program or the library (share/drape), else the source tree of the build.
 /// @throws UsageError if there is none
 std::filesystem::path data_folder();
 
-/// Makes data_folder() return this one from now on; an empty path has it searched for again. Not while another thread
-/// reads scenes or draws.
+/// Sets the result of data_folder(); an empty path restores the search. Do not call it while another thread reads
+/// scenes or draws.
 /// @throws UsageError if there is no such folder
 void use_data_folder(const std::filesystem::path& folder);
 

@@ -64,14 +64,14 @@ class Selection {
     add_where([&](const Eigen::Vector3d& p) { return (p.array() >= low).all() && (p.array() <= high).all(); });
   }
 
-  /// The entry of a table, or null after a complaint.
+  /// Returns the entry of a table; null after reporting that it is missing.
   const TomlValue* part(const TomlValue& value, const char* key, const std::string& name) {
     const TomlValue* found = value.as<TomlTable>()->find(key);
     if (found == nullptr) problems_.add(value.place, fmt::format("{}: missing key '{}'", name, key));
     return found;
   }
 
-  /// Whether a value is a table of these keys.
+  /// Returns true if a value is a table with only these keys; reports a problem otherwise.
   bool is_table(const TomlValue& value, const std::vector<std::string>& keys, const std::string& name) {
     const TomlTable* table = value.as<TomlTable>();
     if (table == nullptr) {
@@ -193,7 +193,7 @@ std::vector<std::vector<int>> border_rings(const std::vector<Triangle>& triangle
   };
   const auto edge = [](int a, int b) { return Edge{std::min(a, b), std::max(a, b)}; };
   for_edges([&](int a, int b) { ++uses[edge(a, b)]; });
-  std::multimap<int, int> next;  // along the border, as its triangles have their edges
+  std::multimap<int, int> next;  // border edges, directed as in their triangles
   for_edges([&](int a, int b) {
     if (a != b && uses[edge(a, b)] == 1) next.emplace(a, b);
   });

@@ -24,9 +24,9 @@ namespace {
 
 constexpr const char* effects_table = "effects";
 
-/// A list of [x, y, width, height].
+/// Reads a list of [x, y, width, height].
 std::vector<PixelRectangle> read_rectangles(const TomlValue& value, const std::string& name, Problems& problems) {
-  constexpr int largest = 8192;  // as [check] size
+  constexpr int largest = 8192;  // limit of [check] size
   std::vector<PixelRectangle> rectangles;
   const TomlArray* list = value.as<TomlArray>();
   if (list == nullptr) {
@@ -45,10 +45,10 @@ std::vector<PixelRectangle> read_rectangles(const TomlValue& value, const std::s
   return rectangles;
 }
 
-/// Reads the value of a key into its target, whatever that is.
+/// Reader of a key's value into its target, for every type of target.
 class KeyReader {
  public:
-  /// @param table that the key is in
+  /// @param table table that contains the key
   KeyReader(const TomlTable& table, const TomlValue& value, const Key& key, const std::filesystem::path& folder,
             const SelectableMesh* mesh, Problems& problems, std::vector<std::filesystem::path>& files)
       : table_(table),
@@ -98,7 +98,7 @@ class KeyReader {
     } else if (auto* const* rectangles = std::any_cast<std::vector<PixelRectangle>*>(&form.target)) {
       **rectangles = read_rectangles(value_, key_.name, problems_);
     } else {
-      *std::any_cast<const TomlValue**>(form.target) = &value_;  // whoever describes the table reads it
+      *std::any_cast<const TomlValue**>(form.target) = &value_;  // the describer of the table reads it
     }
   }
   void operator()(const KeyframeList& list) const {
@@ -136,7 +136,7 @@ class KeyReader {
   static double magnitude(double number) { return std::abs(number); }
   static double magnitude(const Eigen::Vector3d& vector) { return vector.cwiseAbs().maxCoeff(); }
 
-  /// Refuses places and velocities so large that their products overflow.
+  /// Rejects positions and velocities so large that their products overflow.
   template <class Value>
   std::optional<Value> in_reach(const std::optional<Value>& value) const {
     const bool of_place = key_.unit == "m" || key_.unit == "m/s" || key_.unit == "s, m";
@@ -184,8 +184,7 @@ class KeyReader {
                               furthest, furthest_place));
   }
 
-  /// A mesh that may move. Where a body names its file alone, the key `prim` beside it says which one of the file it
-  /// is.
+  /// Reads a mesh that may move. If only a file name is given, the key `prim` beside it selects the mesh in the file.
   void read_moving_mesh(std::shared_ptr<const MeshMotion>& mesh) const {
     std::optional<MeshName> named = read_mesh_name(value_, key_.name, true, problems_);
     if (!named) return;
@@ -234,7 +233,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The last names of the types whose tables are within the table `owner`, or below the root if that is empty.
+/// Returns the last names of the types with tables directly within `owner`; empty means the root.
 std::vector<std::string> tables_within(const std::string& owner, const std::vector<TableType>& types) {
   const std::string prefix = owner.empty() ? "" : owner + ".";
   std::vector<std::string> names;

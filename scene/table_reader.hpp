@@ -11,27 +11,27 @@
 
 namespace drape {
 
-/// Reads tables of a document as their TableType says, and complains about everything in them that it does not mention.
+/// Reader of a document's tables as their TableType describes them. Everything else in them is a problem.
 class TableReader {
  public:
-  /// @param folder   the scene's, where the files that it names are
+  /// @param folder   folder of the scene, which holds the files that it names
   /// @param problems must outlive this object
   TableReader(std::filesystem::path folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
 
-  /// Says what selections of vertices refer to. Until then, and with null, only their form is checked.
+  /// Sets the mesh for selections of vertices. Before that, and with null, only their form is checked.
   void set_mesh(const SelectableMesh* mesh) { mesh_ = mesh; }
 
-  /// Reads those of the tables that the document has. Required ones must be there, and below its root there may be
-  /// nothing else but a table `effects`, which this does not read.
+  /// Reads the tables that the document has. Required ones must exist. Below the root, only a table `effects` is
+  /// allowed besides; it is not read here.
   void read_all(const TomlValue& document, const std::vector<TableType>& types);
 
-  /// Reads one table. What it has under the names `subtables` is not read.
+  /// Reads one table, except its entries named in `subtables`.
   void read(const TomlValue& value, const TableType& type, const std::vector<std::string>& subtables = {});
 
-  /// Whether no table of this name had problems, nor the root: what it leaves out is then left out on purpose.
+  /// Returns true if neither this table nor the root had problems: then absent keys are absent on purpose.
   [[nodiscard]] bool good(const std::string& table) const;
 
-  /// The files that the tables name, but for those in forms of their own.
+  /// Returns the files that the tables name, except those in custom forms.
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
 
  private:
@@ -47,15 +47,15 @@ class TableReader {
   std::filesystem::path folder_;
   const SelectableMesh* mesh_ = nullptr;
   Problems& problems_;
-  std::vector<Home> homes_;  // every key of every table, to say where one belongs
+  std::vector<Home> homes_;  // every key of every table, to suggest the right table
   std::vector<std::filesystem::path> files_;
-  std::vector<std::string> bad_;  // tables that had problems; "" is the root
+  std::vector<std::string> bad_;  // tables with problems; "" is the root
 };
 
-/// Where `key` is written in a table, or where the table begins if it is not.
+/// Returns the place of `key` in a table, or the start of the table if the key is absent.
 Place place_of(const TomlValue& table, std::string_view key);
 
-/// The node with a dotted name, "cloth.transform", or null.
+/// Returns the node with a dotted name, "cloth.transform", or null.
 const TomlValue* find_path(const TomlValue& document, std::string_view path);
 
 }  // namespace drape

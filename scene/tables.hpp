@@ -11,20 +11,20 @@
 
 namespace drape {
 
-/// A value as it stands in the file, see scene/document.hpp.
+/// A value of a document, see scene/document.hpp.
 struct TomlValue;
 
-/// What [cloth] and [cloth.transform] say, before it is made into a Cloth.
+/// The values of [cloth] and [cloth.transform], before they become a Cloth.
 struct ClothTable {
   const TomlValue* mesh = nullptr;
   const TomlValue* rest = nullptr;
   const TomlValue* pins = nullptr;
-  const Fabric* material = nullptr;          ///< of what nothing else says
-  double mass = 1;                           ///< of the whole, where no density is said [kg]
+  const Fabric* material = nullptr;          ///< default of values that are not given
+  double mass = 1;                           ///< total mass where no density is given [kg]
   std::optional<double> density;             ///< [kg/m²]
-  std::optional<double> stiffness, modulus;  ///< at most one; of every spring, and by area [N/m]
+  std::optional<double> stiffness, modulus;  ///< at most one: of every spring, or by area [N/m]
   enum class Springs { edges, edges_and_bend } springs = Springs::edges;
-  std::optional<double> shear_stiffness, bend_stiffness;  ///< of edges_and_bend; else as `stiffness` [N/m]
+  std::optional<double> shear_stiffness, bend_stiffness;  ///< for edges_and_bend; default `stiffness` [N/m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();     ///< [m/s]
 
   const TomlValue* scale = nullptr;
@@ -38,37 +38,37 @@ struct TableType {
   std::string help;
   Keys keys;
   bool required = false;
-  bool repeatable = false;  ///< may be written as [[name]] several times
+  bool repeatable = false;  ///< can be written as [[name]] several times
 };
 
-/// Every table of a scene but its effects, whose keys write to `cloth` and `scene`. With effect_types() the only
-/// description of the format: reading, error messages and the reference page are made from it.
+/// Returns every table of a scene except its effects; the keys write to `cloth` and `scene`. Together with
+/// effect_types() it is the only description of the format: reader, messages and reference page are made from it.
 std::vector<TableType> scene_tables(ClothTable& cloth, Scene& scene);
 
-/// The table of an effect of this type, whose keys write to it.
+/// Returns the table of an effect of this type; its keys write to the effect.
 TableType effect_table(const EffectType& type, Effect& effect);
 
-/// A key as a reference shows it.
+/// A key in the reference.
 struct KeyText {
   std::string name;
-  std::string form;                 ///< of its value, with its range: "number, above 0"
-  std::vector<std::string> values;  ///< all it takes, where it takes one of a few
-  std::string unit, initial, help;  ///< `initial` is what holds without the key; empty: nothing of that form
+  std::string form;                 ///< form of its value, with its range: "number, above 0"
+  std::vector<std::string> values;  ///< accepted values, if they are a fixed set
+  std::string unit, initial, help;  ///< `initial`: the default; empty: none in that form
   bool required = false;
-  std::vector<std::string> alternatives;  ///< a required key may be left out where one of these is given
+  std::vector<std::string> alternatives;  ///< keys that make a required key optional
 };
 
-/// A table as a reference shows it. Its help and those of its keys are one paragraph of Markdown.
+/// A table in the reference. Its help and that of its keys are one paragraph of Markdown each.
 struct TableText {
   std::string name, help;
   bool repeatable = false;
   std::vector<KeyText> keys;
 };
 
-/// Every table of a scene, effects last.
+/// Returns every table of a scene, effects last.
 std::vector<TableText> reference_tables();
 
-/// The format's reference: a heading and a table of keys for each table, in Markdown.
+/// Returns the format's reference in Markdown: a heading and a table of keys for each table.
 std::string format_reference();
 
 }  // namespace drape

@@ -52,7 +52,7 @@ struct WriteValue {
 
 std::string number_text(double number) {
   const std::string text = fmt::format("{}", number);
-  // Without a point or an exponent it would be a whole number, of which TOML has fewer.
+  // Add a point: otherwise TOML would read an integer, whose range is smaller.
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
@@ -75,7 +75,7 @@ std::string toml_quoted(const std::string& text) {
 
 namespace {
 
-/// A name as TOML writes it: bare where it can be.
+/// Returns a name as TOML writes it: bare if possible.
 std::string name_text(const std::string& name) {
   const auto bare = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
   return !name.empty() && std::ranges::all_of(name, bare) ? name : toml_quoted(name);
@@ -99,7 +99,7 @@ std::string toml_literal(const TomlValue& value) {
   if (const bool* flag = value.as<bool>()) return *flag ? "true" : "false";
   if (const std::int64_t* whole = value.as<std::int64_t>()) return fmt::format("{}", *whole);
   if (const double* number = value.as<double>()) return number_text(*number);
-  return "1970-01-01";  // no key takes a date, so no scene has one
+  return "1970-01-01";  // unused: no key accepts a date
 }
 
 std::string value_text(const Key::Target& target) { return std::visit(WriteValue{}, target); }

@@ -6,16 +6,16 @@
 
 namespace drape {
 
-/// What a key's target holds, as a scene would say it; empty where it holds nothing, or what is of a form of its own.
-/// Different values have different texts.
+/// Returns the value of a key's target as scene text; empty for no value and for custom forms. Different values have
+/// different texts.
 std::string value_text(const Key::Target& target);
 
 struct TomlValue;
 
-/// A value of a document as TOML writes it, on one line.
+/// Returns a value of a document as TOML, on one line.
 std::string toml_literal(const TomlValue& value);
 
-/// A string in TOML's quotes.
+/// Returns a string in TOML's quotes.
 std::string toml_quoted(const std::string& text);
 
 }  // namespace drape

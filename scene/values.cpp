@@ -19,7 +19,7 @@ void expected(const char* what, const TomlValue& value, const std::string& name,
   problems.add(value.place, fmt::format("{}: expected {}, found {}", name, what, value.kind()));
 }
 
-/// The items of an array of the given size, or null after a complaint.
+/// Returns the items of an array of the given size; null after reporting a problem.
 const TomlArray* read_array(const TomlValue& value, const std::string& name, std::size_t size, const char* what,
                             Problems& problems) {
   const TomlArray* array = value.as<TomlArray>();
@@ -37,7 +37,7 @@ std::string item_name(const std::string& name, std::size_t index) { return fmt::
 
 bool is_file(const std::filesystem::path& path) {
   std::error_code error;
-  const bool whole = path.native().find('\0') == std::string::npos;  // else the system reads what is before the zero
+  const bool whole = path.native().find('\0') == std::string::npos;  // the system ends a name at a zero byte
   return whole && std::filesystem::is_regular_file(path, error);
 }
 
@@ -176,7 +176,7 @@ std::optional<std::array<std::string, 3>> read_formulas(
 
 namespace {
 
-/// Reads one keyframe into `list`; false if it is not one. `used` is the name that the values have, once it is known.
+/// Reads one keyframe into `list`; returns false if it is not one. `used` is the name of the values, once known.
 bool read_keyframe(const TomlValue& value, const std::string& name, const KeyframeList& list,
                    std::optional<std::size_t>& used, Problems& problems) {
   const TomlTable* table = value.as<TomlTable>();

@@ -15,7 +15,7 @@
 
 namespace drape {
 
-/// The values that make sense for a number.
+/// The accepted range of a number.
 struct Range {
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
@@ -24,16 +24,15 @@ struct Range {
   [[nodiscard]] bool contains(double value) const {
     return (minimum_excluded ? value > minimum : value >= minimum) && value <= maximum;
   }
-  /// "above 0 and at most 1"; empty where every number makes sense.
+  /// Returns for example "above 0 and at most 1"; empty if every number is accepted.
   [[nodiscard]] std::string text() const;
 };
 
-/// Energies and volumes are products of up to three lengths, a stiffness and the number of vertices [m].
+/// Largest coordinate [m]. Energies and volumes multiply up to three lengths, a stiffness and the number of vertices.
 inline constexpr double furthest_place = 1e90;
 
-// Each of these reads a value of one kind, strictly: a number may be written as a whole one, and nothing else is
-// converted; no number may be nan or infinite. What does not fit is added to `problems`, at its own place and under
-// `name`, and nothing is returned.
+// Each function reads a value of one kind. Whole numbers convert to numbers; nothing else is converted, and nan or
+// infinite numbers are rejected. A wrong value is added to `problems` with its place and `name`; nothing is returned.
 
 std::optional<bool> read_bool(const TomlValue& value, const std::string& name, Problems& problems);
 std::optional<int> read_int(const TomlValue& value, const std::string& name, const Range& range, Problems& problems);
@@ -63,15 +62,15 @@ std::optional<std::array<std::string, 3>> read_formulas(
     const TomlValue& value, const std::string& name,
     const std::function<std::optional<std::string>(const std::string&)>& problem, Problems& problems);
 
-/// Reads keyframes, an array of { time, NAME = [x, y, z] }, at least one, whose times increase from 0 on.
+/// Reads keyframes: a non-empty array of { time, NAME = [x, y, z] } with times increasing from 0 on.
 void read_keyframes(const TomlValue& value, const std::string& name, const KeyframeList& list, Problems& problems);
 
-/// Reads the name of a file: relative to `folder`, the scene's, or else in the data folder's textures/. An empty string
+/// Reads a file name, relative to `folder` (of the scene), otherwise to textures/ of the data folder. An empty string
 /// stays empty: no file.
 std::optional<std::filesystem::path> read_file_name(const TomlValue& value, const std::string& name,
                                                     const std::filesystem::path& folder, Problems& problems);
 
-/// 'a', 'b' or 'c': which of several keys can be given.
+/// Returns 'a', 'b' or 'c': a list of alternative keys.
 std::string quoted_or(const std::string& first, const std::vector<std::string>& others);
 
 }  // namespace drape

@@ -16,7 +16,7 @@
 namespace drape {
 namespace {
 
-/// Energies of the steps, from which their largest rise follows.
+/// Energies of the steps, for their largest rise.
 class EnergyBook {
  public:
   explicit EnergyBook(double step) : step_(step) {}
@@ -42,7 +42,7 @@ class EnergyBook {
   double first_ = 0, available_ = 0;
 };
 
-/// Why the energy of a scene may rise; empty where it can only fall.
+/// Returns the reason why the energy of a scene may rise; empty if it can only decrease.
 std::string cause_of_rises(const Scene& scene, const System& system) {
   if (is_explicit(scene.simulation.integrator.method)) return "the energy of an explicit method oscillates";
   if (!system.only_loses_energy()) return "something that moves, blows or attracts may do work on the cloth";
@@ -53,14 +53,14 @@ audit::AuditedCloth audited_cloth(const Scene& scene, const System& system, cons
                                   bool imported) {
   const Cloth& cloth = scene.simulation.cloth;
   const Eigen::Vector3d gravity = imported ? Eigen::Vector3d(-Eigen::Vector3d::UnitZ()) : system.gravity;
-  const bool known = !imported || options.held.has_value();  // nothing says which vertices are pinned elsewhere
+  const bool known = !imported || options.held.has_value();  // pins of imported motions are unknown
   return {.rest = cloth.rest,
           .triangles = cloth.triangles,
           .held = {.known = known, .vertices = options.held.value_or(cloth.pins)},
           .down = gravity.isZero(0) ? gravity : Eigen::Vector3d(gravity.normalized())};
 }
 
-constexpr double usual_stretch = 1.1;  // beyond which an edge of an imported motion is a finding
+constexpr double usual_stretch = 1.1;  // limit for the edges of an imported motion
 
 audit::AuditLimits limits_of(const Scene& scene, const AuditOptions& options, bool imported) {
   audit::AuditLimits limits{.depth = options.depth};

@@ -14,44 +14,44 @@
 
 namespace drape {
 
-/// How a motion is audited.
+/// Options of an audit.
 struct AuditOptions {
-  double depth = audit::AuditLimits{}.depth;  ///< of a vertex in a solid that is no finding [m]
-  std::optional<double> stretch;              ///< of an edge likewise; absent: the scene's strain limit, if it has one
-  std::optional<std::int64_t> steps;          ///< audit the motion up to this step; absent: all of it
-  std::optional<std::vector<int>> held;       ///< vertices that may stand still; absent: the scene's pins
+  double depth = audit::AuditLimits{}.depth;  ///< largest accepted depth of a vertex in a solid [m]
+  std::optional<double> stretch;              ///< accepted stretch of an edge; absent: the scene's strain limit
+  std::optional<std::int64_t> steps;          ///< last step to audit; absent: the whole motion
+  std::optional<std::vector<int>> held;       ///< vertices that may rest; absent: the scene's pins
 };
 
-/// The energy of a motion over its steps.
+/// Energy balance of a motion.
 struct EnergyAudit {
-  std::string not_judged;               ///< why a rise has a cause or none is known, as a clause; empty: it was judged
-  static constexpr double most = 0.02;  ///< of all energy, which steps that are solved loosely may gain
+  std::string not_judged;               ///< reason why a rise is not judged, as a clause; empty: it was judged
+  static constexpr double most = 0.02;  ///< tolerated gain relative to all energy, from inexact solves of steps
 
-  double rise = 0;          ///< the largest over the least before it [J]
-  double of_available = 0;  ///< that rise by all energy that the cloth ever had
-  double from = 0, to = 0;  ///< when it rose [s]
+  double rise = 0;          ///< largest rise above the previous minimum [J]
+  double of_available = 0;  ///< that rise relative to all energy that the cloth ever had
+  double from = 0, to = 0;  ///< time of the rise [s]
 
-  /// True where the rise is more than the tolerance of a step explains.
+  /// Returns true if the rise exceeds the tolerance of the solver.
   [[nodiscard]] bool found() const { return not_judged.empty() && of_available > most; }
 };
 
-/// All that an audit has found.
+/// Results of an audit.
 struct AuditReport {
-  std::string file;  ///< of the motion or the scene, as it is shown
+  std::string file;  ///< name of the motion or the scene, for display
   audit::AuditLimits limits;
   audit::MotionAudit findings;
   EnergyAudit energy;
-  double duration = 0;          ///< up to the last state [s]
-  bool gaps = false;            ///< states are more than a step apart, so the ways between them are no steps
-  std::string divergence = {};  ///< why the simulation ended early; empty: it did not
+  double duration = 0;          ///< time of the last state [s]
+  bool gaps = false;            ///< states are more than a step apart: paths between them are no steps
+  std::string divergence = {};  ///< reason for an early end of the simulation; empty: none
   bool interrupted = false;
 
   [[nodiscard]] bool clean() const { return findings.clean() && !energy.found(); }
 };
 
-/// Audits each state of a scene's motion: simulates it, or reads it where it is recorded.
-/// @param recorded the motion, if it is in a file; null: it is simulated
-/// @throws UsageError if a state is not finite or names vertices that there are not
+/// Audits each state of a scene's motion, simulated or recorded.
+/// @param recorded the motion, if it is in a file; null: simulate it
+/// @throws UsageError if a state is non-finite or has invalid vertices
 AuditReport audit_motion(const Scene& scene, const std::shared_ptr<MotionReader>& recorded, const AuditOptions& options,
                          const std::stop_token& stop, Progress& progress);
 

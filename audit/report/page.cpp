@@ -36,7 +36,7 @@ View whole_view(const Scene& scene, const WorstState& state, double aspect) {
   return framing.view();
 }
 
-/// The triangles that have a corner among some vertices.
+/// Returns the triangles with a corner among some vertices.
 std::vector<Triangle> triangles_at(const std::vector<Triangle>& triangles, const std::vector<int>& vertices) {
   std::vector<Triangle> found;
   const auto marked = [&](int v) { return std::ranges::binary_search(vertices, v); };
@@ -45,10 +45,10 @@ std::vector<Triangle> triangles_at(const std::vector<Triangle>& triangles, const
   return found;
 }
 
-/// The view of the place where something was found, from the side to which the cloth's triangles there face.
+/// Returns a close view of a finding, from the front side of the cloth's triangles there.
 /// @param vertices at least one, of the cloth
 View close_view(const Scene& scene, const WorstState& state, const View& whole, double aspect) {
-  constexpr double part = 0.12;  // of the cloth's size: what is further away is another place
+  constexpr double part = 0.12;  // relative to the cloth's size: more distant vertices are another place
   const double size = (state.x.colwise().maxCoeff() - state.x.colwise().minCoeff()).norm();
   std::vector<int> place;
   std::ranges::copy_if(state.vertices, std::back_inserter(place), [&](int v) {
@@ -80,7 +80,7 @@ View close_view(const Scene& scene, const WorstState& state, const View& whole, 
   return framing.view();
 }
 
-/// A state to turn.
+/// Returns a state as an interactive view.
 html::PlayedMotion turned(const Scene& scene, const Frame& frame) {
   Look look = scene.look;
   look.mesh_lines = true;

@@ -9,19 +9,19 @@
 
 namespace drape {
 
-/// The worst state of a check, drawn: all of it, and the place where it was found.
+/// Pictures of the worst state of a check: the whole cloth and a close view of the finding.
 struct DrawnFinding {
   audit::Check check;
   std::string whole, close;   ///< PNG files
-  html::PlayedMotion turned;  ///< the state, to turn; without frames if a browser cannot hold it
+  html::PlayedMotion turned;  ///< interactive view; without frames if it is too large for a browser
 };
 
-/// Draws the worst state of each check that has found something, with the vertices concerned in red.
+/// Draws the worst state of each check with findings; the vertices concerned are red.
 /// @throws UsageError, OutputError as Renderer
 std::vector<DrawnFinding> draw_findings(const Scene& scene, const AuditReport& report, GlBackend backend);
 
-/// A self-contained page: the table of the checks, and the worst states drawn.
-/// @param command that makes it again
+/// Returns a self-contained page with the table of checks and the worst states.
+/// @param command command that makes the page again
 std::string audit_page(const AuditReport& report, const std::vector<DrawnFinding>& drawn, const std::string& command);
 
 }  // namespace drape

@@ -28,7 +28,7 @@ std::string limit_of(Check check, const audit::AuditLimits& limits) {
   return "–";
 }
 
-/// The most that a check has found in a state: "2 pairs", "1.2", "3 mm".
+/// Returns the worst value of a check in a state: "2 pairs", "1.2", "3 mm".
 std::string most_of(Check check, const CheckFindings& found) {
   const std::size_t count = found.states > 0 ? found.worst.count : 0;
   switch (check) {

@@ -12,12 +12,12 @@ class Outline {
   explicit Outline(std::span<const Eigen::Vector3d> points) {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < points.size(); ++i) {
-      // Differences from one corner: far from the origin the products of the coordinates themselves cancel badly.
+      // Subtract one corner: far from the origin, products of the coordinates themselves cancel badly.
       const Eigen::Vector3d p = points[i] - points[0];
       const Eigen::Vector3d q = points[(i + 1) % points.size()] - points[0];
       normal += p.cross(q);
     }
-    // Dropping the normal's largest component projects the polygon without squashing it flat.
+    // Drop the normal's largest component: this projection does not flatten the polygon to a line.
     Eigen::Index drop = 2;
     normal.cwiseAbs().maxCoeff(&drop);
     const Eigen::Index u = (drop + 1) % 3, v = (drop + 2) % 3;
@@ -25,7 +25,7 @@ class Outline {
     for (const Eigen::Vector3d& p : points) flat_.emplace_back(p[u] - points[0][u], side * (p[v] - points[0][v]));
   }
 
-  /// Twice the signed area of the triangle of three corners: positive where b turns left.
+  /// Returns twice the signed area of the triangle of three corners: positive for a left turn at b.
   [[nodiscard]] double area(std::size_t a, std::size_t b, std::size_t c) const {
     const Eigen::Vector2d p = flat_[b] - flat_[a], q = flat_[c] - flat_[a];
     return p.x() * q.y() - p.y() * q.x();
@@ -39,7 +39,7 @@ class Outline {
     return true;
   }
 
-  /// Whether the triangle of the corners a, b, c can be cut off: it turns left and holds no other corner of `rest`.
+  /// Returns true if the triangle a, b, c can be cut off: it turns left and contains no other corner of `rest`.
   [[nodiscard]] bool is_ear(std::size_t a, std::size_t b, std::size_t c, const std::vector<std::size_t>& rest) const {
     if (area(a, b, c) <= 0) return false;
     for (const std::size_t other : rest) {
@@ -65,7 +65,7 @@ std::vector<std::array<std::size_t, 3>> triangulate(std::span<const Eigen::Vecto
   std::vector<std::size_t> rest(points.size());
   std::iota(rest.begin(), rest.end(), std::size_t{0});
   while (rest.size() > 3) {
-    // Without an ear (the outline crosses itself or is flat) any corner will do: every corner stays in use.
+    // If no ear exists (the outline crosses itself or is flat), cut any corner, so that every corner stays in use.
     std::size_t ear = 1;
     for (std::size_t i = 0; i < rest.size(); ++i) {
       const std::size_t before = rest[(i + rest.size() - 1) % rest.size()], after = rest[(i + 1) % rest.size()];

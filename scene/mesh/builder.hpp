@@ -9,27 +9,27 @@
 
 namespace drape {
 
-/// The most corners a face that is not convex can have: clipping its ears takes time that grows with their cube.
+/// Largest number of corners of a concave face. Ear clipping takes time cubic in this number.
 inline constexpr std::size_t most_concave_corners = 256;
 
-/// Collects the vertices and polygons of a file into a Mesh.
+/// Builder of a Mesh from the vertices and polygons of a file.
 class MeshBuilder {
  public:
   using Uv = std::array<float, 2>;
 
-  /// Adds a vertex at a position [m]; vertices are numbered from 0 in the order they are added.
+  /// Adds a vertex at a position [m]. Vertices are numbered from 0 in the order of insertion.
   void add_vertex(const Eigen::Vector3d& position) { positions_.push_back(position); }
 
   [[nodiscard]] std::size_t vertex_count() const { return positions_.size(); }
   [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
 
-  /// Adds a polygon as triangles: a fan from its first corner where it is convex, else by clipping ears.
+  /// Adds a polygon as triangles: a fan from its first corner if convex, otherwise by ear clipping.
   /// @param corners at least 3, all below vertex_count()
   /// @param uvs one per corner, or empty
-  /// @return false, and nothing is added, if it is concave with more than most_concave_corners corners
+  /// @return false, without adding it, if the polygon is concave with more than most_concave_corners corners
   [[nodiscard]] bool add_polygon(std::span<const int> corners, std::span<const Uv> uvs);
 
-  /// The mesh; polygons without texture coordinates get (0, 0) if others have some.
+  /// Returns the mesh. If some polygons have texture coordinates, the others get (0, 0).
   [[nodiscard]] Mesh finish();
 
  private:
@@ -40,9 +40,9 @@ class MeshBuilder {
   std::vector<Uv> uvs_;
 };
 
-/// The triangles of a polygon in space, as places in `points`, wound as the polygon is: points.size() − 2 of them. It
-/// is clipped ear by ear (Meisters 1975) in the plane of its vector area (Newell's normal). A convex polygon gives the
-/// fan (0,1,2), (0,2,3), …; where a polygon crosses itself the triangles still use each corner, but may overlap.
+/// Triangulates a polygon in space: returns points.size() − 2 triangles as indices into `points`, with the polygon's
+/// winding. It clips ears (Meisters 1975) in the plane of the vector area (Newell's normal). A convex polygon gives the
+/// fan (0,1,2), (0,2,3), …. A self-crossing polygon still uses each corner, but its triangles may overlap.
 std::vector<std::array<std::size_t, 3>> triangulate(std::span<const Eigen::Vector3d> points);
 
 }  // namespace drape

@@ -18,11 +18,11 @@
 namespace drape {
 namespace {
 
-/// A stream over a text that knows how much of it was read.
+/// A stream buffer over a text that counts the bytes read.
 class TextBuffer : public std::streambuf {
  public:
   explicit TextBuffer(std::string_view text) {
-    char* begin = const_cast<char*>(text.data());  // a stream buffer asks for char*, and an input one never writes
+    char* begin = const_cast<char*>(text.data());  // a stream buffer asks for char*, but an input one never writes
     setg(begin, begin, begin + text.size());
   }
   [[nodiscard]] std::size_t read() const { return static_cast<std::size_t>(gptr() - eback()); }
@@ -34,11 +34,11 @@ struct Word {
   std::string_view text;
 };
 
-/// tinyobjloader splits the file into statements and faces into corners, but is lenient: it reads a word as 0 and says
-/// nothing. So each statement is checked on its own line, and its coordinates are read from there, correctly rounded.
+/// Reader based on tinyobjloader, which splits the file into statements and faces into corners. It silently reads a
+/// word as 0. So each statement is checked on its own line, and its coordinates are read there, correctly rounded.
 class ObjReader {
  public:
-  /// @param group of which the vertices are collected
+  /// @param group group whose vertices are collected
   explicit ObjReader(const SourceText& source, std::string group = {})
       : source_(source), buffer_(source.text()), group_(std::move(group)) {}
 
@@ -64,7 +64,7 @@ class ObjReader {
     return builder_.finish();
   }
 
-  /// Of the group, once all is read.
+  /// Returns the vertices of the group after read().
   [[nodiscard]] std::vector<int> group_vertices() {
     if (std::ranges::find(groups_, group_) == groups_.end()) {
       source_.fail(fmt::format("there is no group or object {} in the file{}", in_quotes(group_),
@@ -77,11 +77,11 @@ class ObjReader {
 
  private:
   struct Corner {
-    int vertex, uv;  // from 0; uv is -1 where there is none
+    int vertex, uv;  // from 0; uv is -1 if absent
     std::size_t offset;
   };
 
-  /// tinyobjloader takes a lone "v" for an unknown statement and passes it over, which would renumber the vertices.
+  /// Rejects a lone "v". tinyobjloader skips it as an unknown statement, which would renumber the vertices.
   void reject_empty_statements() const {
     const std::string_view text = source_.text();
     for (std::size_t begin = 0; begin < text.size();) {
@@ -108,7 +108,7 @@ class ObjReader {
     }
   }
 
-  /// The words of the statement tinyobjloader has just read; the first is its name.
+  /// Returns the words of the statement that tinyobjloader has just read; the first is its name.
   [[nodiscard]] std::vector<Word> statement() const {
     const std::string_view text = source_.text();
     std::size_t end = buffer_.read();
@@ -118,7 +118,7 @@ class ObjReader {
     return split(before == std::string_view::npos ? 0 : before + 1, end);
   }
 
-  /// The finite numbers of a statement.
+  /// Returns the finite numbers of a statement.
   std::vector<double> numbers(std::size_t at_least, const char* form) const {
     const std::vector<Word> words = statement();
     std::vector<double> result;
@@ -177,7 +177,7 @@ class ObjReader {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const std::size_t offset = corners[i].offset;
       if (found[i].vertex_index == 0) source_.fail(offset, "vertices are numbered from 1, found 0");
-      // A relative number counts back from the vertices so far; the others may also name one further down the file.
+      // A relative number counts back from the latest vertex; an absolute one may refer to a later line of the file.
       const bool has_uv = found[i].texcoord_index != 0;
       corners_.push_back({absolute(found[i].vertex_index, builder_.vertex_count(), "vertices", offset),
                           has_uv ? absolute(found[i].texcoord_index, uvs_.size(), "texture coordinates", offset) : -1,

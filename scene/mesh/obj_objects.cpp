@@ -8,7 +8,7 @@
 namespace drape {
 namespace {
 
-/// The faces of some vertices, which are ascending, as a mesh of their own.
+/// Extracts the faces of some vertices (ascending) as a separate mesh.
 Mesh part_of(const Mesh& mesh, const std::vector<int>& vertices) {
   std::vector<int> numbers(static_cast<std::size_t>(mesh.positions.rows()), -1);
   Mesh part;
@@ -44,7 +44,7 @@ std::vector<ObjObject> read_drape_objects(const SourceText& source) {
     const std::string name(text.substr(begin, text.find('\n', begin) - begin));
     if (name == "cloth") continue;
     const std::vector<int> vertices = read_obj_group(source, name);
-    std::vector<int> others;  // the cloth's, also those that no face uses
+    std::vector<int> others;  // the cloth's vertices, including unused ones
     std::ranges::set_difference(of_cloth, vertices, std::back_inserter(others));
     of_cloth = std::move(others);
     objects.push_back({name, part_of(all, vertices)});

@@ -5,13 +5,13 @@
 
 namespace drape {
 
-/// What a scene says about a mesh file beside its name.
+/// Options of a mesh file in a scene.
 struct MeshOptions {
   enum class Up { y, z };
 
-  std::string prim = {};                         ///< of a USD file, "/World/cloth"; empty: the only mesh
-  std::optional<Up> up = {};                     ///< of an OBJ, which cannot say it itself; without it z
-  std::optional<double> frames_per_second = {};  ///< of an OBJ sequence; without it 24
+  std::string prim = {};                         ///< prim of a USD file, "/World/cloth"; empty: the only mesh
+  std::optional<Up> up = {};                     ///< up axis of an OBJ, which does not store it; default z
+  std::optional<double> frames_per_second = {};  ///< frame rate of an OBJ sequence; default 24
 };
 
 }  // namespace drape

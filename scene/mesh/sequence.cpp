@@ -20,17 +20,17 @@ constexpr std::string_view frame_opening = "{frame";
   throw UsageError(shown(file) + ": " + escape_controls(message));
 }
 
-/// A name around a number.
+/// A file name split around its number.
 struct FrameName {
   std::string before, after;
-  std::size_t width = 0;  // of the number at least; 0: of any, as no zeros stand before it
+  std::size_t width = 0;  // least digits of the number; 0: any, without leading zeros
 
   [[nodiscard]] std::string with(std::int64_t number) const {
     return before + fmt::format("{:0{}}", number, width) + after;
   }
 };
 
-/// Nothing unless there is {frame} or {frame:04} in the name.
+/// Parses a name that contains {frame} or {frame:04}; returns nothing for other names.
 std::optional<FrameName> frame_name(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
   const std::size_t begin = name.find(frame_opening), end = name.find('}', begin);
@@ -42,7 +42,7 @@ std::optional<FrameName> frame_name(const std::filesystem::path& file) {
                    padded ? static_cast<std::size_t>(digits[2] - '0') : std::size_t{0}};
 }
 
-/// The number that a name has; -1 if it is none of these.
+/// Returns the number in a name; -1 if the name does not belong to the sequence.
 std::int64_t number_of(const FrameName& of, const std::string& name) {
   if (name.size() <= of.before.size() + of.after.size()) return -1;
   const std::string digits = name.substr(of.before.size(), name.size() - of.before.size() - of.after.size());

@@ -5,14 +5,14 @@
 
 namespace drape {
 
-/// Whether a file's name stands for many: it has {frame} or {frame:04} in it.
+/// Returns true if a file name denotes a sequence: it contains {frame} or {frame:04}.
 bool names_frames(const std::filesystem::path& file);
 
-/// Whether a file is one that such a name stands for.
+/// Returns true if a file belongs to such a sequence.
 bool is_frame(const std::filesystem::path& file, const std::filesystem::path& named);
 
-/// The files of a name like "body/{frame:04}.obj", by their numbers, which follow each other from any first one on;
-/// 04 says that smaller numbers have zeros before them up to 4 digits.
+/// Returns the files of a sequence like "body/{frame:04}.obj", by number. Numbers are consecutive from any first one.
+/// 04 pads shorter numbers with zeros to 4 digits.
 /// @throws UsageError if there are none, or if one is missing in between
 std::vector<std::filesystem::path> frame_files(const std::filesystem::path& file);
 

@@ -12,10 +12,10 @@
 namespace drape {
 namespace {
 
-/// Whether a byte is not the first of a character in UTF-8.
+/// Returns true for a continuation byte of UTF-8.
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
-/// Refuses what is no text, but would be one if it were exported again.
+/// Rejects binary USD with a hint to export it as ASCII.
 void require_no_binary_usd(const std::filesystem::path& file, const std::string& bytes) {
   const auto fail = [&](const char* form) {
     throw UsageError(fmt::format("{}: this is a {}; export it as ASCII, with the ending .usda", shown(file), form));
@@ -27,7 +27,7 @@ void require_no_binary_usd(const std::filesystem::path& file, const std::string&
 }  // namespace
 
 SourceText SourceText::read(const std::filesystem::path& file) {
-  // A grid of four million cells, the largest there is, takes about half a gigabyte as text.
+  // A grid of four million cells, the largest allowed, takes about half a gigabyte as text.
   constexpr std::size_t most_bytes = 2'000'000'000;
   std::string bytes = read_file(file, most_bytes);
   require_no_binary_usd(file, bytes);
@@ -48,7 +48,7 @@ SourceText SourceText::open(const std::filesystem::path& file) {
 std::string_view SourceText::piece(std::size_t offset, std::string& memory) const {
   if (file_ == nullptr) return std::string_view(text_).substr(std::min(offset, text_.size()));
   file_->read(begin_ + offset, piece_bytes, memory);
-  if (memory.find('\0') != std::string::npos) text_of(name_, memory);  // refuses it
+  if (memory.find('\0') != std::string::npos) text_of(name_, memory);  // throws
   return memory;
 }
 

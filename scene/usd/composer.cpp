@@ -13,9 +13,9 @@
 namespace drape {
 namespace {
 
-constexpr int most_arcs = 64;                   // one within the other
-constexpr std::size_t most_nested = 200;        // one within the other, as in one file
-constexpr std::size_t most_specs = 1 << 20;     // looked at, of all prims together
+constexpr int most_arcs = 64;                   // depth of nested arcs
+constexpr std::size_t most_nested = 200;        // depth of nested prims, as in one file
+constexpr std::size_t most_specs = 1 << 20;     // visited, of all prims together
 constexpr std::size_t most_opinions = 1 << 14;  // of one prim
 
 bool is_within(std::string_view path, std::string_view root) {
@@ -26,7 +26,7 @@ using Selections = std::map<std::string, std::string>;
 
 }  // namespace
 
-/// Puts the specs of prims together.
+/// Composer of prims from their specs.
 class UsdComposer {
  public:
   explicit UsdComposer(UsdStage& stage) : stage_(stage) {}
@@ -45,7 +45,7 @@ class UsdComposer {
  private:
   using File = UsdStage::File;
 
-  /// How the times of a file become those of the stage: offset + scale·t.
+  /// Map from the times of a file to those of the stage: offset + scale·t.
   struct TimeMap {
     double offset = 0, scale = 1;
     [[nodiscard]] TimeMap after(const TimeMap& inner) const {
@@ -53,22 +53,22 @@ class UsdComposer {
     }
   };
 
-  /// That a path that begins with `from` begins with `to` one file further up.
+  /// Replacement of a path's prefix `from` by `to`, its prefix in the referring file.
   struct Renaming {
     std::string from, to;
   };
 
-  /// A spec of a prim, and how what it says is to be understood.
+  /// A spec of a prim with its context in the composition.
   struct Opinion {
     const UsdSpec* spec = nullptr;
-    const File* stack = nullptr;           // in which the paths that it names are looked up
-    std::string site;                      // the prim's path there
-    bool selected = true;                  // it is not of a variant that nothing selects
+    const File* stack = nullptr;           // layer stack that resolves its paths
+    std::string site;                      // path of the prim in that stack
+    bool selected = true;                  // false within an unselected variant
     std::vector<Renaming> renamings = {};  // from this stack's paths up to the stage's
     TimeMap time = {};
   };
 
-  /// Specs by the names of their prims: of each the strongest first.
+  /// Specs grouped by the names of their prims, strongest first.
   struct Siblings {
     std::vector<std::vector<Opinion>> families;
     std::unordered_map<std::string_view, std::size_t> places = {};
@@ -93,12 +93,12 @@ class UsdComposer {
     return file;
   }
 
-  /// The file that an arc names, which is read when it is first named; null, and a gap, if it cannot be.
+  /// Returns the file of an arc, read on first use; if that fails, adds a gap and returns null.
   const File* file_of(const UsdArc& arc) {
     const std::filesystem::path folder = std::filesystem::path(arc.place.source->name()).parent_path();
     std::filesystem::path path = (folder / arc.file).lexically_normal();
     std::error_code error;
-    // A motion file keeps them all in one folder.
+    // A motion file keeps all of them in one folder.
     if (!std::filesystem::exists(path, error)) path = (folder / path.filename()).lexically_normal();
     const auto known = std::find_if(stage_.files_.begin(), stage_.files_.end(), [&](const File& file) {
       return std::filesystem::path(file.source->name()).lexically_normal() == path;
@@ -165,8 +165,8 @@ class UsdComposer {
     return opinion;
   }
 
-  /// Adds a spec of a prim and those that it refers to, the strongest first.
-  /// @param selections what stronger specs of this prim select
+  /// Adds a spec of a prim and those that it refers to, strongest first.
+  /// @param selections selections of stronger specs of this prim
   void expand(const Opinion& opinion, Selections& selections, int depth, std::vector<Opinion>& all) {
     const UsdSpec& spec = *opinion.spec;
     if (depth == most_arcs) spec.place.fail(fmt::format("references nested deeper than {}", most_arcs));
@@ -207,7 +207,7 @@ class UsdComposer {
     const File* stack = arc.file.empty() ? opinion.stack : file_of(arc);
     if (stack == nullptr) return;
     const std::string path = arc.path.empty() ? '/' + stack->layer.default_prim : arc.path;
-    // USD knows no prim that is made of its own ancestor either.
+    // As in USD, a prim cannot refer to its own ancestor.
     if (stack == opinion.stack && is_within(opinion.site, path)) return gap(arc, "the prim refers to itself");
     std::vector<Opinion> found = specs_at(*stack, path, depth + 1);
     if (found.empty()) return gap(arc, fmt::format("there is no prim {}", in_quotes(path)));
@@ -222,7 +222,7 @@ class UsdComposer {
     }
   }
 
-  /// The specs of the prim of a path, not expanded; its ancestors are, as they may have it from elsewhere.
+  /// Returns the specs of a path's prim, not expanded. Its ancestors are expanded, as they may inherit the prim.
   std::vector<Opinion> specs_at(const File& stack, std::string_view path, int depth) {
     std::vector<Opinion> found;
     if (!path.starts_with('/')) return found;
@@ -257,7 +257,7 @@ class UsdComposer {
     return &copy;
   }
 
-  /// A relationship whose targets are paths of the stage; those outside of what is referred to have none there.
+  /// Translates a relationship's targets to paths of the stage; drops targets outside of the referenced prim.
   static UsdRelationship renamed(const UsdRelationship& relationship, const std::vector<Renaming>& renamings) {
     UsdRelationship result{relationship.name, {}};
     for (std::string target : relationship.targets) {

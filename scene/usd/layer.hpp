@@ -11,15 +11,15 @@
 
 namespace drape {
 
-/// The value of an attribute: its numbers, with tuples and matrices laid out flat, or its strings.
+/// The value of an attribute: its numbers, with tuples and matrices flattened, or its strings.
 struct UsdValue {
-  SourcePlace place;  ///< where it begins
+  SourcePlace place;  ///< start of the value
   std::vector<double> numbers;
   std::vector<std::string> strings;
-  bool located = false;  ///< only its place is known, see UsdReading::located_points
+  bool located = false;  ///< only the place is known, see UsdReading::located_points
 };
 
-/// A value at a time.
+/// A value of an attribute at a time.
 struct UsdSample {
   double time = 0;  ///< [time codes]
   UsdValue value;
@@ -28,16 +28,16 @@ struct UsdSample {
 /// An attribute of a prim.
 struct UsdAttribute {
   std::string name;            ///< with its namespaces: "primvars:st"
-  std::string type;            ///< "point3f", without the brackets of an array
+  std::string type;            ///< element type, without the brackets of an array: "point3f"
   std::size_t components = 0;  ///< numbers per element: 3 for point3f, 16 for matrix4d, 0 for strings and tokens
   bool is_array = false;
-  SourcePlace place;  ///< where it is declared
+  SourcePlace place;  ///< place of the declaration
   std::string interpolation;
-  std::size_t element_size = 1;    ///< how many elements belong to each point, face, …
-  std::optional<UsdValue> value;   ///< the one outside of time
-  std::vector<UsdSample> samples;  ///< by increasing time
+  std::size_t element_size = 1;    ///< elements per point, face, …
+  std::optional<UsdValue> value;   ///< default value, independent of time
+  std::vector<UsdSample> samples;  ///< time samples, in increasing order
 
-  /// Its first sample, else its value; null if it has neither.
+  /// Returns the first sample, otherwise the default value; null if it has neither.
   [[nodiscard]] const UsdValue* first() const {
     return !samples.empty() ? &samples.front().value : value ? &*value : nullptr;
   }
@@ -46,72 +46,72 @@ struct UsdAttribute {
 /// A relationship of a prim to others.
 struct UsdRelationship {
   std::string name;                  ///< "skel:skeleton"
-  std::vector<std::string> targets;  ///< paths: "/Model/Skel"
+  std::vector<std::string> targets;  ///< target paths: "/Model/Skel"
 };
 
-/// What a prim, or a whole file, is made of beside what it says itself.
+/// A composition arc: a reference from a prim or a file to other prims.
 struct UsdArc {
   enum class Kind { inherits, reference, payload, specializes, sublayer };
   Kind kind = Kind::reference;
-  std::string file;   ///< as the file has it; empty: the prim stands in the same file
-  std::string path;   ///< of a prim; empty: the file's defaultPrim
-  double offset = 0;  ///< added to its times, which are stretched before [time codes]
-  double scale = 1;   ///< by which its times are stretched
+  std::string file;   ///< file as written; empty: the same file
+  std::string path;   ///< path of a prim; empty: the defaultPrim of the file
+  double offset = 0;  ///< added to its times after scaling [time codes]
+  double scale = 1;   ///< factor of its times
   SourcePlace place;
 };
 
 struct UsdVariantSet;
 
-/// What one file says about a prim: its own statements, and where others are to be found.
+/// The statements of one file about a prim, and its composition arcs.
 struct UsdSpec {
-  bool is_defined = false;  ///< by `def`; an `over` or a `class` is not part of the scene by itself
+  bool is_defined = false;  ///< declared by `def`; an `over` or a `class` alone does not add the prim to the scene
   std::string type;         ///< "Mesh"
   std::string name;
   SourcePlace place;
-  std::vector<UsdAttribute> attributes;  ///< those that say how a mesh looks and moves, see parse_usd
+  std::vector<UsdAttribute> attributes;  ///< attributes of shape and motion, see parse_usd
   std::vector<UsdRelationship> relationships;
-  std::vector<UsdArc> arcs;                                     ///< the strongest of each kind first
-  std::vector<std::pair<std::string, std::string>> selections;  ///< variant set and variant
+  std::vector<UsdArc> arcs;                                     ///< strongest first within each kind
+  std::vector<std::pair<std::string, std::string>> selections;  ///< variant set and selected variant
   std::vector<UsdVariantSet> variant_sets;
   std::vector<UsdSpec> children;
 };
 
-/// What is said about a prim if a variant is selected: each is a UsdSpec with the variant's name.
+/// The variants of a prim. Each is a UsdSpec with the variant's name and applies if it is selected.
 struct UsdVariantSet {
   std::string name;
   std::vector<UsdSpec> variants;
 };
 
-/// A usda file. The defaults are those the USD schema gives a file that does not say.
+/// A usda file. The defaults are those of the USD schema.
 struct UsdLayer {
   bool z_up = false;
   double metres_per_unit = 0.01;
   double time_codes_per_second = 24;
   double start_time_code = 0;
-  std::string default_prim;       ///< what a reference to the file means that names no prim
-  std::vector<UsdArc> sublayers;  ///< the strongest first
+  std::string default_prim;       ///< target of references that name no prim
+  std::vector<UsdArc> sublayers;  ///< strongest first
   std::vector<UsdSpec> prims;
 };
 
-/// What to keep of a file, which may be hundreds of megabytes.
+/// The parts of a file to keep; files may have hundreds of megabytes.
 struct UsdReading {
-  bool moving_points = false;   ///< every sample of every attribute; otherwise only transforms have more than the first
-  bool located_points = false;  ///< of the samples of points only the first is kept, and of the others the places:
-                                ///< usd_numbers_at() reads one when it is asked for
-  /// One to keep beside the texture coordinates and the skin, without "primvars:"; of others that have a number for
-  /// each element the names are kept.
+  bool moving_points = false;   ///< keep every sample of every attribute; otherwise only of transforms
+  bool located_points = false;  ///< keep the first sample of points and the places of the others;
+                                ///< usd_numbers_at() reads them on request
+  /// One primvar to keep besides texture coordinates and skin, without "primvars:". Of other primvars with one number
+  /// per element only the names are kept.
   std::string primvar = {};
 };
 
-/// Parses an ASCII USD file, of one that stays in its file a piece at a time. The syntax of all of it is checked, but
-/// only what a mesh and its motion need is kept: points, faceVertexCounts, faceVertexIndices, orientation, radius,
-/// axis, xformOpOrder, xformOp:*, the texture coordinates and the skin among primvars:*, what a Skeleton and a
-/// SkelAnimation have, and where other specs of a prim stand.
+/// Parses an ASCII USD file; a source that stays in its file is read in pieces. The syntax is checked everywhere, but
+/// only the data of meshes and their motion is kept: points, faceVertexCounts, faceVertexIndices, orientation, radius,
+/// axis, xformOpOrder, xformOp:*, texture coordinates and skin from primvars:*, the data of Skeleton and SkelAnimation,
+/// and composition arcs.
 /// @param source must outlive the layer
-/// @throws UsageError "file:line:column: message", also for the binary form of USD, which is not read
+/// @throws UsageError "file:line:column: message", also for binary USD, which is not supported
 UsdLayer parse_usd(const SourceText& source, const UsdReading& reading);
 
-/// The place of the `index`-th number or string of a value, for a message.
+/// Returns the place of the `index`-th number or string of a value, for a message.
 SourcePlace usd_value_place(const UsdValue& value, std::size_t index);
 
 }  // namespace drape

@@ -40,19 +40,19 @@ UsdLexer::UsdLexer(const SourceText& source, std::size_t offset)
   token_ = scan();
 }
 
-/// Appends a piece to what is in memory, of which it keeps the token that is scanned.
+/// Appends a piece to the text in memory and keeps the current token.
 /// @returns false at the end of the text
 bool UsdLexer::read_more() {
   if (ended_) return false;
   std::string kept(text_.substr(begin_)), piece;
   const std::size_t before = kept.size();
-  // As much again, so that the time for a token of any length is linear in it.
+  // Double the text, so that the time for a token of any length is linear.
   do {
     ended_ = source_->piece(begin_of_text_ + begin_ + kept.size(), piece).empty();
     kept += piece;
   } while (!ended_ && kept.size() < 2 * before);
   if (kept.size() == before) return false;
-  // The token before lies in the memory in which this scan began.
+  // The previous token lies in the memory in which this scan began.
   if (memory_before_ == nullptr) memory_before_ = memory_;
   memory_ = std::make_shared<const std::string>(std::move(kept));
   text_ = *memory_;
@@ -62,8 +62,8 @@ bool UsdLexer::read_more() {
   return true;
 }
 
-/// Goes on to the next place of a mark, or to the end of the text.
-/// @param keep whether the token that is scanned reaches up to there
+/// Advances to the next occurrence of a mark, or to the end of the text.
+/// @param keep true if the current token extends up to there
 void UsdLexer::find(std::string_view mark, bool keep) {
   do {
     const std::size_t found = text_.find(mark, next_);
@@ -79,7 +79,7 @@ void UsdLexer::find(std::string_view mark, bool keep) {
 
 void UsdLexer::skip_blanks_and_comments() {
   while (!at_end()) {
-    begin_ = next_;  // so that nothing before is kept
+    begin_ = next_;  // drop everything before
     const char c = peek();
     if (c == '#' || (c == '/' && peek(1) == '/')) {
       find("\n", false);

@@ -13,7 +13,7 @@ namespace drape {
 /// A token of the usda language.
 struct UsdToken {
   enum class Kind {
-    end,     ///< of the file
+    end,     ///< end of the file
     number,  ///< 12, -0.5, 1e-7; inf and nan are words
     word,    ///< a name or keyword, with its namespaces: primvars:st
     string,  ///< "…", '…', """…""" or '''…'''
@@ -22,17 +22,17 @@ struct UsdToken {
     symbol   ///< one of ( ) [ ] { } = , : ; . &
   };
   Kind kind = Kind::end;
-  std::size_t offset = 0;  ///< of its first character
-  /// All of it; of strings, what is between the quotes, escapes left as they are. Valid while the lexer is at it or at
-  /// the token behind it.
+  std::size_t offset = 0;  ///< offset of its first character
+  /// The whole token; for strings the text between the quotes, with escapes. Valid until the lexer has moved on by two
+  /// tokens.
   std::string_view text;
 };
 
-/// Splits a usda file into tokens and keeps the one to look at next. Of a text that stays in its file, as much is in
-/// memory as the last two tokens need, and a piece.
+/// Tokenizer of a usda file; holds the current token. If the source stays in its file, memory holds the last two
+/// tokens and one piece.
 class UsdLexer {
  public:
-  /// Starts at an offset, which must be between tokens.
+  /// Starts at an offset between tokens.
   UsdLexer(const SourceText& source, std::size_t offset);
 
   [[nodiscard]] const UsdToken& token() const { return token_; }
@@ -40,20 +40,20 @@ class UsdLexer {
   [[nodiscard]] bool at(char symbol) const { return at(UsdToken::Kind::symbol) && token_.text[0] == symbol; }
   [[nodiscard]] bool at_word(std::string_view word) const { return at(UsdToken::Kind::word) && token_.text == word; }
 
-  /// Returns the token and goes on to the next.
+  /// Returns the token and advances to the next.
   UsdToken take();
 
-  /// Goes on to the next token if the current one is this symbol.
+  /// Advances to the next token if the current one is this symbol.
   bool accept(char symbol);
 
-  /// Goes past a token that must be there. @throws UsageError "expected 'what', found …"
+  /// Takes a token of the given kind. @throws UsageError "expected 'what', found …"
   UsdToken expect(UsdToken::Kind kind, const std::string& what);
   void expect(char symbol, const std::string& what);
 
-  /// Goes past a value of any kind without looking into it; only the brackets must match.
+  /// Skips a value of any kind without interpreting it; brackets must match.
   void skip_value();
 
-  /// Goes past a finite number and returns it; nothing, and stays, if there is none at this token.
+  /// Takes a finite number and returns it; at any other token it returns nothing and stays.
   std::optional<double> accept_number();
 
   /// @throws UsageError "expected what, found …" at the current token
@@ -77,11 +77,11 @@ class UsdLexer {
   }
 
   const SourceText* source_;
-  std::string_view text_;             // what is in memory
-  std::size_t begin_of_text_ = 0;     // its place in the source
-  std::size_t begin_ = 0, next_ = 0;  // of the token that is scanned, and how far that is, in text_
-  std::shared_ptr<const std::string> memory_, memory_before_;  // of text_, and of the token before
-  bool ended_ = false;                                         // there is nothing behind text_
+  std::string_view text_;                                      // part of the source in memory
+  std::size_t begin_of_text_ = 0;                              // offset of text_ in the source
+  std::size_t begin_ = 0, next_ = 0;                           // start and scanned end of the current token in text_
+  std::shared_ptr<const std::string> memory_, memory_before_;  // storage of text_ and of the previous token
+  bool ended_ = false;                                         // text_ reaches the end of the source
   UsdToken token_;
 };
 

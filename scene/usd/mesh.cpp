@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t most_told = 20;
 
-/// "/World/cloth (25 vertices, 32 triangles, 2 × 2 × 0 m)"
+/// Describes a mesh: "/World/cloth (25 vertices, 32 triangles, 2 × 2 × 0 m)"
 std::string described(const UsdStage& stage, const UsdPath& path) {
   const UsdPrim& prim = *path.back();
   const auto numbers = [&](const char* name) {
@@ -48,7 +48,7 @@ std::string list_of(const UsdStage& stage, const std::vector<UsdPath>& meshes) {
   return list;
 }
 
-/// Those at or below a path.
+/// Returns the meshes at or below a path.
 std::vector<UsdPath> within(const std::vector<UsdPath>& meshes, const UsdPath& path) {
   std::vector<UsdPath> found;
   std::ranges::copy_if(meshes, std::back_inserter(found), [&](const UsdPath& mesh) {

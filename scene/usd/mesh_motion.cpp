@@ -12,16 +12,16 @@
 namespace drape {
 namespace {
 
-/// Time codes between samples are left out beyond this many of them, which no film has: the samples are far apart.
+/// Largest span of samples [time codes] that is filled with codes in between; no film is longer.
 constexpr double most_between = 10'000;
-/// Whole numbers up to it have their neighbours.
+/// Below this every whole number is exact as a double.
 constexpr double last_time_code = 1e12;
 /// A gigabyte.
 constexpr double most_motion_numbers = 1 << 27;
 
 }  // namespace
 
-/// A mesh whose points, transform or skeleton move it.
+/// Reader of a mesh moved by its points, transform or skeleton.
 class UsdMovingMesh::Reader {
  public:
   Reader(const UsdStage& stage, UsdPath path)
@@ -49,7 +49,7 @@ class UsdMovingMesh::Reader {
     return x;
   }
 
-  /// All of the motion.
+  /// Returns the whole motion.
   [[nodiscard]] MeshMotion read() const {
     if (static_cast<double>(times_.size()) * static_cast<double>(mesh_.positions.size()) > most_motion_numbers) {
       prim_.place.fail(fmt::format("{} samples of {} points take too much memory: export fewer of either",
@@ -61,7 +61,7 @@ class UsdMovingMesh::Reader {
   }
 
  private:
-  /// Of those samples that are known.
+  /// Checks the number of points of all samples that are read.
   void check_points() const {
     for (const UsdSample& sample : prim_.find("points")->samples) {
       if (!sample.value.located) check_count(sample, sample.value.numbers.size());
@@ -76,7 +76,7 @@ class UsdMovingMesh::Reader {
                     mesh_.positions.rows(), found));
   }
 
-  /// Of a sample that was only located: the last one up to a time.
+  /// Checks the number of points of a located sample: the last one up to a time.
   void check_count_at(double code, std::size_t numbers) const {
     if (static_cast<Eigen::Index>(numbers / 3) == mesh_.positions.rows()) return;
     const UsdSample* found = nullptr;
@@ -90,8 +90,8 @@ class UsdMovingMesh::Reader {
     prim_.place.fail(fmt::format("at time code {} its motion is beyond what can be computed", code));
   }
 
-  /// Those of the samples; where joints or transforms move it, every one in between, so that nothing turns far between
-  /// two of them.
+  /// Returns the samples' time codes. Where joints or transforms rotate the mesh, every whole code in between is added,
+  /// so that rotations between two samples stay small.
   [[nodiscard]] std::vector<double> time_codes() const {
     std::vector<double> codes = skin_ ? skin_->times() : transform_times(path_);
     const bool turns = !codes.empty();
@@ -132,7 +132,7 @@ class UsdMovingMesh::Reader {
   const UsdPrim& prim_;
   const std::optional<UsdSkin> skin_;
   Mesh mesh_;
-  std::vector<double> codes_, times_;  // the samples' times [time codes], [s]
+  std::vector<double> codes_, times_;  // times of the samples [time codes], [s]
 };
 
 UsdMovingMesh::UsdMovingMesh(const UsdStage& stage, const std::string& prim)

@@ -14,7 +14,7 @@ namespace {
 
 using Uv = MeshBuilder::Uv;
 
-/// Reads a Mesh prim.
+/// Reader of a Mesh prim.
 class MeshPrim {
  public:
   explicit MeshPrim(const UsdPrim& prim) : prim_(prim) {}
@@ -37,7 +37,7 @@ class MeshPrim {
   }
 
  private:
-  /// The `place`-th number of a value as a whole number from `least` up to, but not including, `end`.
+  /// Returns the `place`-th number of a value as a whole number in [least, end).
   int whole(const UsdValue& value, std::size_t place, double least, double end, std::string_view what) const {
     const double number = value.numbers[place];
     if (number != std::floor(number) || number < least || number >= end) {
@@ -84,7 +84,7 @@ class MeshPrim {
     return nullptr;
   }
 
-  /// One texture coordinate per entry of faceVertexIndices; empty if the mesh has none.
+  /// Returns one texture coordinate per entry of faceVertexIndices; empty if the mesh has none.
   [[nodiscard]] std::vector<Uv> corner_uvs(const UsdValue& corners) const {
     const UsdAttribute* primvar = uv_primvar();
     if (primvar == nullptr) return {};
@@ -107,7 +107,7 @@ class MeshPrim {
     return spread(*primvar, elements, corners);
   }
 
-  /// Hands the elements of a primvar to the corners of the faces.
+  /// Assigns the elements of a primvar to the corners of the faces.
   [[nodiscard]] std::vector<Uv> spread(const UsdAttribute& primvar, const std::vector<Uv>& elements,
                                        const UsdValue& corners) const {
     const std::string& interpolation = primvar.interpolation;
@@ -159,7 +159,7 @@ class MeshPrim {
         const auto begin = uvs.begin() + static_cast<std::ptrdiff_t>(first);
         face_uvs.assign(begin, begin + static_cast<std::ptrdiff_t>(size));
       }
-      if (flip) {  // the first corner stays the first
+      if (flip) {  // keep the first corner
         std::reverse(corners.begin() + 1, corners.end());
         if (!face_uvs.empty()) std::reverse(face_uvs.begin() + 1, face_uvs.end());
       }

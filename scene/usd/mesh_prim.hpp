@@ -8,13 +8,13 @@
 
 namespace drape {
 
-/// The first value of an array attribute of a prim.
+/// Returns the first value of an array attribute of a prim.
 /// @param components see UsdAttribute
-/// @throws UsageError if the prim has none, or it is of another shape
+/// @throws UsageError if the prim has none, or it has another shape
 const UsdValue& usd_array(const UsdPrim& prim, std::string_view name, std::size_t components);
 
-/// The mesh of a Mesh prim with the first sample of its points. A left-handed mesh, and one that `to_world` mirrors, is
-/// turned so that its triangles are counterclockwise seen from the front.
+/// Reads the mesh of a Mesh prim with the first sample of its points. Left-handed meshes and those mirrored by
+/// `to_world` are flipped, so that triangles are counterclockwise seen from the front.
 /// @throws UsageError "file:line:column: message"
 Mesh read_mesh_prim(const UsdPrim& prim, const Eigen::Affine3d& to_world);
 

@@ -13,13 +13,13 @@ using Kind = UsdToken::Kind;
 
 constexpr std::array<std::string_view, 5> list_edits = {"add", "append", "delete", "prepend", "reorder"};
 
-/// What stands between the two characters at the ends of a token, or between three @.
+/// Returns a token's text without its delimiters: one character, or three @, at each end.
 std::string unwrapped(const UsdToken& token) {
   const std::size_t width = token.kind == Kind::asset && token.text.starts_with("@@@") ? 3 : 1;
   return std::string(token.text.substr(width, token.text.size() - 2 * width));
 }
 
-/// @file@, </Prim> or both, and perhaps how its times are shifted.
+/// Parses @file@, </Prim> or both, and an optional shift of times.
 UsdArc arc(const SourceText& source, UsdLexer& lexer, UsdArc::Kind kind) {
   UsdArc arc{.kind = kind, .file = {}, .path = {}, .place = {&source, lexer.token().offset}};
   const bool has_file = lexer.at(Kind::asset);
@@ -57,7 +57,7 @@ std::vector<UsdMetadatum> usd_metadata(UsdLexer& lexer, const std::string& owner
     const UsdToken& value = lexer.token();
     found.push_back({std::move(edit), std::move(key), {value.kind, value.offset, std::string(value.text)}});
     lexer.skip_value();
-    if (lexer.at('(')) lexer.skip_value();  // how a reference shifts times
+    if (lexer.at('(')) lexer.skip_value();  // time shift of a reference
   }
   return found;
 }

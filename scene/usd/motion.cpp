@@ -40,7 +40,7 @@ void bound_points(const UsdAttribute& points, TransformTrack& track) {
 }
 
 void bound_sphere(const UsdPrim& prim, TransformTrack& track) {
-  track.radius = 1;  // what the USD schema gives a Sphere that does not say
+  track.radius = 1;  // default of a Sphere in the USD schema
   const UsdAttribute* radius = prim.find("radius");
   if (radius == nullptr || radius->first() == nullptr) return;
   if (radius->components != 1 || radius->is_array) radius->place.fail("radius: expected one number");
@@ -91,7 +91,7 @@ TransformTrack read_usd_track(const UsdStage& stage, const UsdPath& path) {
 
 namespace {
 
-/// A Mesh that its skeleton or its points move.
+/// Returns true for a Mesh that its skeleton or its points move.
 bool deforms(const UsdPath& path) {
   if (path.back()->type != "Mesh") return false;
   const UsdAttribute* points = path.back()->find("points");

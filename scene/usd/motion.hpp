@@ -11,38 +11,38 @@
 
 namespace drape {
 
-/// Where something is over time, and a sphere around it.
+/// A transform over time, with the bounding sphere of the transformed object.
 struct TransformTrack {
-  std::vector<double> times;                ///< of the samples, increasing [s]; at least one
-  std::vector<Eigen::Affine3d> transforms;  ///< one per time: from the thing's own coordinates to the world's [m]
+  std::vector<double> times;                ///< sample times, increasing [s]; at least one
+  std::vector<Eigen::Affine3d> transforms;  ///< one per time: from object to world coordinates [m]
 
-  /// The bounding sphere in the thing's own coordinates and units: around the middle of the bounding box of its points.
-  /// For an icosphere or a UV sphere that is the sphere itself; radius 0 for a thing without a shape.
+  /// Bounding sphere in object coordinates and units, around the middle of the bounding box of the points. For an
+  /// icosphere or a UV sphere that is the sphere itself; an object without a shape has radius 0.
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double radius = 0;
 
-  /// The transform at a time [s]: linear between the samples, each number of the matrix by itself as USD does it (so
-  /// sample rotations densely); before the first and after the last sample that sample.
+  /// Returns the transform at a time [s], constant outside the samples. In between each matrix element is interpolated
+  /// linearly as in USD, so rotations need dense samples.
   [[nodiscard]] Eigen::Affine3d at(double time) const;
 
-  /// The bounding sphere at a time [s], in the world [m]. Where the transform stretches it, it is the sphere of its
+  /// Returns the bounding sphere at a time [s], in the world [m]. If the transform stretches it, the radius is the
   /// longest half-axis.
   [[nodiscard]] SphereShape sphere_at(double time) const;
 };
 
-/// The motion of a prim by its transform and those of its ancestors. One that nothing moves has one sample.
+/// Reads the motion of a prim by its transform and those of its ancestors. A static prim has one sample.
 /// @throws UsageError "file:line:column: message"
 TransformTrack read_usd_track(const UsdStage& stage, const UsdPath& path);
 
-/// The motion of the first Mesh or Sphere of an ASCII USD file that moves; if none moves, the first Mesh or Sphere,
-/// with one sample; if there is none, the first prim of any type that moves. The time of a sample is (time code −
-/// startTimeCode)/timeCodesPerSecond: at startTimeCode the clock shows 0 s.
+/// Reads the motion of the first moving Mesh or Sphere of an ASCII USD file. If none moves: the first Mesh or Sphere,
+/// with one sample. If there is none: the first moving prim of any type. The time of a sample is (time code −
+/// startTimeCode)/timeCodesPerSecond: startTimeCode is at 0 s.
 /// @throws UsageError "file:line:column: message"
 TransformTrack read_usd_motion(const SourceText& source);
 TransformTrack read_usd_motion(const std::filesystem::path& file);
 
-/// The same motion for whoever follows it.
-/// @throws UsageError also if nothing moves: a mesh that only its skeleton or its points move is no track
+/// Reads the same motion as a sphere track.
+/// @throws UsageError also if nothing moves; a mesh moved only by its skeleton or its points is not a track
 std::shared_ptr<const SphereTrack> read_sphere_track(const std::filesystem::path& file);
 
 }  // namespace drape

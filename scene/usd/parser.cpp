@@ -15,17 +15,17 @@ namespace {
 
 using Kind = UsdToken::Kind;
 
-/// Real scenes nest a few dozen prims; the cap keeps a hostile file from exhausting the stack.
+/// Limit of nested prims. Real scenes have a few dozen; it protects the stack against hostile files.
 constexpr int most_depth = 200;
 
-/// Of joints that move a point there are rarely more than eight.
+/// Limit of elements per point; rarely more than eight joints move a point.
 constexpr double most_per_element = 1000;
 
 bool is_specifier(const UsdLexer& lexer) {
   return lexer.at_word("def") || lexer.at_word("over") || lexer.at_word("class");
 }
 
-/// Whether an attribute is one that UsdLayer keeps.
+/// Returns true if UsdLayer keeps an attribute.
 bool is_kept(std::string_view name, std::string_view type, const UsdReading& reading) {
   constexpr std::array<std::string_view, 15> kept_names = {
       "points",       "faceVertexCounts", "faceVertexIndices",  "orientation",  "radius",    "axis",
@@ -40,7 +40,7 @@ bool is_kept(std::string_view name, std::string_view type, const UsdReading& rea
          primvar.starts_with("skel:") || primvar == reading.primvar;
 }
 
-/// Whether an attribute is one that may have been meant where a primvar is asked for.
+/// Returns true for an attribute that can answer a request for a primvar.
 bool is_primvar_of_numbers(const UsdAttribute& attribute) {
   return attribute.is_array && attribute.components == 1 && attribute.name.starts_with("primvars:") &&
          !attribute.name.ends_with(":indices");
@@ -95,7 +95,7 @@ class Parser {
     return prim;
   }
 
-  /// Metadata and statements, of a prim or of one of its variants.
+  /// Reads the metadata and statements of a prim or of one of its variants.
   void read_body(UsdSpec& prim, const std::string& owner, int depth) {
     if (depth == most_depth) prim.place.fail(fmt::format("prims nested deeper than {}", most_depth));
     if (lexer_.accept('(')) read_prim_metadata(source_, lexer_, owner, prim);
@@ -185,7 +185,7 @@ class Parser {
     attribute.element_size = static_cast<std::size_t>(size);
   }
 
-  /// The paths that a relationship has: one, several between brackets, or None.
+  /// Reads the paths of a relationship: one, several between brackets, or None.
   std::vector<std::string> targets() {
     std::vector<std::string> paths;
     const auto read = [&] {
@@ -205,7 +205,7 @@ class Parser {
     return paths;
   }
 
-  /// An attribute's value and its time samples are two statements.
+  /// Finds or adds an attribute: its default value and its time samples are two statements.
   static UsdAttribute& find_or_add(UsdSpec& prim, UsdAttribute&& declared) {
     for (UsdAttribute& attribute : prim.attributes) {
       if (attribute.name != declared.name) continue;
@@ -252,7 +252,7 @@ class Parser {
     attribute.samples = std::move(samples);
   }
 
-  /// The value at the lexer's token, or only its place.
+  /// Reads the value at the lexer's token, or only its place.
   std::optional<UsdValue> read_sample(const UsdAttribute& attribute, const UsdType& type, bool first) {
     const bool located = reading_.located_points && attribute.name == "points" && !first && !lexer_.at_word("None");
     if (!located) return parse_usd_value(source_, lexer_, attribute, type);

@@ -32,7 +32,7 @@ std::optional<std::size_t> place_of(const std::vector<std::string>& names, std::
   return found == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - names.begin()));
 }
 
-/// The joint that is nearest above one in the tree that their names say: "Hip" of "Hip/Knee".
+/// Returns the nearest existing ancestor of a joint in the tree of names: "Hip" for "Hip/Knee".
 std::optional<std::size_t> parent_of(const std::vector<std::string>& joints, std::string_view joint) {
   for (std::size_t slash = joint.rfind('/'); slash != std::string_view::npos; slash = joint.rfind('/')) {
     joint = joint.substr(0, slash);
@@ -83,7 +83,7 @@ void UsdSkin::read_skeleton() {
     rest_ = matrices(rest);
     return;
   }
-  for (std::size_t j = 0; j < joints_.size(); ++j) {  // at rest it stands as it was bound
+  for (std::size_t j = 0; j < joints_.size(); ++j) {  // rest transforms equal the bind transforms
     const Eigen::Affine3d bound = unbind_[j].inverse();
     rest_.push_back(parents_[j] ? unbind_[*parents_[j]] * bound : bound);
   }
@@ -133,7 +133,7 @@ void UsdSkin::read_influences(const UsdPath& mesh) {
   per_point_ = indices.element_size;
   rigid_ = indices.interpolation == "constant";
 
-  // Where a mesh lists joints of its own, it counts in that list.
+  // Indices refer to the mesh's own list of joints, if it has one.
   std::vector<std::string> own = joints_;
   if (const UsdAttribute* list = inherited_attribute(mesh, "skel:joints")) own = list->first()->strings;
   for (std::size_t i = 0; i < numbers.numbers.size(); ++i) {
@@ -208,7 +208,7 @@ void UsdSkin::pose(double time, const std::vector<double>& points, Vertices& x) 
       sum += influence.weight * (moves[influence.joint] * p);
       weights += influence.weight;
     }
-    // What no joint holds stays where it was bound.
+    // Points without joint weights keep their bound position.
     x.row(static_cast<Eigen::Index>(i)) = (weights == 0 ? to_world * geometry_ * p : sum / weights).transpose();
   }
 }

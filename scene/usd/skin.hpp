@@ -9,28 +9,28 @@
 
 namespace drape {
 
-/// How a skeleton moves the points of a mesh: linear blend skinning as UsdSkel defines it, without blend shapes,
-///   p' = W Σⱼ wⱼ Sⱼ Bⱼ⁻¹ G p / Σⱼ wⱼ,
-/// where G is geomBindTransform, B the joint's bindTransform, S its place in the skeleton (of its parents' and its own
-/// translation, rotation and scale in the SkelAnimation, or its restTransform where that does not move it), and W takes
-/// the skeleton's coordinates to the world. The mesh's own transform plays no part.
+/// Motion of a mesh's points by a skeleton: linear blend skinning as UsdSkel defines it, without blend shapes,
+///   p' = W Σⱼ wⱼ Sⱼ Bⱼ⁻¹ G p / Σⱼ wⱼ.
+/// G is geomBindTransform and B the joint's bindTransform. S is the joint's transform in the skeleton: its own and its
+/// parents' translation, rotation and scale from the SkelAnimation, or restTransform for joints without animation. W
+/// maps the skeleton's coordinates to the world. The mesh's own transform is ignored.
 /// See https://openusd.org/release/api/_usd_skel__schema_overview.html
 class UsdSkin {
  public:
-  /// Whether a mesh has one.
+  /// Returns true if a mesh has a skin.
   static bool is_on(const UsdPath& mesh);
 
-  /// The skin of a mesh; nothing if it has none. Skeleton, joints and weights may be its ancestors'.
+  /// Returns the skin of a mesh, if it has one. Skeleton, joints and weights may be inherited from ancestors.
   /// @throws UsageError "file:line:column: message"
   static std::optional<UsdSkin> of(const UsdStage& stage, const UsdPath& mesh);
 
-  /// The times [time codes] at which something on the skeleton, its ancestors or its animation has a sample.
+  /// Returns the sample times [time codes] of the skeleton, its ancestors and its animation.
   [[nodiscard]] std::vector<double> times() const;
 
-  /// From the skeleton's coordinates to the world's, after geomBindTransform: which side of the mesh is its front.
+  /// Returns the map from skeleton to world coordinates, after geomBindTransform; it tells the front of the mesh.
   [[nodiscard]] Eigen::Affine3d bound_to_world(double time) const;
 
-  /// Writes where points are at a time [time codes], in the world [m].
+  /// Computes the positions of points at a time [time codes], in the world [m].
   /// @param points x, y, z of each, in the mesh's own coordinates
   void pose(double time, const std::vector<double>& points, Vertices& x) const;
 
@@ -49,10 +49,10 @@ class UsdSkin {
   const UsdStage* stage_;
   UsdPath skeleton_;
   std::vector<std::string> joints_;
-  std::vector<std::optional<std::size_t>> parents_;  // of each joint, which may stand behind it
-  std::vector<Eigen::Affine3d> unbind_, rest_;       // of each joint: Bⱼ⁻¹, and its rest place beside its parent's
+  std::vector<std::optional<std::size_t>> parents_;  // parent of each joint; may come later in the list
+  std::vector<Eigen::Affine3d> unbind_, rest_;  // per joint: Bⱼ⁻¹, and its rest transform relative to its parent
   const UsdPrim* animation_ = nullptr;
-  std::vector<std::optional<std::size_t>> animated_;  // for each joint its place in the animation
+  std::vector<std::optional<std::size_t>> animated_;  // index of each joint in the animation
   Eigen::Affine3d geometry_ = Eigen::Affine3d::Identity();
   bool rigid_ = false;  // all points have the influences of the first
   std::size_t per_point_ = 1;

@@ -11,15 +11,15 @@ namespace {
 
 using Kind = UsdToken::Kind;
 
-// Messages are put together only where they are needed: these run once per number of the file.
+// Messages are formatted only on errors: these functions run once per number of the file.
 
-/// A bool may be a word.
+/// Takes a number or a bool, which may be a word.
 std::optional<double> accept_number_or_bool(UsdLexer& lexer) {
   if (!lexer.at_word("true") && !lexer.at_word("false")) return lexer.accept_number();
   return lexer.take().text == "true" ? 1 : 0;
 }
 
-/// A number, or `count` > 1 of them between parentheses.
+/// Parses a number, or `count` > 1 of them between parentheses.
 void parse_tuple(UsdLexer& lexer, UsdValue& value, std::size_t count, const std::string& owner) {
   if (count > 1 && !lexer.accept('(')) lexer.fail_expected(fmt::format("'(' and {} numbers in {}", count, owner));
   for (std::size_t i = 0; i < count; ++i) {
@@ -72,7 +72,7 @@ UsdType usd_type(std::string_view name) {
       if (size.size() == 1 && size[0] == static_cast<char>('0' + n)) return {number, 1, n};
     }
   }
-  // The others end in the kind of their numbers: h, f or d.
+  // The other types end in the precision of their numbers: h, f or d.
   if (name.empty() || std::string_view("hfd").find(name.back()) == std::string_view::npos) return {};
   name.remove_suffix(1);
   if (name == "texCoord2") return {number, 1, 2};
@@ -112,7 +112,7 @@ UsdValue usd_value_of(const UsdAttribute& attribute, const UsdValue& value) {
 
 Eigen::Quaterniond usd_quaternion(const double* wxyz) {
   const Eigen::Quaterniond q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
-  // Normalised through the largest component: the squares of huge or tiny ones would leave the range of a double.
+  // Divide by the largest component first: squares of huge or tiny ones would overflow or underflow.
   const double largest = q.coeffs().cwiseAbs().maxCoeff();
   return largest == 0 ? Eigen::Quaterniond::Identity() : Eigen::Quaterniond(q.coeffs() / largest).normalized();
 }

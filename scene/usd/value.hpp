@@ -11,7 +11,7 @@
 
 namespace drape {
 
-/// What the elements of a USD attribute are made of.
+/// Element type of a USD attribute.
 struct UsdType {
   enum class Kind { number, text, other };
   Kind kind = Kind::other;
@@ -20,25 +20,25 @@ struct UsdType {
   [[nodiscard]] std::size_t components() const { return rows * columns; }
 };
 
-/// A type by its name in a usda file, without the brackets of an array; `other` where it is not made of numbers or
-/// text. The names: https://openusd.org/release/api/_usd__page__datatypes.html
+/// Returns the type of a name in a usda file, without the brackets of an array; `other` unless it consists of numbers
+/// or text. The names: https://openusd.org/release/api/_usd__page__datatypes.html
 UsdType usd_type(std::string_view name);
 
-/// Parses a value of an attribute at the lexer's token, up to behind it; nothing for None.
-/// @param type the attribute's, of numbers or text
-/// @throws UsageError unless all of it has the attribute's shape, and its numbers are finite
+/// Parses a value of an attribute at the lexer's token and moves past it; returns nothing for None.
+/// @param type type of the attribute, numbers or text
+/// @throws UsageError unless it has the attribute's shape and finite numbers
 std::optional<UsdValue> parse_usd_value(const SourceText& source, UsdLexer& lexer, const UsdAttribute& attribute,
                                         const UsdType& type);
 
-/// A value of an attribute, read from the file if only its place is known. @throws UsageError as parse_usd_value()
+/// Returns a value of an attribute; a located value is read from the file. @throws UsageError as parse_usd_value()
 UsdValue usd_value_of(const UsdAttribute& attribute, const UsdValue& value);
 
-/// Real and imaginary parts as a rotation; that of zeros is none.
+/// Makes a rotation from real and imaginary parts; zeros give the identity.
 Eigen::Quaterniond usd_quaternion(const double* wxyz);
 
-/// The numbers of an attribute at a time [time codes]; empty if it has no value. Between its samples they are
-/// interpolated linearly, quaternions along the shortest arc, and samples of different lengths not at all: the one
-/// before holds. Outside of them the nearest holds.
+/// Returns the numbers of an attribute at a time [time codes]; empty if it has no value. Samples are interpolated
+/// linearly, quaternions along the shortest arc. Between samples of different lengths the earlier one holds; outside of
+/// all samples the nearest one holds.
 std::vector<double> usd_numbers_at(const UsdAttribute& attribute, double time);
 
 }  // namespace drape

@@ -19,8 +19,7 @@ constexpr std::string_view operation_prefix = "xformOp:";
 Eigen::Affine3d rotation(std::string_view axes, const std::vector<double>& degrees) {
   Eigen::Affine3d result = Eigen::Affine3d::Identity();
   for (const char axis : axes) {
-    // The first axis named acts first. One angle per axis x, y, z, whatever the order; a single axis has a single
-    // angle.
+    // The first axis named acts first. Angles are ordered x, y, z for any order of axes; a single axis has one angle.
     const auto index = static_cast<std::size_t>(axis - 'X');
     const double angle = degrees[axes.size() == 1 ? 0 : index] * std::numbers::pi / 180;
     result = Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis - 'X')) * result;
@@ -93,7 +92,7 @@ bool resets_stack(const UsdPrim& prim) {
          std::find(order->strings.begin(), order->strings.end(), reset_stack) != order->strings.end();
 }
 
-/// From a prim's coordinates to its parent's. The last operation of the order acts first.
+/// Returns the transform from prim to parent coordinates. The last operation of the order acts first.
 Eigen::Affine3d local_transform(const UsdPrim& prim, double time) {
   Eigen::Affine3d result = Eigen::Affine3d::Identity();
   const UsdValue* order = operation_order(prim);
@@ -117,7 +116,7 @@ Eigen::Affine3d local_transform(const UsdPrim& prim, double time) {
 
 Eigen::Affine3d usd_affine(const double* m, const SourcePlace& place) {
   Eigen::Affine3d result;
-  result.matrix() = Eigen::Map<const Eigen::Matrix4d>(m);  // the rows of the one are the columns of the other
+  result.matrix() = Eigen::Map<const Eigen::Matrix4d>(m);  // rows of USD's matrix become columns
   if (result.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
     place.fail("the matrix is not affine: its last column must be 0, 0, 0, 1");
   }
@@ -131,7 +130,7 @@ Eigen::Affine3d world_transform(const UsdStage& stage, const UsdPath& path, doub
     if (resets_stack(**prim)) break;
   }
   if (!stage.layer().z_up) {
-    // Exactly (x, y, z) → (x, −z, y): a rotation by π/2 would leave rounding in every coordinate.
+    // Exactly (x, y, z) → (x, −z, y): a rotation by π/2 would add rounding errors to every coordinate.
     Eigen::Matrix3d to_z_up;
     to_z_up << 1, 0, 0, 0, 0, -1, 0, 1, 0;
     result = Eigen::Affine3d(to_z_up) * result;
