@@ -29,9 +29,9 @@
 namespace drape {
 namespace {
 
-constexpr int gap = 4;                               // between two pictures [pixels]
+constexpr int gap = 4;                               // gap between two pictures [pixels]
 constexpr int neighbours = 2;                        // compared frames on each side of the first bad one
-constexpr std::size_t most_windows = 6;              // of a changed motion
+constexpr std::size_t most_windows = 6;              // windows of a changed motion
 constexpr double picture_rate = 2, motion_rate = 3;  // [1/s]
 constexpr std::uint8_t gap_gray = 128;
 

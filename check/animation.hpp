@@ -15,7 +15,7 @@ namespace drape {
 /// An animation as GIF bytes, and some of its frames below one another as PNG bytes; both empty: there is none.
 struct DifferenceAnimation {
   std::string gif, stills;
-  html::PlayedMotion expected, actual;  ///< of a changed motion, for interactive viewing
+  html::PlayedMotion expected, actual;  ///< states of a changed motion, for interactive viewing
 };
 
 /// Makes a looping GIF with expected picture, actual picture and difference side by side. For a changed motion it shows

@@ -13,10 +13,10 @@ namespace drape {
 /// REPORT/NAME/candidate.
 struct Candidate {
   std::filesystem::path folder;      ///< REPORT/NAME/candidate
-  std::string hash;                  ///< of the manifest, as listed in report.json
-  std::string name;                  ///< of the scene in the report
-  std::filesystem::path scene_file;  ///< as given to the check
-  std::string scene_digest;          ///< of the checked scene, see Scene::digest
+  std::string hash;                  ///< hash of the manifest, as listed in report.json
+  std::string name;                  ///< name of the scene in the report
+  std::filesystem::path scene_file;  ///< path as given to the check
+  std::string scene_digest;          ///< digest of the checked scene, see Scene::digest
   std::string program;               ///< hash of the computing program, see program_hash()
 };
 

@@ -28,7 +28,7 @@ struct CheckOptions {
   GlBackend backend = GlBackend::automatic;
   bool end_to_end = false;  ///< also run the whole motion and draw it
   UpdateMode update = UpdateMode::missing;
-  std::size_t threads = 0;  ///< for windows; 0: one per processor
+  std::size_t threads = 0;  ///< threads for windows; 0: one per processor
   /// Folder of the report, for animations and candidates of failed scenes; empty: none are made.
   std::filesystem::path artefacts = {};
   /// Overrides of the scenes' values, as "--set cloth.mass=2"; their results cannot become golden.
@@ -45,7 +45,7 @@ struct Blessing {
 /// A golden in memory.
 struct Recording {
   Golden golden;
-  std::vector<Png> pictures;  ///< of its frames
+  std::vector<Png> pictures;  ///< pictures of its frames
 };
 
 /// Runs a scene, or reads its motion, and draws the compared frames.

@@ -11,7 +11,7 @@ struct FrameFacts {
   std::uint64_t touched = 0;        ///< bit k: the cloth is within the contact range of body k
   std::size_t pins = 0;             ///< number of pinned vertices
   double kinetic = 0, elastic = 0;  ///< energies [J]
-  double area = 0;    ///< of the triangles projected towards the camera, without perspective or occlusion [m²]
+  double area = 0;    ///< area of the triangles projected towards the camera, without perspective or occlusion [m²]
   double change = 0;  ///< summed vertex movement across the picture since the previous frame [m]
 };
 

@@ -174,7 +174,7 @@ std::vector<WindowResult> compare_windows(const SimulationSettings& settings, co
 
 std::vector<WindowResult> compare_whole(const SimulationSettings& settings, const Golden& golden, const Golden& actual,
                                         double tolerance) {
-  const Simulation simulation(settings);  // for the names of its bodies
+  const Simulation simulation(settings);  // gives the names of its bodies
   std::vector<WindowResult> results;
   for (std::size_t i = 0; i + 1 < golden.windows.size(); ++i) {
     Collector collector(golden, i, tolerance);

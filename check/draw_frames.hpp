@@ -38,7 +38,7 @@ class DrawFrames {
                                    const CheckSettings& settings, const std::stop_token& stop, Progress& progress);
 
  private:
-  Simulation simulation_;  // for the positions of colliders
+  Simulation simulation_;  // gives the positions of colliders
   Renderer renderer_;
 };
 

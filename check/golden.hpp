@@ -17,7 +17,7 @@ namespace drape {
 
 /// The result of a step of the golden motion.
 struct GoldenStep {
-  std::uint32_t hash = 0;      ///< of every bit, see step_hash()
+  std::uint32_t hash = 0;      ///< hash of every bit, see step_hash()
   std::vector<double> bodies;  ///< positions of bodies and pins, see body_numbers(), rounded to Quanta::compared
 };
 
@@ -25,9 +25,9 @@ struct GoldenStep {
 /// rounding of that state.
 struct GoldenWindow {
   State start;                    ///< rounded by Quanta, except in the first window
-  std::vector<GoldenStep> steps;  ///< after start.step + 1, + 2, …; empty in the last window, which is the motion's end
+  std::vector<GoldenStep> steps;  ///< steps from start.step + 1 on; empty in the last window, which is the motion's end
   Vertices middle;    ///< positions after half of the steps, rounded to Quanta::compared; empty below two steps [m]
-  Energies energies;  ///< at the window's end [J]
+  Energies energies;  ///< energies at the window's end [J]
 
   [[nodiscard]] std::int64_t last_step() const { return start.step + static_cast<std::int64_t>(steps.size()); }
   [[nodiscard]] std::int64_t middle_step() const { return start.step + static_cast<std::int64_t>(steps.size() / 2); }
@@ -36,9 +36,9 @@ struct GoldenWindow {
 /// A frame of the film whose picture is compared.
 struct GoldenFrame {
   int frame = 0;            ///< number in the film
-  double time = 0;          ///< of the scene [s]
+  double time = 0;          ///< time in the scene [s]
   std::string why;          ///< reason for its choice: "first contact with the sphere"
-  View view = {};           ///< of the camera, so that drawing does not need the whole motion
+  View view = {};           ///< camera view, so that drawing does not need the whole motion
   Vertices x;               ///< positions in the picture, rounded by Quanta [m]
   std::string pixels = {};  ///< hash of the picture, see pixel_hash(); set when it is written
 };
@@ -48,13 +48,13 @@ struct GoldenFilm {
   double fps = 25;
   double speed = 1;            ///< seconds of the scene per second of the film
   Eigen::Vector2i size{0, 0};  ///< [pixels]
-  int samples = 4;             ///< per pixel
+  int samples = 4;             ///< samples per pixel
 };
 
 /// The chosen method for a scene that names none.
 struct GoldenMethod {
   Method method = Method::quasi_newton;  ///< the fixed default in older versions
-  std::optional<int> substeps;           ///< per step of an explicit method
+  std::optional<int> substeps;           ///< substeps per step of an explicit method
 };
 
 /// Computing time of the first steps.
@@ -68,19 +68,19 @@ struct Golden {
   std::string scene_digest;  ///< Scene::digest
   std::string date;          ///< "2026-01-31T12:00:00Z"
   Machine machine;
-  Eigen::Vector2i size{0, 0};   ///< of the pictures [pixels]
+  Eigen::Vector2i size{0, 0};   ///< size of the pictures [pixels]
   double step = 0;              ///< step length h [s]
-  std::int64_t step_count = 0;  ///< of the whole motion
+  std::int64_t step_count = 0;  ///< steps of the whole motion
   std::int64_t window_steps = 1;
   int vertex_count = 0;
   int row = 1;                         ///< index distance of neighbours in adjacent rows of a grid; 1 for other meshes
   int body_count = 0;                  ///< largest size of GoldenStep::bodies
-  double seconds_per_frame = 0;        ///< of the scene's time
+  double seconds_per_frame = 0;        ///< scene time from a frame to the next [s]
   std::optional<GoldenFilm> film;      ///< absent in goldens of older versions
   std::optional<GoldenMethod> method;  ///< absent if the scene names one
   std::optional<GoldenTime> time;      ///< absent unless the scene's [check] had a `time`
   Quanta quanta;
-  Camera camera;                      ///< of the scene
+  Camera camera;                      ///< camera settings of the scene
   std::vector<View> frames_views;     ///< views if the compared frames were the whole motion, see views_of_frames()
   std::vector<GoldenWindow> windows;  ///< consecutive; the last one is the motion's end
   std::vector<GoldenFrame> frames;    ///< ascending
@@ -97,7 +97,7 @@ std::uint32_t step_hash(const Simulation& simulation);
 /// of a vertex coordinate.
 std::vector<double> body_numbers(const Simulation& simulation);
 
-/// Returns "sphere" or "ground".
+/// Returns "sphere", "ground" or "body".
 const char* body_kind(const Collider& collider);
 
 /// Returns the owner of body_numbers()[index]: "sphere 1", "ground 2", "pin 20".

@@ -17,7 +17,7 @@ namespace drape {
 namespace {
 
 constexpr int format_version = 3;
-constexpr int indent = 2;  // of the text, in spaces
+constexpr int indent = 2;  // spaces per level in the text
 
 template <int n, class T>
 Json array_of(const Eigen::Matrix<T, n, 1>& v) {

@@ -10,7 +10,7 @@ namespace drape {
 /// The contents of manifest.json.
 struct Manifest {
   Golden golden;            ///< all but the windows, and the positions in the frames
-  std::string motion_hash;  ///< of the bytes of the motion.bin recorded with it
+  std::string motion_hash;  ///< hash of the motion.bin recorded with it
 };
 
 /// Returns the text of manifest.json.

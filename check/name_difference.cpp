@@ -109,7 +109,7 @@ std::string name_brightness(const Image& expected, const Image& actual) {
 
 /// Fits one new colour to all pixels of the same old colour.
 std::string name_colors(const Image& expected, const Image& actual) {
-  constexpr int levels = 32;  // per channel
+  constexpr int levels = 32;  // levels per channel
   struct Bin {
     Eigen::Array3d sum = Eigen::Array3d::Zero();
     double square = 0, count = 0;

@@ -41,7 +41,7 @@ using Png = std::string;
 struct PictureDifference {
   PictureVerdict verdict = PictureVerdict::exact;
   std::int64_t pixels = 0;           ///< number of differing pixels
-  double fraction = 0;               ///< of all pixels, 0 to 1
+  double fraction = 0;               ///< share of all pixels, 0 to 1
   int largest_channel = 0;           ///< largest difference in any channel, 0 to 255
   double mean_flip = 0;              ///< mean over all pixels, 0 to 1
   double max_flip = 0;               ///< 0 to 1
@@ -51,7 +51,7 @@ struct PictureDifference {
 /// One compared frame.
 struct FrameResult {
   int frame = 0;       ///< number in the film
-  double time = 0;     ///< of the scene [s]
+  double time = 0;     ///< time in the scene [s]
   std::string why;     ///< reason for its choice: "first contact with the sphere"
   bool judged = true;  ///< false: shown only, see CheckSettings::ignore_frames
   PictureDifference difference;
@@ -76,7 +76,7 @@ struct WindowResult {
   std::optional<std::int64_t> other_bits;  ///< first step with different bits; absent: none
   std::vector<Deviation> deviations;       ///< largest deviation in each compared step; fewer after a divergence
   std::optional<Deviation> first;          ///< first deviation beyond the tolerance
-  std::optional<Deviation> largest;        ///< of all deviations; absent if there is none
+  std::optional<Deviation> largest;        ///< largest of all deviations; absent if there is none
   std::string problem;                     ///< a sentence on other problems, such as a divergence or a moved body
 };
 
@@ -103,7 +103,7 @@ struct Machine {
 
 struct SceneResult {
   std::string name;              ///< unique in the report: "5", or "homework-5" for duplicate names
-  std::filesystem::path file;    ///< of the scene
+  std::filesystem::path file;    ///< the scene file
   std::filesystem::path golden;  ///< folder of the golden
   SceneVerdict verdict = SceneVerdict::passed;
   ErrorKind error = ErrorKind::usage;  ///< category, for the verdict "error"
@@ -111,7 +111,7 @@ struct SceneResult {
   Comparison windows;                 ///< windows from golden states, and the pictures of those states
   std::optional<Comparison> end_to_end;  ///< the whole motion, run again and drawn; absent if not requested
 
-  CheckSettings settings;      ///< with the command line's changes
+  CheckSettings settings;      ///< settings with the command line's changes
   std::string film;            ///< sentences on changed film settings; empty: none changed
   std::string time;            ///< a sentence if the first steps take too long; empty: in time, or not measured
   double ignored = 0;          ///< share of each picture that is not judged, 0 to 1
@@ -120,7 +120,7 @@ struct SceneResult {
   std::string recorded_at;     ///< "2026-01-31T12:00:00Z"; empty without a golden
   Machine recorded_on;
   std::string renderer;       ///< renderer of the new pictures
-  std::array<int, 2> size{};  ///< of the pictures [pixels]
+  std::array<int, 2> size{};  ///< size of the pictures [pixels]
   std::string animation;      ///< GIF bytes: expected, actual and difference side by side, around the first bad frame;
                               ///< empty: none
   std::string stills;         ///< PNG bytes: some frames of the animation for print
@@ -141,12 +141,12 @@ struct SceneResult {
 
 /// The results of one `drape check`.
 struct CheckReport {
-  std::string command;         ///< as typed, without the options below
+  std::string command;         ///< command as typed, without the options below
   std::string run_options;     ///< options for output and speed: " --report out/ci --jobs 4"; empty in a merged report
   std::string accept_command;  ///< accepts all changes; empty: there are none
   std::string date;            ///< "2026-01-31T12:00:00Z"
   Machine machine;
-  std::vector<SceneResult> scenes;  ///< in the order of the command line
+  std::vector<SceneResult> scenes;  ///< results in the order of the command line
   double seconds = 0;
 
   /// Returns true if every scene was judged, had a golden, and passed.

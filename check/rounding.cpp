@@ -11,9 +11,9 @@
 namespace drape {
 namespace {
 
-constexpr int position_bits = 29;        // below the largest coordinate of the cloth at rest
-constexpr double compared_part = 0.1;    // of the tolerance
-constexpr int smallest_exponent = -900;  // of any quantum, so that its multiples are normal numbers
+constexpr int position_bits = 29;        // bits below the largest coordinate of the cloth at rest
+constexpr double compared_part = 0.1;    // share of the tolerance
+constexpr int smallest_exponent = -900;  // exponent limit of all quanta, so that their multiples are normal numbers
 
 constexpr double largest_multiple = 0x1p52;
 

@@ -9,9 +9,9 @@ namespace drape {
 
 /// The rounding units of a golden's numbers: powers of two, so that rounding is exact and repeatable. 0: no rounding.
 struct Quanta {
-  double position = 0;  ///< of states at the start of windows, and of pictures [m]
-  double velocity = 0;  ///< of these states [m/s]
-  double compared = 0;  ///< of data that are only compared [m]
+  double position = 0;  ///< quantum of states at the start of windows, and of pictures [m]
+  double velocity = 0;  ///< quantum of these states [m/s]
+  double compared = 0;  ///< quantum of data that are only compared [m]
 
   bool operator==(const Quanta&) const = default;
 

@@ -13,10 +13,10 @@
 namespace drape {
 namespace {
 
-constexpr double shortest_run = 0.03;  // of one measurement [s]
+constexpr double shortest_run = 0.03;  // duration of one measurement [s]
 constexpr double calibration_time = 0.01;
 constexpr std::size_t turns = 7;  // the result is their median
-constexpr int attempts = 6;       // before a time counts as too long
+constexpr int attempts = 6;       // measurements before a time counts as too long
 
 /// Returns the CPU time of this thread [s].
 double thread_seconds() {

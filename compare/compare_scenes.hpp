@@ -22,7 +22,7 @@ struct CompareOptions {
   /// Motion file of each scene; null: the scene is simulated. Empty: all are simulated.
   std::vector<std::shared_ptr<MotionReader>> recorded;
   std::vector<std::string> outputs;  ///< films, pictures and sheets as for a run; .html: a page
-  int columns = 0, rows = 0;         ///< of the grid of panels; 0: automatic
+  int columns = 0, rows = 0;         ///< size of the grid of panels; 0: automatic
   bool difference = false;           ///< colour each cloth by its distance to the first
   std::optional<SheetGrid> sheet;    ///< frames in a .png whose path lacks {frame}; absent: the last
   std::optional<std::int64_t> steps;
@@ -37,18 +37,18 @@ struct ComparedMotion {
   std::string label;
   Statistics statistics;
   std::string divergence;                         ///< empty unless it diverged
-  std::vector<double> total_energy;               ///< per frame [J]
+  std::vector<double> total_energy;               ///< total energy per frame [J]
   std::vector<std::optional<double>> most, mean;  ///< vertex distances to the first motion, per frame [m]
   std::string method = {};                        ///< "liu13", "implicit-sdirk2"
   std::string matched = {};                       ///< matching of its vertices, see VertexMatch::note
-  html::PlayedMotion played = {};  ///< for interactive viewing on a page; without frames if there is none
+  html::PlayedMotion played = {};  ///< motion for interactive viewing on a page; without frames if there is none
 };
 
 struct CompareResult {
   bool interrupted = false;
   std::vector<ComparedMotion> motions;
   std::vector<KeyDifference> differences;
-  std::vector<double> times;  ///< of the frames [s]
+  std::vector<double> times;  ///< times of the frames [s]
   int frames_wanted = 0;
   std::vector<std::vector<OutputFile>> outputs;  ///< the files of each completed output
   std::vector<std::string> problems;             ///< a message for each output that could not be written

@@ -10,7 +10,7 @@ namespace drape {
 /// A key with different values in some scenes.
 struct KeyDifference {
   std::string key;                  ///< "integrator.method"
-  std::vector<std::string> values;  ///< by scene; "–" for a missing key
+  std::vector<std::string> values;  ///< values by scene; "–" for a missing key
 };
 
 /// Returns the keys that differ, given or by default. Excludes keys that a comparison takes from its first scene:

@@ -39,7 +39,7 @@ class MotionsInStep {
 
  private:
   const std::vector<Scene>& scenes_;
-  int first_count_;  // of the first motion's film
+  int first_count_;  // frames of the first motion's film
   std::deque<FrameSource> sources_;
 };
 

@@ -13,7 +13,7 @@
 namespace drape {
 namespace {
 
-constexpr int gap = 6;  // between panels [pixels]
+constexpr int gap = 6;  // gap between panels [pixels]
 constexpr std::uint8_t paper = 255;
 
 /// Returns a unit in which a length has few digits, and its number per metre.

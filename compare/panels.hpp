@@ -34,8 +34,8 @@ class PanelColors {
 
   bool difference_;
   std::string first_;                    // label of the first scene
-  std::vector<VertexMeasure> measures_;  // by scene; empty if distances are shown
-  std::vector<VertexMatch> matches_;     // by scene, if distances are shown
+  std::vector<VertexMeasure> measures_;  // measures by scene; empty if distances are shown
+  std::vector<VertexMatch> matches_;     // matches by scene, if distances are shown
   std::optional<ColorScale> scale_;
 };
 

@@ -45,8 +45,8 @@ class Annotations {
   const Scene& scene_;
   Pen pen_;
   std::optional<VertexColoring> coloring_;
-  std::vector<double> times_;        // of the surveyed frames [s]
-  std::vector<Curve> energies_;      // of the surveyed frames [J]
+  std::vector<double> times_;        // times of the surveyed frames [s]
+  std::vector<Curve> energies_;      // energies of the surveyed frames [J]
   std::optional<CurveBand> curves_;  // made when the first frame is drawn
   std::optional<Image> bar_;         // made when the first frame is drawn
 };

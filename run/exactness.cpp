@@ -6,7 +6,7 @@ namespace drape {
 namespace {
 
 constexpr std::int64_t between_looks = 128;  // steps between two estimates
-constexpr double coarse_share = 0.01;        // of the cloth's size
+constexpr double coarse_share = 0.01;        // share of the cloth's size
 constexpr double still = 1e-3;               // speed below which a cloth is at rest [cloth sizes/s]
 constexpr double moment = 0.01;              // or the speed that unbalanced forces cause within this time [s]
 

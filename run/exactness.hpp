@@ -57,7 +57,7 @@ class Exactness final : public StepObserver {
 
   std::optional<Accuracy> accuracy_;
   std::optional<double> asked_;
-  double size_ = 0;  // of the cloth [m]
+  double size_ = 0;  // size of the cloth [m]
   double sum_ = 0, largest_ = 0, last_error_ = 0;
   std::int64_t looked_at_ = 0, last_ = 0;  // number of estimated steps, and the last one
   std::optional<Unbalanced> unbalanced_;

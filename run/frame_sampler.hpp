@@ -19,11 +19,11 @@ struct FrameRange {
 
 /// The times of a film's frames. Frame k shows time k·speed/fps [s] or the end of step k·n, from 0 to the motion's end.
 struct FilmExtent {
-  std::int64_t steps;                 ///< to simulate: up to the last frame
+  std::int64_t steps;                 ///< steps to simulate: up to the last frame
   double step;                        ///< step length h [s]
   std::optional<std::int64_t> every;  ///< n, if frames are counted in steps
-  double seconds_per_frame;           ///< of the scene's time [s]
-  FrameRange frames;                  ///< to draw
+  double seconds_per_frame;           ///< scene time from a frame to the next [s]
+  FrameRange frames;                  ///< frames to draw
 
   /// @param frame_range absent: the whole motion
   /// @param every_steps steps per frame, at least 1; absent: the video's frame rate
@@ -43,10 +43,10 @@ enum class FrameContents { places, motion };
 /// The state of a motion at the end of a step, from which frames are made.
 struct Moment {
   const State& state;
-  int iterations;                                               ///< of the solver in this step
+  int iterations;                                               ///< solver iterations of this step
   std::int64_t next;                                            ///< the step of the next moment
   std::function<Energies()> energies;                           ///< called only if a frame needs them
-  std::function<std::vector<Collider>(double time)> colliders;  ///< at a given time [s]
+  std::function<std::vector<Collider>(double time)> colliders;  ///< colliders at a given time [s]
 };
 
 /// Hands out each frame of a range as soon as the motion has reached it. Interpolates linearly between two moments:

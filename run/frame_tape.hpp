@@ -29,7 +29,7 @@ class FrameTape {
 
  private:
   std::size_t memory_;
-  std::vector<Frame> frames_;   // without positions and velocities if those are in the file
+  std::vector<Frame> frames_;   // all frames; those in the file lack positions and velocities
   std::size_t in_memory_ = 0;   // number of frames with their data in memory
   std::optional<Spool> spool_;  // made for the first frame that does not fit
 };

@@ -8,7 +8,7 @@ namespace drape {
 
 /// The disk space that a run's motion file will need, and the free space [bytes].
 struct MotionSpace {
-  double expected = 0, most = 0;  ///< in addition to the file of a resumed run
+  double expected = 0, most = 0;  ///< additional to the existing file of a resumed run
   double free = 0;
 
   /// Returns a sentence with these figures.

@@ -27,13 +27,13 @@ struct RunOptions {
   std::shared_ptr<MotionReader> recorded;  ///< the motion file to draw, instead of simulating
   RecordPaths records;
   std::optional<std::int64_t> steps;      ///< instead of the scene's duration
-  std::optional<FrameRange> frames;       ///< to draw; the simulation ends with the last of them
+  std::optional<FrameRange> frames;       ///< frames to draw; the simulation ends with the last of them
   std::optional<std::int64_t> every;      ///< steps per frame; absent: as the scene's video says
   std::optional<FileLimit> largest_file;  ///< size limit of a film, see FittedFilm
   bool poster = false;                    ///< write a picture beside each film, see Poster
   std::optional<SheetGrid> sheet;         ///< frames in a picture whose path lacks {frame}; absent: the last
   GlBackend backend = GlBackend::automatic;
-  int threads = 1;                   ///< for a step of a large cloth; 0: see with_threads()
+  int threads = 1;                   ///< threads for a step of a large cloth; 0: see with_threads()
   std::function<void()> drawn = {};  ///< called when the outputs have every frame, before they are completed
   bool time_effects = false;         ///< measure each effect's share of the step time
   StepObserver* observer = nullptr;  ///< called after each step is recorded, on the simulating thread

@@ -19,7 +19,7 @@ std::string about(double seconds) {
 }
 
 Reason of_iterations(double iterations, const SimulationSettings& settings) {
-  constexpr double coarse = 1e-4;  // of the cloth's size: a hundred times the default tolerance
+  constexpr double coarse = 1e-4;  // share of the cloth's size: a hundred times the default tolerance
   const IntegratorSettings& integrator = settings.integrator;
   const std::string why = fmt::format("each takes {:.0f} iterations", iterations);
   if (integrator.method != Method::quasi_newton) return {why, "method = \"quasi-newton\""};

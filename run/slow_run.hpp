@@ -11,12 +11,12 @@ namespace drape {
 
 /// Progress and costs of a run so far.
 struct Pace {
-  std::int64_t steps = 0;  ///< done
-  std::int64_t left = 0;   ///< still to do
-  double seconds = 0;      ///< since the first step began [s]
-  double simulated = 0;    ///< of these, in steps [s]
-  double iterations = 0;   ///< of all steps
-  double substeps = 0;     ///< of all steps
+  std::int64_t steps = 0;  ///< steps done
+  std::int64_t left = 0;   ///< steps still to do
+  double seconds = 0;      ///< time since the first step began [s]
+  double simulated = 0;    ///< part of `seconds` spent in steps [s]
+  double iterations = 0;   ///< sum over all steps
+  double substeps = 0;     ///< sum over all steps
   bool drawn = false;      ///< the run also draws
 
   /// Returns the predicted time of the whole run, from the mean so far [s].

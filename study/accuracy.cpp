@@ -12,7 +12,7 @@
 namespace drape {
 namespace {
 
-constexpr std::int64_t states = 12;         // of the reference, in which single steps are solved
+constexpr std::int64_t states = 12;         // states of the reference in which single steps are solved
 constexpr double error_of_reference = 0.1;  // largest error of the reference, as a share of the smallest accuracy
 
 void sort_without_repetition(std::vector<std::int64_t>& numbers) {

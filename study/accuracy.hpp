@@ -46,13 +46,13 @@ struct AccuracyOptions {
       methods;  ///< empty: all; other schemes than backward Euler are measured for the error of the time step only
   std::vector<double> tolerances;  ///< [m] or [N] by the scene's stopping criterion; empty: 1, 0.1, … 1e-7
   std::vector<double> steps;       ///< [s]; empty: the scene's step and its halves
-  std::vector<double> times;       ///< of the motion errors [s]; empty: 1/20, 1/8 and 1/4 of the scene's duration
+  std::vector<double> times;       ///< times of the motion errors [s]; empty: 1/20, 1/8 and 1/4 of the scene's duration
   std::vector<double> accuracies;  ///< [m]; empty: 1e-2, 1e-3, 1e-4
   std::vector<std::string> overrides;
   RunCount runs = {};
   double patience = 20;  ///< computing time limit of a motion of `asked` [s]
   AccuracyParts parts = {};
-  GlBackend backend = GlBackend::automatic;  ///< for the films
+  GlBackend backend = GlBackend::automatic;  ///< backend for the films
   bool of_several_scenes = false;            ///< skip a method in each scene that it cannot compute
 };
 
@@ -89,7 +89,7 @@ struct StepPoint {
   StepMethod method = Method::implicit;
   double step = 0;  ///< step length h [s]
   CaseRuns measured;
-  Distance error;    ///< at the first time
+  Distance error;    ///< error at the first time
   double order = 0;  ///< measured between this step and the next larger one; NaN for the largest
 };
 
@@ -119,8 +119,8 @@ struct SceneAccuracy {
 
   std::vector<double> apart;            ///< distance of the two references at each time [m]
   std::vector<double> apart_by_step;    ///< the same after every step of the whole motion [m]
-  std::optional<double> chaotic_from;   ///< when the references first differ by more than smallest_error [s]
-  std::optional<double> buckling_from;  ///< when they first differ by more than largest_rounding [s]
+  std::optional<double> chaotic_from;   ///< first time with references further apart than smallest_error [s]
+  std::optional<double> buckling_from;  ///< first time with references further apart than largest_rounding [s]
   std::optional<double> contact_from;   ///< first time of contact, if before the first of `times` [s]
   double solve_apart = 0;               ///< largest distance of a step's two exact results [m]
   std::int64_t states = 0, left_out = 0;
@@ -128,10 +128,10 @@ struct SceneAccuracy {
   std::vector<double> step_gained;            ///< see StepReference::gained, at each time [m]
   std::optional<double> film_unknown;  ///< FLIP error between the films of the reference with and without extrapolation
 
-  std::vector<TolerancePoint> points;  ///< by method, then tolerance, in the given order
-  std::vector<StepPoint> steps;        ///< by method, then step, in the given order
-  std::vector<MotionPoint> asked;      ///< by method, then accuracy, in the given order
-  std::vector<MotionPoint> fixed;      ///< by method, then step, in the given order
+  std::vector<TolerancePoint> points;  ///< sorted by method, then tolerance, in the given order
+  std::vector<StepPoint> steps;        ///< sorted by method, then step, in the given order
+  std::vector<MotionPoint> asked;      ///< sorted by method, then accuracy, in the given order
+  std::vector<MotionPoint> fixed;      ///< sorted by method, then step, in the given order
   std::vector<std::string> notes;      ///< omitted cases, with reasons
 };
 

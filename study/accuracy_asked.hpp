@@ -8,13 +8,13 @@ namespace drape {
 /// A comparison of estimated and true errors of a motion's steps.
 struct EstimateCheck {
   std::size_t judged = 0;      ///< steps before first contact or buckling with a known and relevant error
-  std::size_t close = 0;       ///< of these, steps with an estimate within a factor of 3
-  double worst_before = 0;     ///< of these, the largest ratio of error to estimate
-  double worst_after = 0;      ///< the same ratio for later steps
+  std::size_t close = 0;       ///< judged steps with an estimate within a factor of 3
+  double worst_before = 0;     ///< largest ratio of error to estimate in judged steps
+  double worst_after = 0;      ///< the same ratio in later steps
   std::size_t after = 0;       ///< number of later steps
   std::size_t unknown = 0;     ///< steps with an unknown true error
   std::size_t missed = 0;      ///< steps with an error above ten times the accuracy
-  std::size_t unreported = 0;  ///< of these, steps that reported convergence
+  std::size_t unreported = 0;  ///< missed steps that reported convergence
 
   EstimateCheck& operator+=(const EstimateCheck& other);
 };

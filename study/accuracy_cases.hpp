@@ -18,8 +18,8 @@ struct StepCase {
 struct AccuracyCases {
   std::vector<ToleranceCase> tolerances;
   std::vector<StepCase> steps;  ///< each step solved to the end
-  std::vector<StepCase> asked;  ///< with an accuracy
-  std::vector<StepCase> fixed;  ///< with a time step and the default tolerance
+  std::vector<StepCase> asked;  ///< cases with an accuracy
+  std::vector<StepCase> fixed;  ///< cases with a time step and the default tolerance
 };
 
 /// Removes methods that cannot compute the scene with any step, unless no method would remain.

@@ -12,7 +12,7 @@ namespace drape {
 struct Offer {
   std::string method, at;  ///< "liu13", "ε = 0.001"
   double error = 0;        ///< [m]
-  MedianInterval cost;     ///< in a common unit
+  MedianInterval cost;     ///< cost, in the same unit for all offers
 };
 
 /// The cheapest offer with an error below a limit, and the cheapest of another method; null if there is none.

@@ -7,7 +7,7 @@ namespace drape {
 
 /// An accuracy study of several scenes, complete for its report.
 struct AccuracyStudy {
-  std::string command;  ///< to reproduce it
+  std::string command;  ///< command to reproduce it
   std::vector<SceneAccuracy> scenes;
   std::vector<std::vector<StudyPicture>> pictures;                   ///< animations of each scene; same size as scenes
   double seconds = 0;                                                ///< duration of the study

@@ -14,9 +14,9 @@ namespace drape {
 struct StudyCase {
   std::string label;                   ///< a file, relative to `folder`: "scenes/homework/3.toml"
   std::string scene;                   ///< a file, relative to `folder`: "scenes/homework/3.toml"
-  std::vector<std::string> overrides;  ///< as for --set
+  std::vector<std::string> overrides;  ///< overrides as for --set
   std::int64_t steps = 0;
-  std::int64_t watched_steps = 0;     ///< for the untimed run, if larger than `steps`
+  std::int64_t watched_steps = 0;     ///< steps of the untimed run, if more than `steps`
   std::filesystem::path folder = {};  ///< empty: the data folder
   /// Computing time limit for `steps` [s]; absent: no limit, and a divergence is an error.
   std::optional<double> patience = {};

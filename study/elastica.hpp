@@ -4,7 +4,7 @@ namespace drape {
 
 /// The position of a heavy elastica's tip, relative to its length.
 struct ElasticaTip {
-  double drop = 0, reach = 0;  ///< below the clamp, and horizontally from it
+  double drop = 0, reach = 0;  ///< depth below the clamp, and horizontal distance from it
 
   /// Returns the angle of the chord from clamp to tip below the horizontal [degrees].
   [[nodiscard]] double chord_angle() const;

@@ -21,7 +21,7 @@ struct HomeworkStudy {
   std::vector<ResultTable> tables;
   ResultTable energies;  ///< the whole log of the first 20 steps
   std::vector<NamedChart> charts;
-  std::vector<StudyMotion> motions;  ///< of each method of tables 1 and 2
+  std::vector<StudyMotion> motions;  ///< one motion per method of tables 1 and 2
   std::vector<Conclusion> conclusions;
   std::vector<std::string> differences;  ///< intended differences from the report, one sentence each
   RunCount runs;

@@ -16,7 +16,7 @@
 namespace drape {
 namespace {
 
-constexpr std::int64_t turns = 24;  // per run of a case
+constexpr std::int64_t turns = 24;  // turns per run of a case
 
 /// One run of one case, in turns.
 class CaseRun {

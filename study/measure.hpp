@@ -18,9 +18,9 @@ namespace drape {
 struct Measured {
   StudyCase what;
   double step = 0;                   ///< step length h [s]
-  std::vector<int> iterations;       ///< for every watched step
+  std::vector<int> iterations;       ///< iterations of every watched step
   std::int64_t capped = 0;           ///< number of steps within what.steps that reached the iteration limit
-  std::vector<double> height;        ///< of the centre of mass after every watched step [m]
+  std::vector<double> height;        ///< height of the centre of mass after every watched step [m]
   double flipped_pairs = 0;          ///< mean over the watched steps, see FlippedPairs
   std::vector<double> microseconds;  ///< CPU time per step, for every timed run
   std::vector<double> setup;         ///< the same before the first step: setup and factorisation included [µs]

@@ -26,9 +26,9 @@ struct StudyFinding {
 /// An animation of a study.
 struct StudyPicture {
   std::string file;                       ///< file name in the results folder
-  std::string bytes;                      ///< of the GIF
+  std::string bytes;                      ///< bytes of the GIF
   std::string caption;                    ///< also serves as the text alternative
-  std::string command;                    ///< to reproduce it
+  std::string command;                    ///< command to reproduce it
   std::string stills = {};                ///< frames side by side for print: bytes of a PNG
   std::vector<StudyMotion> motions = {};  ///< some of the motions shown, for interactive viewing
 };
@@ -40,16 +40,16 @@ struct StudySection {
   std::vector<NamedChart> charts;
   std::vector<StudyPicture> pictures;
   std::vector<StabilityMap> maps = {};
-  std::vector<StudyMotion> motions = {};  ///< for interactive viewing
+  std::vector<StudyMotion> motions = {};  ///< motions for interactive viewing
 };
 
 /// The report of a study in reading order, findings first.
 struct StudyReport {
   std::string kind;      ///< "drape study homework"
-  std::string title;     ///< of the page's window
+  std::string title;     ///< title of the page's window
   std::string headline;  ///< the finding in one sentence
   std::string introduction;
-  std::string command;                 ///< to reproduce it
+  std::string command;                 ///< command to reproduce it
   std::optional<StudySection> answer;  ///< the result for users, before the evidence
   std::vector<StudyFinding> findings;
   std::vector<StudySection> sections;

@@ -19,7 +19,7 @@ constexpr const char* last_kind = "end";
 
 struct CsvRow {
   std::vector<std::string> cells;
-  std::size_t line = 0;  // of its beginning
+  std::size_t line = 0;  // first line of the row
 };
 
 /// Reader of RFC 4180 rows: quoted cells may contain commas, line ends, and doubled quotes.

@@ -22,7 +22,7 @@ namespace {
 constexpr const char* scene_file = "scenes/homework/5.toml";
 constexpr int smallest_grid = 10;
 constexpr std::int64_t warm_up = 25;     // steps of 0.02 s, until the cloth lies on the sphere
-constexpr std::int64_t timed_steps = 5;  // per run
+constexpr std::int64_t timed_steps = 5;  // steps per run
 constexpr double of_safe_step = 0.9;
 
 struct Variant {

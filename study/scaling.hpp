@@ -30,20 +30,20 @@ struct TimeShares {
 /// The measurements of a method on a grid.
 struct ScalingPoint {
   std::string method;  ///< "implicit, cholesky"
-  int cells = 0;       ///< along a side
+  int cells = 0;       ///< cells along a side
   double vertices = 0;
   StudyCase what;
   double step = 0;        ///< step length h [s]
   double iterations = 0;  ///< mean per step; 0 for a method without iterations
-  MedianInterval time;    ///< per step [µs]
-  MedianInterval setup;   ///< before the first step, with the factorisation of the constant matrix [µs]
+  MedianInterval time;    ///< time per step [µs]
+  MedianInterval setup;   ///< time before the first step, with the factorisation of the constant matrix [µs]
   double factor = 0;      ///< assembly, analysis and factorisation of the constant matrix alone [µs]
-  double memory = 0;      ///< of the simulation after some steps [bytes]
+  double memory = 0;      ///< memory of the simulation after some steps [bytes]
   TimeShares shares;
 };
 
 struct ScalingStudy {
-  std::vector<ScalingPoint> points;  ///< by method, then by grid
+  std::vector<ScalingPoint> points;  ///< sorted by method, then by grid
   std::vector<std::string> notes;    ///< grids that did not fit
   ScalingOptions options;
   double seconds = 0;

@@ -20,8 +20,8 @@ namespace drape {
 namespace {
 
 constexpr int cells = 6;                  // along a side
-constexpr double spring_stiffness = 180;  // on the push axis [N/m]
-constexpr double depth = 0.01;            // of the cloth in the ground [m]
+constexpr double spring_stiffness = 180;  // spring stiffness on the push axis [N/m]
+constexpr double depth = 0.01;            // depth of the cloth in the ground [m]
 constexpr double disturbance = 1e-4;      // amplitude of the oscillation [m]
 
 /// Returns a level ground at height 0, as a huge sphere whose push acts like a spring of this stiffness [1/s²].

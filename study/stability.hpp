@@ -23,7 +23,7 @@ const char* outcome_name(StabilityOutcome outcome);
 /// A cell of a stability map.
 struct StabilityCell {
   double step = 0;       ///< step length h [s]
-  double stiffness = 0;  ///< of the springs [N/m], or of the push [1/s²]
+  double stiffness = 0;  ///< spring stiffness [N/m], or push stiffness [1/s²]
   StabilityOutcome outcome = StabilityOutcome::stable;
   /// Largest change of kinetic, gravity, elastic and push energy together, relative to the largest exchanged energy: 0
   /// for an exact motion, 1 if all of it was lost.
@@ -48,15 +48,15 @@ struct StabilityMap {
 struct StabilityBorder {
   StepMethod method = Method::semi_implicit;
   StabilityAxis axis = StabilityAxis::springs;
-  double stiffness = 0;  ///< in the unit of the axis
+  double stiffness = 0;  ///< stiffness in the unit of the axis
   double predicted = 0;  ///< stability_limit() [s]
   double measured = 0;   ///< longest step without a blow-up in 2000 steps, to 0.2 % [s]
 };
 
 /// Resolution of a study.
 struct StabilityDetail {
-  int per_decade = 3;  ///< number of step lengths and stiffnesses
-  int steps = 100;     ///< per cell
+  int per_decade = 3;  ///< numbers of step lengths and of stiffnesses
+  int steps = 100;     ///< steps per cell
 };
 
 struct StabilityStudy {

@@ -8,7 +8,7 @@
 namespace drape {
 namespace {
 
-constexpr double stiffness = 100;  // of the springs [N/m]
+constexpr double stiffness = 100;  // stiffness of the springs [N/m]
 constexpr double below = 0.95, beyond = 1.2;
 constexpr int steps = 99;       // few enough to make every state a frame
 constexpr double far_away = 3;  // in cloth sizes

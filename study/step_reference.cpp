@@ -11,7 +11,7 @@
 namespace drape {
 namespace {
 
-constexpr std::int64_t refinement = 2, most_refinement = 16;  // of cheap Verlet steps; to be stable
+constexpr std::int64_t refinement = 2, most_refinement = 16;  // factor for cheap Verlet steps; its limit for stability
 constexpr int most_halvings_of_verlet = 3;
 
 /// Returns the Richardson extrapolation of two step lengths, `coarse` twice `fine`.

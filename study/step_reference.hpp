@@ -12,7 +12,7 @@ namespace drape {
 
 /// Positions of the cloth at some moments in the limit of vanishing steps.
 struct StepReference {
-  std::vector<std::int64_t> moments;  ///< in the scene's steps, ascending
+  std::vector<std::int64_t> moments;  ///< step numbers of the scene, ascending
   /// (4·x(h) − x(2h))/3: Richardson extrapolation, which removes the second-order error [m].
   std::vector<Vertices> x;
   std::vector<Vertices> plain;  ///< x(h) [m]

@@ -21,8 +21,8 @@ inline constexpr const char* default_factor = "default";
 
 /// One run of one problem, with its measurements.
 struct ValidationRun {
-  std::string name;                        ///< of the case
-  std::string problem;                     ///< name in the case
+  std::string name;                        ///< name of its case
+  std::string problem;                     ///< name of the problem in its case
   std::string factor;                      ///< scene_factor, default_factor, "cell", "step", "method", "mesh"
   std::string setting;                     ///< name of the variant; for a factor without variants, the factor
   StudyCase what;                          ///< the command that runs it
@@ -36,9 +36,9 @@ struct ValidationRun {
   double cell = 0;      ///< mean spring length [m]
   std::int64_t vertices = 0;
   std::int64_t capped = 0;         ///< number of steps that reached the iteration limit
-  double rest_speed = 0;           ///< of the fastest vertex at the end [m/s]
-  std::vector<std::string> names;  ///< of the quantities
-  std::vector<double> values;      ///< of the quantities
+  double rest_speed = 0;           ///< speed of the fastest vertex at the end [m/s]
+  std::vector<std::string> names;  ///< names of the quantities
+  std::vector<double> values;      ///< values of the quantities
   html::PlayedMotion played = {};  ///< only for the first problem of --quick with the original scene; not kept in files
 
   [[nodiscard]] std::optional<double> value(const std::string& quantity) const;
@@ -47,7 +47,7 @@ struct ValidationRun {
 /// The options of a study.
 struct ValidationOptions {
   std::vector<std::string> cases = {};    ///< empty: all
-  std::vector<std::string> methods = {};  ///< for the runs that vary the method; empty: all of the case
+  std::vector<std::string> methods = {};  ///< methods for the runs that vary the method; empty: all of the case
   bool quick = false;                     ///< a few problems with their original scenes only
   int jobs = 1;                           ///< parallel runs
   double patience = 30;                   ///< computing time limit of a run [s]
@@ -57,8 +57,8 @@ struct ValidationOptions {
 /// All measurements of a study.
 struct ValidationStudy {
   std::vector<ValidationCase> cases;
-  std::vector<ValidationRun> runs;  ///< in the order of the plan
-  std::string command;              ///< to reproduce it
+  std::vector<ValidationRun> runs;  ///< runs in the order of the plan
+  std::string command;              ///< command to reproduce it
   std::vector<std::pair<std::string, std::string>> provenance;
   double seconds = 0;
   Shard shard = {};  ///< the shard of its runs

@@ -10,10 +10,10 @@ namespace drape {
 
 /// A motion of a case's cloth, by drape or another simulator.
 struct ObservedMotion {
-  Cloth cloth;                       ///< at the start of the case's scene
-  std::vector<double> times;         ///< ascending [s]
-  std::vector<Vertices> positions;   ///< at these times, n×3 [m]
-  std::vector<Vertices> velocities;  ///< at these times, n×3 [m/s]; empty: unknown
+  Cloth cloth;                       ///< cloth at the start of the case's scene
+  std::vector<double> times;         ///< times of the states, ascending [s]
+  std::vector<Vertices> positions;   ///< vertex positions at these times, n×3 [m]
+  std::vector<Vertices> velocities;  ///< vertex velocities at these times, n×3 [m/s]; empty: unknown
   std::vector<double> elastic;       ///< energy of springs and bending at these times [J]; empty: unknown
 };
 

@@ -18,7 +18,7 @@ std::string figure_title(const std::string& name);
 /// Diagrams of figures over axes.
 struct SweepDiagrams {
   std::vector<std::string> figures, axes;
-  std::vector<NamedChart> charts;  ///< per figure and axis, grouped by figure
+  std::vector<NamedChart> charts;  ///< one chart per figure and axis, grouped by figure
 };
 
 /// Plots each figure that varies between runs over each axis, with a line per combination of the other axes. With too

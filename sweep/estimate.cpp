@@ -7,7 +7,7 @@ namespace drape {
 namespace {
 
 // Coefficients fitted to the scenes in scenes/.
-constexpr double newton_per_iterated = 6;     // per spring and step
+constexpr double newton_per_iterated = 6;     // factor per spring and step
 constexpr double run = 3e-3;                  // fixed cost of a run [s]
 constexpr double usual_stiffness = 10;        // assumed substeps of an explicit step; only a run knows the number
 constexpr double pixel = 60e-9, film = 0.15;  // drawing and encoding per pixel, and per film [s]

@@ -24,8 +24,8 @@ using html::Markup;
 constexpr std::size_t most_sheet_bytes = std::size_t{1} << 28;
 constexpr double most_sheet_pixels = 1 << 28;        // larger ones are not drape's
 constexpr std::size_t most_film_bytes = 48'000'000;  // total on a page
-constexpr int widest = 240;                          // of a film's picture on the page [pixels]
-constexpr int gap = 6;                               // between the pictures of a contact sheet [pixels]
+constexpr int widest = 240;                          // width of a film's picture on the page [pixels]
+constexpr int gap = 6;                               // gap between the pictures of a contact sheet [pixels]
 
 /// Returns a run's contact sheet for the page, scaled down and without gaps; nothing if it has none.
 std::optional<html::Strip> strip_of(const SweepResults& results, const SweepRow& row,
@@ -147,7 +147,7 @@ class Films {
 
   const SweepResults& results_;
   const std::filesystem::path& folder_;
-  std::vector<double> moments_;  // of the longest strip [s]
+  std::vector<double> moments_;  // times of the longest strip [s]
   bool same_moments_ = true;     // true if all strips share their common moments
   std::size_t bytes_ = 0, left_out_ = 0;
 };

@@ -15,7 +15,7 @@ namespace drape {
 /// A planned run of a sweep.
 struct PlannedRun {
   std::size_t scene = 0;            ///< index in the request
-  std::vector<std::string> values;  ///< of the varied keys, in their order
+  std::vector<std::string> values;  ///< values of the varied keys, in their order
   /// Hash of the resolved scene with its files, the program, the request, and the run that decides the viewing
   /// direction: 16 hexadecimal digits. Also the name of the run's folder.
   std::string key;

@@ -16,7 +16,7 @@ namespace drape {
 /// The user's request for a sweep.
 struct SweepRequest {
   std::vector<std::string> scenes;     ///< scene files
-  std::vector<std::string> overrides;  ///< of every run, before its varied values
+  std::vector<std::string> overrides;  ///< overrides of every run, before its varied values
   std::vector<Variation> varied;
   bool zipped = false;                ///< combine the i-th values of all keys, not every value with every other
   std::vector<std::string> films;     ///< file extensions of the films to make of every run: "gif"

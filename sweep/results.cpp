@@ -18,7 +18,7 @@ namespace {
 
 constexpr int format_number = 3;
 constexpr const char* sweep_name = "sweep.json";
-constexpr int indent = 1;  // of sweep.json, in spaces
+constexpr int indent = 1;  // spaces per level in sweep.json
 constexpr std::size_t most_sweep_bytes = std::size_t{1} << 30;
 
 /// Checks the keys of runs, which name their folders. Refused runs have none.

@@ -40,8 +40,8 @@ struct SweepRow {
 struct SweepResults {
   SweepPlan plan;
   Shard shard;
-  std::vector<SweepAxis> axes;  ///< with at least two values; the last one runs across grids
-  std::vector<SweepRow> rows;   ///< the shard's runs, in the order of the plan
+  std::vector<SweepAxis> axes;  ///< axes with at least two values; the last one runs across grids
+  std::vector<SweepRow> rows;   ///< rows of the shard's runs, in the order of the plan
 
   [[nodiscard]] const PlannedRun& planned(const SweepRow& row) const { return plan.runs[row.run]; }
   [[nodiscard]] std::size_t count(RunOutcome outcome) const;
@@ -61,7 +61,7 @@ struct SweepGrid {
   std::string title;                  ///< their values on the other axes; empty: this is the only grid
   const SweepAxis* down = nullptr;    ///< null: a single row
   const SweepAxis* across = nullptr;  ///< null: a single column
-  std::vector<std::vector<const SweepRow*>> cells = {};  ///< by row and column; null: no such run
+  std::vector<std::vector<const SweepRow*>> cells = {};  ///< rows by row and column of the grid; null: no such run
 };
 
 std::vector<SweepGrid> grids_of(const SweepResults& results);

@@ -25,7 +25,7 @@ struct RunRecord {
   double seconds = 0;              ///< duration, with drawing and encoding
   std::vector<std::string> files;  ///< written files, in the run's folder
   std::vector<double> moments;     ///< times of the pictures in its contact sheet [s]
-  std::vector<std::pair<std::string, std::string>> figures;  ///< from --stats: "step_us.median", "12.5"
+  std::vector<std::pair<std::string, std::string>> figures;  ///< figures from --stats: "step_us.median", "12.5"
 
   /// Returns true if the run need not be repeated, as its result would be the same.
   [[nodiscard]] bool settled() const { return outcome == RunOutcome::completed || outcome == RunOutcome::diverged; }

@@ -11,9 +11,9 @@ namespace drape {
 struct SlurmJobs {
   std::string sweep;                 ///< shell command of the whole sweep, with its folder
   std::string program;               ///< path of this drape on the nodes
-  std::filesystem::path folder;      ///< of the sweep, shared by the nodes
+  std::filesystem::path folder;      ///< folder of the sweep, shared by the nodes
   std::size_t tasks = 1;             ///< size of the array
-  std::vector<std::string> options;  ///< of sbatch, for both jobs: "--partition=short"
+  std::vector<std::string> options;  ///< sbatch options of both jobs: "--partition=short"
 };
 
 /// Writes sweep.sbatch, merge.sbatch and submit.sh, which submits both, into the folder. A requeued task resumes.

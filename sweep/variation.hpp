@@ -9,7 +9,7 @@ namespace drape {
 /// A key of a scene and its values in a sweep.
 struct Variation {
   std::string key;                  ///< "integrator.tolerance"
-  std::vector<std::string> values;  ///< as for --set
+  std::vector<std::string> values;  ///< values as for --set
 };
 
 /// Splits a list at commas outside of brackets, braces and quotes, and expands ranges. FROM..TO/COUNT is evenly spaced

@@ -18,7 +18,7 @@ namespace drape {
 struct WatchedFilm {
   std::int64_t version = 0;         ///< grows with every change of the members below
   bool running = false;             ///< the current scene is being drawn
-  std::vector<std::string> errors;  ///< of the current scene, "flag.toml:3:9: …"; then the film is an older one
+  std::vector<std::string> errors;  ///< errors of the current scene, "flag.toml:3:9: …"; then the film is an older one
   std::vector<std::string> hints;   ///< settings that may be mistakes
   std::string summary;              ///< "30×20 cells …", one line
   std::string film;                 ///< bytes of a GIF; empty until the first film
