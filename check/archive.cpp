@@ -15,7 +15,7 @@
 
 namespace nlohmann {
 
-/// Stores an absent value as null.
+/// JSON conversion of optional values; an absent value is null.
 template <class T>
 struct adl_serializer<std::optional<T>> {
   template <class Json>

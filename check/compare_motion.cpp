@@ -29,7 +29,7 @@ bool same_state(const State& a, const State& b) {
   return same(a.x, b.x) && same(a.v, b.v);
 }
 
-/// Compares a window, step by step.
+/// Comparison of one window with the golden, step by step.
 class Collector {
  public:
   Collector(const Golden& golden, std::size_t window, double tolerance)

@@ -27,7 +27,7 @@ Json to_json(const WindowResult& window) {
           {"problem", window.problem}};
 }
 
-/// `prefix` distinguishes the files of an end-to-end comparison.
+/// Returns the JSON of a frame; `prefix` distinguishes the files of an end-to-end comparison.
 Json to_json(const SceneResult& scene, const FrameResult& frame, const std::string& prefix) {
   const PictureDifference& d = frame.difference;
   Json json{{"frame", frame.frame},

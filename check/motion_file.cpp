@@ -99,7 +99,7 @@ class FieldReader {
   Eigen::Index row_, vertices_;
 };
 
-/// Predicts the numbers of a step from the previous two, by linear extrapolation.
+/// Predictor of the numbers of a step from the previous two, by linear extrapolation.
 class SteadyBodies {
  public:
   std::vector<std::uint64_t> next(std::size_t count) {

@@ -23,7 +23,7 @@ Words unpack_words(std::string_view bytes, std::uint64_t most);
 /// Writer of numbers as words.
 class WordWriter {
  public:
-  /// Zigzag encoding, which maps 0, −1, 1, −2, … to small unsigned numbers.
+  /// Writes a number in zigzag encoding, which maps 0, −1, 1, −2, … to small unsigned numbers.
   void whole(std::int64_t n) { bits((static_cast<std::uint64_t>(n) << 1) ^ static_cast<std::uint64_t>(n >> 63)); }
   void bits(std::uint64_t n) { words_.push_back(n); }
   void number(double value) { bits(std::bit_cast<std::uint64_t>(value)); }

@@ -9,7 +9,7 @@
 
 namespace drape {
 
-/// Renders a film's pictures, with the scene's annotations. Lives on the thread that owns the OpenGL context.
+/// Painter of a film's pictures, with the scene's annotations. Lives on the thread that owns the OpenGL context.
 class FilmPainter {
  public:
   /// @param annotations absent if the scene asks for none

@@ -49,8 +49,8 @@ struct Moment {
   std::function<std::vector<Collider>(double time)> colliders;  ///< colliders at a given time [s]
 };
 
-/// Hands out each frame of a range as soon as the motion has reached it. Interpolates linearly between two moments:
-/// positions, velocities and energies.
+/// Interpolator of a film's frames, which hands out each frame of a range as soon as the motion has reached it.
+/// Positions, velocities and energies are interpolated linearly between two moments.
 class FrameTaker {
  public:
   using Receiver = std::function<void(Frame)>;

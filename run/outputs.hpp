@@ -16,7 +16,7 @@ namespace drape {
 /// @throws UsageError if the motion has no such frames
 FilmExtent film_extent(const Scene& scene, const RunOptions& options);
 
-/// The same for the whole motion, ignoring a range of frames.
+/// Returns the same for the whole motion, ignoring a range of frames.
 FilmExtent whole_extent(const Scene& scene, RunOptions options);
 
 /// Returns the properties of a run's film known before its first frame. Refers to the scene's cloth and look.
@@ -58,8 +58,8 @@ class Outputs {
   /// Returns true if any output (still) takes images.
   [[nodiscard]] bool drawn() const;
 
-  /// Returns true if any output needs the image of this frame (counted from 0 in the film). Constant: any thread may
-  /// call.
+  /// Returns true if any output needs the image of this frame (counted from 0 in the film). The
+  /// answer never changes; any thread may ask.
   [[nodiscard]] bool needs_picture(int index) const;
 
   /// Returns the frame data that the outputs need.

@@ -18,7 +18,7 @@ class Poster {
 
   void see(const Frame& frame, const Image& image);
 
-  /// Absent until the first frame was seen.
+  /// Returns the poster; absent until the first frame was seen.
   [[nodiscard]] const std::optional<Image>& image() const { return image_; }
   [[nodiscard]] int frame() const { return frame_; }
 

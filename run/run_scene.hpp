@@ -42,7 +42,7 @@ struct RunOptions {
 
 enum class Outcome { completed, interrupted, diverged };
 
-/// "completed", "interrupted" or "diverged".
+/// Returns "completed", "interrupted" or "diverged".
 inline const char* outcome_name(Outcome outcome) {
   return std::array{"completed", "interrupted", "diverged"}[static_cast<std::size_t>(outcome)];
 }

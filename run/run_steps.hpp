@@ -22,7 +22,7 @@ Stop heeding(const std::stop_token& stop);
 void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserver* const> observers,
                const std::stop_token& stop, const Resumption* from = nullptr);
 
-/// The same, with one function as the observer.
+/// Advances likewise, with one function as the observer.
 void run_steps(Simulation& simulation, std::int64_t steps, const std::stop_token& stop,
                const std::function<void(const StepReport&)>& after_step = {});
 

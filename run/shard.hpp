@@ -11,7 +11,7 @@ struct Shard {
   std::size_t number = 1, count = 1;
 
   [[nodiscard]] bool whole() const { return count == 1; }
-  /// "2/5"
+  /// Returns "2/5".
   [[nodiscard]] std::string text() const;
 };
 

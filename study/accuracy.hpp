@@ -53,7 +53,7 @@ struct AccuracyOptions {
   double patience = 20;  ///< computing time limit of a motion of `asked` [s]
   AccuracyParts parts = {};
   GlBackend backend = GlBackend::automatic;  ///< backend for the films
-  bool of_several_scenes = false;            ///< skip a method in each scene that it cannot compute
+  bool of_several_scenes = false;            ///< in each scene, skip the methods that cannot compute it
 };
 
 /// The measurements of one case.
@@ -63,7 +63,7 @@ struct CaseRuns {
   double iterations = 0;             ///< mean per step
   std::int64_t capped = 0;           ///< number of steps that reached the iteration limit
   double flipped_pairs = 0;          ///< mean over the watched steps, see FlippedPairs
-  std::vector<double> microseconds;  ///< CPU time per step, for every timed run
+  std::vector<double> microseconds;  ///< mean CPU time per step, for every timed run
   std::vector<double> setup;         ///< CPU time before the first step, for every timed run [µs]
   std::string failure;               ///< reason why the run ended early; empty: complete
 
@@ -113,7 +113,7 @@ struct MotionPoint {
 struct SceneAccuracy {
   std::string name;                  ///< base name of its files
   std::string scene;                 ///< scene file, as given
-  AccuracyOptions options;           ///< complete
+  AccuracyOptions options;           ///< options completed by complete()
   double step = 0;                   ///< the scene's step length [s]
   std::string tolerance_unit = "m";  ///< or "N"
 
@@ -148,7 +148,7 @@ inline constexpr double largest_rounding = 1e-8;
 /// Iteration limit of a step, high enough that the tolerance decides.
 inline constexpr int most_study_iterations = 5000;
 
-/// Returns the number of steps of length h that end by a time.
+/// Returns the number of steps of length h up to a time.
 inline std::int64_t steps_until(double time, double h) { return std::llround(time / h); }
 
 /// Fills empty options with the scene's defaults, and rounds times to whole steps.

@@ -26,7 +26,7 @@ double smooth_until(const SceneAccuracy& scene);
 /// below a tenth of the accuracy: far better than required need not be estimated well.
 EstimateCheck check_estimates(const SceneAccuracy& scene, const MotionPoint& asked);
 
-/// Make the diagrams and tables that compare requested and achieved accuracy.
+/// Returns the diagrams that compare requested and achieved accuracy; the tables and findings follow.
 std::vector<NamedChart> asked_charts(const SceneAccuracy& scene);
 std::vector<ResultTable> asked_tables(const SceneAccuracy& scene);
 void add_asked_findings(StudyReport& report, const SceneAccuracy& scene);

@@ -28,7 +28,7 @@ std::vector<Offer> solve_offers(const SceneAccuracy& scene);
 /// Returns the study's answer: the cheapest method, its setting and cost, by kind and size of error.
 ResultTable answer_table(const SceneAccuracy& scene);
 
-/// The same with the second cheapest method, one row each.
+/// Returns the same with the second cheapest method, one row each.
 ResultTable cheapest_table(const SceneAccuracy& scene);
 
 /// Returns "The cheapest below 1 mm is liu13 at ε = 0.001 m with 88.1 µs per step; below 0.1 mm it is …"

@@ -165,7 +165,7 @@ void read_point(RunsRecord& record, std::vector<Point>& points) {
   describe(record, p);
 }
 
-/// Reads the records of a file in order.
+/// Reader of the records of a file, in order.
 class StudyReader {
  public:
   explicit StudyReader(const std::filesystem::path& folder) : folder_(folder), file_((folder / runs_name).string()) {}

@@ -11,7 +11,7 @@ using Clock = std::chrono::steady_clock;
 std::array<double, kernel_part_count> part_seconds;
 const Kernels* original = nullptr;
 
-/// Adds its own lifetime to the time of a part.
+/// A stopwatch that adds its lifetime to the time of a part.
 struct Stopwatch {
   std::size_t part;
   Clock::time_point begin = Clock::now();

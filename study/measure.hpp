@@ -22,8 +22,8 @@ struct Measured {
   std::int64_t capped = 0;           ///< number of steps within what.steps that reached the iteration limit
   std::vector<double> height;        ///< height of the centre of mass after every watched step [m]
   double flipped_pairs = 0;          ///< mean over the watched steps, see FlippedPairs
-  std::vector<double> microseconds;  ///< CPU time per step, for every timed run
-  std::vector<double> setup;         ///< the same before the first step: setup and factorisation included [µs]
+  std::vector<double> microseconds;  ///< mean CPU time per step, for every timed run
+  std::vector<double> setup;         ///< CPU time before the first step, with factorisation, for every timed run [µs]
   /// Reason why the run ended before what.steps; empty: complete. Only for cases with `patience`.
   std::string failure;
 
@@ -37,7 +37,7 @@ struct Measured {
 /// Callback after every step of the untimed run of case `number`.
 using CaseWatch = std::function<void(std::size_t number, const Simulation&, const StepReport&)>;
 
-/// Pins the calling thread to its current processor during the object's lifetime.
+/// A guard that pins the calling thread to its current processor.
 class PinnedThread {
  public:
   PinnedThread();
@@ -61,7 +61,7 @@ double thread_seconds();
 std::vector<Measured> measure(const std::vector<StudyCase>& cases, RunCount runs, const std::stop_token& stop,
                               Progress& progress, const CaseWatch& watch = {});
 
-/// Describes in a sentence or two how measure() measures.
+/// Describes the method of measure() in a sentence or two.
 std::string describe_measuring(RunCount runs);
 
 }  // namespace drape

@@ -23,7 +23,7 @@ class ExactSteps {
   /// @throws DivergedError
   ExactSteps(const SimulationSettings& settings, const std::vector<State>& states, double limit);
 
-  /// Return the number of remaining and of dropped states.
+  /// Returns the number of remaining states; left_out() returns that of dropped ones.
   [[nodiscard]] std::size_t count() const { return states_.size(); }
   [[nodiscard]] std::size_t left_out() const { return left_out_; }
   /// Returns the largest distance of the two results, over the remaining states [m].

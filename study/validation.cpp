@@ -58,7 +58,7 @@ void plan_case(const ValidationCase& of, const ValidationOptions& options, std::
   }
 }
 
-/// Runs a simulation and stores the states that the measure needs.
+/// A simulation of a case that stores the states for its measure.
 class ValidationMotion {
  public:
   ValidationMotion(const ValidationCase& of, const Scene& scene) : of_(of), simulation_(scene.simulation) {

@@ -26,10 +26,10 @@ struct WatchedFilm {
   double load = 0, simulate = 0, draw = 0, encode = 0, total = 0;  ///< time of each stage [s]
 };
 
-/// Redraws a scene's film whenever one of its files is saved, and stops the drawing in progress.
+/// A session that redraws a scene's film whenever one of its files is saved, and stops the drawing in progress.
 class WatchSession {
  public:
-  /// Describes a scene in one line.
+  /// A function that describes a scene in one line.
   using Describe = std::function<std::string(const Scene&, const RunOptions&)>;
 
   /// @param overrides as for load_scene()
