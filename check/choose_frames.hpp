@@ -27,9 +27,9 @@ struct ChosenFrame {
   std::string why;  ///< "first contact with the sphere"
 };
 
-/// Chooses the significant frames of a film: the start, the first contact with each body, releases of pins, the largest
-/// change of the picture, extremes of energy and of area on screen. An event close to a chosen frame is added to its
-/// reason. At most twelve, ascending.
+/// Chooses the significant frames of a film: start, first contact with each body, releases of pins, largest change of
+/// the picture, extremes of energy and screen area. An event close to a chosen frame is added to its reason. At most
+/// twelve, ascending.
 std::vector<ChosenFrame> choose_frames(const FilmFacts& film);
 
 }  // namespace drape

@@ -13,7 +13,7 @@ namespace drape {
 /// Simulates each window of a golden motion from its golden state, on several threads, and compares it. Each step is
 /// compared by its hash and its bodies, the middle and the end of a window by vertex positions. A velocity difference
 /// at the end counts as the distance that it causes within a step. The first window begins with the simulation's own
-/// initial state, to detect a change of it; there a velocity difference counts as the distance within the window.
+/// initial state, to detect a change of it. There a velocity difference counts as the distance within the window.
 /// @param tolerance largest distance of a vertex or body from its golden position [m]; 0: all bits must be equal
 /// @param done      called after every window, on the thread that simulated it
 /// @returns a result for each window; empty for windows skipped after a stop

@@ -116,8 +116,8 @@ Kernel bell(int radius, double scale, double unit) {
   return (-x.square() / scale).exp();
 }
 
-/// Contrast sensitivity of the eye in one channel: the sum of two Gaussians a·√(π/b)·exp(−π²x²/b), with a common radius
-/// for all channels, normalised to a sum of 1 (section 4.1).
+/// Contrast sensitivity of the eye in one channel: the sum of two Gaussians a·√(π/b)·exp(−π²x²/b). All channels have a
+/// common radius and are normalised to a sum of 1 (section 4.1).
 struct Sensitivity {
   double a1, b1, a2, b2;
 

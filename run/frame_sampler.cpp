@@ -16,7 +16,7 @@ namespace {
 // A frame that falls on a step must be found despite the rounding of its decimal time [steps].
 constexpr double rounding = 1e-9;
 
-/// Returns how far a time lies before the end of a step, as a share of the interval: exactly 0 at the end, 1 at the
+/// Returns the share of the interval between a time and the end of a step. It is exactly 0 at the end and 1 at the
 /// previous moment, `duration` seconds earlier.
 double part_back(double time, double end, double duration) {
   const double back = std::clamp((end - time) / duration, 0.0, 1.0);

@@ -74,7 +74,7 @@ inline RunResult interrupted_at_once(std::int64_t steps_wanted) {
 
 /// Runs a scene. One thread simulates, one owns the OpenGL context and draws, if there is anything to draw, and one
 /// writes. Bounded queues connect them; the calling thread only waits. After a divergence or a stop the outputs are
-/// completed with the steps done so far, under names for incomplete results (see Ending); without any step nothing is
+/// completed with the steps done so far, under names for incomplete results (see Ending). Without any step nothing is
 /// written. A stop takes effect within steps and during setup, see Stop. A failed output or record does not stop the
 /// others.
 /// @throws Error from any of the threads, or if every output failed; no file is left then

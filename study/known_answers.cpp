@@ -28,7 +28,7 @@ double modulus_at(double angle, double sides, double rising, double falling) {
   return sides * (share(0) + share(90)) + rising * share(45) + falling * share(135);
 }
 
-/// Returns the modulus relative to E of an isotropic sheet with Poisson's ratio 1/3, for four loads: strain in one
+/// Returns the modulus relative to E of an isotropic sheet with Poisson's ratio 1/3. The four loads are strain in one
 /// direction, in the other, equal strains in both, and opposite strains.
 double isotropic_modulus(double load) {
   constexpr std::array values{9.0 / 8, 9.0 / 8, 3.0, 1.5};

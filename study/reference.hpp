@@ -40,7 +40,7 @@ std::optional<ReferenceMotion> run_reference(const SimulationSettings& settings,
                                              const std::vector<std::int64_t>& keep, const std::stop_token& stop,
                                              Progress& progress);
 
-/// Returns the first step at which the motion feels contact: it differs by more than a limit [m] from the motion
+/// Returns the first step at which contact changes the motion by more than a limit [m]. It compares with the motion
 /// without spheres, grounds, self-collision and strain limit. Nothing if there is no contact within `steps`.
 /// @throws DivergedError
 std::optional<std::int64_t> first_contact(const SimulationSettings& settings, std::int64_t steps, double limit,

@@ -74,7 +74,7 @@ std::string to_page(const StudyReport& report);
 inline constexpr const char* report_page = "report.html";
 
 /// Writes a report into a folder: the page, report.md, every table as CSV, Markdown and LaTeX, every diagram as SVG,
-/// PDF and PNG, and its points like a table. Animations are already there.
+/// PDF and PNG. The points of a diagram are written like a table. Animations are already there.
 /// @returns the first problem as a sentence; empty if everything was written
 /// @throws OutputError
 std::string write_report(const StudyReport& report, const std::filesystem::path& folder);

@@ -25,8 +25,8 @@ struct StabilityCell {
   double step = 0;       ///< step length h [s]
   double stiffness = 0;  ///< spring stiffness [N/m], or push stiffness [1/s²]
   StabilityOutcome outcome = StabilityOutcome::stable;
-  /// Largest change of kinetic, gravity, elastic and push energy together, relative to the largest exchanged energy: 0
-  /// for an exact motion, 1 if all of it was lost.
+  /// Largest change of kinetic, gravity, elastic and push energy together, relative to the largest exchanged energy. It
+  /// is 0 for an exact motion, and 1 if all energy was lost.
   double energy_error = 0;
   int not_converged = 0;  ///< number of steps
 };

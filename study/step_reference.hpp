@@ -25,9 +25,9 @@ struct StepReference {
   [[nodiscard]] double gained(std::size_t place) const;
 };
 
-/// Computes the reference by Verlet, the cheapest method, if it can compute all effects and is stable with four times
-/// the step; its steps may be shorter than requested for that. Otherwise by SDIRK2, solved to rounding by quasi-Newton.
-/// Verlet's steps are halved while the extrapolation gains more than `wanted`, and each halving reduces the gain.
+/// Computes the reference with Verlet, the cheapest method, if it computes all effects and is stable with four times
+/// the step. Its steps may be shorter than requested for that. Otherwise uses SDIRK2, solved to rounding by
+/// quasi-Newton. Halves Verlet's steps while the extrapolation gains more than `wanted` and each halving helps.
 /// @param moments in the scene's steps, ascending, unique
 /// @param parts   fewest reference steps per step of the scene, a multiple of four
 /// @param wanted  largest gain of the extrapolation at the first moment [m]

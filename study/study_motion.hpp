@@ -21,7 +21,7 @@ struct StudyMotion {
 };
 
 /// Packs evenly spaced frames. Keeps every 2nd, 4th … frame so that at most 100 frames and 50 000 vertex positions
-/// remain; each motion adds some hundred kB to a page.
+/// remain. Each motion adds some hundred kB to a page.
 /// @param frames at least one
 html::PlayedMotion pack_for_page(const Scene& scene, const std::vector<Frame>& frames);
 

@@ -232,8 +232,8 @@ double energy_of(const Cloth& cloth, const Vertices& x, const Vertices& v) {
   return energy;
 }
 
-/// Measures a flight without forces: distance over velocity times duration; final over initial energy; 1 plus the
-/// change of angular momentum, relative to that of the whole mass at the given speed.
+/// Measures a flight without forces, by three ratios: distance over velocity times duration; final over initial energy.
+/// The third is 1 plus the change of angular momentum over that of the whole mass at the given speed.
 Quantities measure_free_flight(const MotionOfCase& m) {
   if (m.motion.velocities.empty()) throw UsageError("expected velocities beside the positions");
   const Cloth& cloth = m.motion.cloth;

@@ -17,7 +17,7 @@ struct PlannedRun {
   std::size_t scene = 0;            ///< index in the request
   std::vector<std::string> values;  ///< values of the varied keys, in their order
   /// Hash of the resolved scene with its files, the program, the request, and the run that decides the viewing
-  /// direction: 16 hexadecimal digits. Also the name of the run's folder.
+  /// direction. Written as 16 hexadecimal digits; also the name of the run's folder.
   std::string key;
   std::string refusal;  ///< reason why it cannot run, see SceneConflict; empty: none
   double cost = 0;      ///< expected time, see estimated_cost() [s]
