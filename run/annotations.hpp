@@ -12,7 +12,7 @@
 
 namespace drape {
 
-/// A film's additions to the rendered image: the caption, the key of the vertex colours, and the energy curves. Lives
+/// A film's additions to the rendered image: the caption, the colour bar, and the energy curves. Lives
 /// on the drawing thread; survey() is called earlier, by the thread that simulates.
 class Annotations {
  public:

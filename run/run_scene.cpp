@@ -177,7 +177,7 @@ class Pipeline {
       if (simulation_->state().step < extent_.steps) return;
       result_.statistics.finish(*simulation_);
       whole_ = true;
-    } catch (const Interrupted&) {  // the state is that of the last complete step
+    } catch (const Interrupted&) {  // during the error estimate of the last step
     } catch (const DivergedError& diverged) {
       result_.outcome = Outcome::diverged;
       result_.divergence = diverged.what();

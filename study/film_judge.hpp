@@ -19,7 +19,7 @@ std::vector<std::int64_t> film_steps(const Scene& scene, std::int64_t last);
 class FilmJudge {
  public:
   /// @param steps     of the frames; moments of the reference
-  /// @param reference outlives the constructor
+  /// @param reference the motion to compare with
   /// @throws UsageError, OutputError as Renderer
   FilmJudge(const Scene& scene, const std::vector<std::int64_t>& steps, const StepReference& reference,
             GlBackend backend);

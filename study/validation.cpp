@@ -95,7 +95,7 @@ class ValidationMotion {
   const ValidationCase& of_;
   Simulation simulation_;
   ObservedMotion motion_;
-  int slow_ = 0;  // consecutive steps
+  int slow_ = 0;  // consecutive steps below the speed limit
 };
 
 double mean_spring_length(const Cloth& cloth) {

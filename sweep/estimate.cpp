@@ -6,11 +6,11 @@
 namespace drape {
 namespace {
 
-// Coefficients fitted to the scenes in scenes/.
-constexpr double newton_per_iterated = 6;     // factor per spring and step
+// Rough coefficients, measured with the scenes in scenes/.
+constexpr double newton_per_iterated = 6;     // cost of a step relative to iterative methods
 constexpr double run = 3e-3;                  // fixed cost of a run [s]
 constexpr double usual_stiffness = 10;        // assumed substeps of an explicit step; only a run knows the number
-constexpr double pixel = 60e-9, film = 0.15;  // drawing and encoding per pixel, and per film [s]
+constexpr double pixel = 60e-9, film = 0.15;  // drawing and encoding of a pixel, and start of a film [s]
 
 }  // namespace
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* host = "127.0.0.1";
 constexpr int workers = 32;  // more than a few browsers' idle connections
-constexpr int patience = 1;  // time limit for a request [s]
+constexpr int patience = 1;  // time limit for receiving a request [s]
 
 /// Lets a port be reused at once after its server has ended, but by one server at a time. The library's own options let
 /// several servers share it.
