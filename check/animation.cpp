@@ -29,9 +29,9 @@
 namespace drape {
 namespace {
 
-constexpr int gap = 4;                               // between two pictures [pixels]
-constexpr int neighbours = 2;                        // compared frames on both sides of the first bad one
-constexpr std::size_t most_windows = 6;              // of a changed motion
+constexpr int gap = 4;                               // gap between two pictures [pixels]
+constexpr int neighbours = 2;                        // compared frames on each side of the first bad one
+constexpr std::size_t most_windows = 6;              // windows of a changed motion
 constexpr double picture_rate = 2, motion_rate = 3;  // [1/s]
 constexpr std::uint8_t gap_gray = 128;
 
@@ -59,7 +59,7 @@ std::vector<Pair> picture_pairs(const std::vector<FrameResult>& frames, int firs
   return pairs;
 }
 
-/// Where the camera stood in the compared frame that is nearest in time.
+/// Returns the camera view of the compared frame nearest in time.
 const View& view_near(const Golden& golden, double time) {
   const auto nearer = [time](const GoldenFrame& a, const GoldenFrame& b) {
     return std::abs(a.time - time) < std::abs(b.time - time);
@@ -67,7 +67,7 @@ const View& view_near(const Golden& golden, double time) {
   return std::min_element(golden.frames.begin(), golden.frames.end(), nearer)->view;
 }
 
-/// Two motions to turn, as far as a browser can hold them.
+/// Two motions for interactive viewing, dropped if too large for a browser.
 class Players {
  public:
   explicit Players(const Scene& scene, const Golden& golden) : film_(film(scene, golden)) {}
@@ -91,7 +91,7 @@ class Players {
     FilmInfo film;
     film.scene = scene.name;
     film.fps = motion_rate;
-    film.seconds_per_frame = golden.step * static_cast<double>(golden.window_steps) / 2;  // middles and ends
+    film.seconds_per_frame = golden.step * static_cast<double>(golden.window_steps) / 2;  // middles and ends of windows
     film.cloth = &scene.simulation.cloth;
     film.look = &scene.look;
     film.camera = &scene.camera;
@@ -103,8 +103,8 @@ class Players {
   bool whole_ = true;
 };
 
-/// @param first the first window that is shown
-/// @param made  gets the motions to turn
+/// @param first the first window to show
+/// @param made  gets the motions for interactive viewing
 std::vector<Pair> motion_pairs(const Scene& scene, const Golden& golden, std::size_t first, const Eigen::Vector2i& size,
                                PlayedMotion* recorded, GlBackend backend, DifferenceAnimation& made) {
   DrawFrames drawing(scene, size, backend);
@@ -115,7 +115,7 @@ std::vector<Pair> motion_pairs(const Scene& scene, const Golden& golden, std::si
     const auto window =
         recorded != nullptr ? played_window(*recorded, golden, i) : rerun_window(scene.simulation, golden, i);
     for (const WindowPositions& at : window) {
-      if (i > 0 && at.step == golden.windows[i].start.step) continue;  // where nothing differs
+      if (i > 0 && at.step == golden.windows[i].start.step) continue;  // same state in both motions
       const double time = static_cast<double>(at.step) * golden.step;
       const View& view = view_near(golden, time);
       pairs.push_back({drawing.draw(view, 0, time, at.golden), drawing.draw(view, 0, time, at.actual)});
@@ -126,7 +126,7 @@ std::vector<Pair> motion_pairs(const Scene& scene, const Golden& golden, std::si
   return pairs;
 }
 
-/// The same factor in all frames, so that one sees the difference grow.
+/// Returns one amplification factor for all frames, so that the growth of the difference is visible.
 double common_amplification(const std::vector<Pair>& pairs) {
   PictureDifference largest;
   for (const Pair& pair : pairs) {

@@ -12,16 +12,15 @@
 
 namespace drape {
 
-/// The bytes of a GIF, and of a PNG that shows some of its moments below one another; both empty: there is nothing.
+/// An animation as GIF bytes, and some of its frames below one another as PNG bytes; both empty: there is none.
 struct DifferenceAnimation {
   std::string gif, stills;
-  html::PlayedMotion expected, actual;  ///< of a changed motion, to turn
+  html::PlayedMotion expected, actual;  ///< states of a changed motion, for interactive viewing
 };
 
-/// A GIF that shows expected, actual and difference side by side and repeats: of a changed motion the steps of the
-/// first windows that changed whose positions are compared, drawn alike, else the compared frames around the first
-/// picture that changed.
-/// @param folder  where it is written, as NAME/difference.gif
+/// Makes a looping GIF with expected picture, actual picture and difference side by side. For a changed motion it shows
+/// the compared steps of the first changed windows, otherwise the compared frames around the first changed picture.
+/// @param folder  of the report; the file is NAME/difference.gif
 /// @throws OutputError
 DifferenceAnimation difference_animation(const Scene& scene, const Golden& golden, const SceneResult& result,
                                          PlayedMotion* recorded, GlBackend backend,

@@ -15,7 +15,7 @@
 
 namespace nlohmann {
 
-/// null where there is nothing.
+/// JSON conversion of optional values; an absent value is null.
 template <class T>
 struct adl_serializer<std::optional<T>> {
   template <class Json>
@@ -49,7 +49,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlayedMotion, description, data, texture, fra
                                    triangles)
 }  // namespace html
 
-// Every member, in both directions: one that is left out here is lost when shards are merged.
+// Every member, for both directions: a member missing here is lost when shards are merged.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PictureLimits, channel, pixels, flip)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckSettings, frames, size, window_time, motion_tolerance, limits, time, ignore,
                                    ignore_frames)
@@ -76,7 +76,7 @@ std::string pack_shard(const CheckShard& shard) {
 
 namespace {
 
-/// Returns the bytes before their checksum; nothing if it is not theirs.
+/// Returns the bytes before their checksum; nothing if it does not match.
 std::optional<std::string_view> opened(std::string_view sealed) {
   constexpr std::size_t checksum_size = 16;
   if (sealed.size() < checksum_size) return std::nullopt;
@@ -84,7 +84,7 @@ std::optional<std::string_view> opened(std::string_view sealed) {
   return sealed.ends_with(checksum_of(bytes)) ? std::optional(bytes) : std::nullopt;
 }
 
-/// Reads CBOR without keeping anything, down to some depth: the library takes a stack frame for each level.
+/// Parser that only checks the nesting depth of CBOR, since the library takes a stack frame per level.
 class DepthLimit final : public nlohmann::json_sax<nlohmann::json> {
  public:
   bool null() override { return true; }
@@ -131,7 +131,7 @@ bool is_sound(const SceneResult& scene) {
          (!scene.end_to_end || is_sound(*scene.end_to_end));
 }
 
-/// Whether a shard's places are those of as many scenes among all.
+/// Returns true if the positions of a shard's scenes are ascending, valid and complete.
 bool has_places(const CheckShard& shard) {
   const std::vector<std::size_t>& places = shard.places;
   const bool ascending = std::ranges::adjacent_find(places, std::greater_equal()) == places.end();
@@ -155,7 +155,7 @@ CheckShard unpack_shard(std::string_view bytes, const std::filesystem::path& fil
     const std::optional<std::string_view> cbor = opened(bytes);
     if (!cbor || !nlohmann::json::sax_parse(*cbor, &limit, nlohmann::json::input_format_t::cbor)) throw damaged();
     nlohmann::json::from_cbor(*cbor).get_to(shard);
-  } catch (const nlohmann::json::exception&) {  // says no more than this
+  } catch (const nlohmann::json::exception&) {  // its message adds nothing
     throw damaged();
   }
   const std::vector<SceneResult>& scenes = shard.report.scenes;

@@ -8,30 +8,30 @@
 
 namespace drape {
 
-/// A part of a check: the report of some of its scenes, and which those are.
+/// A part of a check: the report of some of its scenes, and their positions among all.
 struct CheckShard {
   CheckReport report;
-  std::vector<std::size_t> places;  ///< of the report's scenes among all, ascending
-  std::size_t scenes = 0;           ///< how many there are in all
-  bool whole = true;                ///< or one of several shards, which has only its own
+  std::vector<std::size_t> places;  ///< positions of the report's scenes among all, ascending
+  std::size_t scenes = 0;           ///< total number of scenes
+  bool whole = true;                ///< false: one of several shards, with its own scenes only
 
-  /// How many of the scenes should be there and are not.
+  /// Returns the number of scenes that are missing from the report.
   [[nodiscard]] std::size_t missing() const { return whole ? scenes - places.size() : 0; }
 };
 
-/// All of it, with the pictures, as bytes (CBOR, RFC 8949) with their checksum.
+/// Serialises a shard with its pictures and a checksum (CBOR, RFC 8949).
 std::string pack_shard(const CheckShard& shard);
 
-/// Bytes of CBOR with their checksum after them (16 hexadecimal digits of Hash), as unpack_shard() expects them.
+/// Appends the checksum that unpack_shard() expects to CBOR bytes (16 hexadecimal digits of Hash).
 std::string seal_shard(std::string cbor);
 
-/// @param file that they are from
-/// @throws UsageError if they are damaged, or name something that is not in a folder
+/// Reads a shard from the bytes of `file`.
+/// @throws UsageError if the bytes are damaged, or name anything outside the report's folder
 CheckShard unpack_shard(std::string_view bytes, const std::filesystem::path& file);
 
-/// The check that shards are of, with the scenes in their order; of one that several have, the first.
-/// @param files that they are from
-/// @throws UsageError if they are not of one check
+/// Merges shards of one check, with the scenes in order; duplicate scenes come from the first shard.
+/// @param files of the shards, for messages
+/// @throws UsageError if they belong to different checks
 CheckShard merge_shards(std::vector<CheckShard> shards, const std::vector<std::filesystem::path>& files);
 
 }  // namespace drape

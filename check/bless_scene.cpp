@@ -27,7 +27,7 @@ std::optional<Recording> record_scene(const Scene& scene, const CheckSettings& s
 
 std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
                                     const std::stop_token& stop, Progress& progress, PlayedMotion* recorded) {
-  has_golden(golden_folder(scene.file));  // or it throws
+  has_golden(golden_folder(scene.file));  // throws if another file is in its place
   require_texture(scene);
   const std::optional<Recording> recording = record_scene(scene, settings, backend, stop, progress, recorded);
   if (!recording) return std::nullopt;

@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t most_description = 1 << 20;  // bytes
-constexpr std::uintmax_t most_report = 1 << 28;       // bytes
+constexpr std::uintmax_t most_description = 1 << 20;  // [bytes]
+constexpr std::uintmax_t most_report = 1 << 28;       // [bytes]
 
 fs::path description_file(const fs::path& report, const std::string& name) { return report / name / "candidate.json"; }
 
@@ -35,7 +35,7 @@ std::string candidate_hash(const fs::path& folder) {
   return checksum_of(read_golden_file(folder / "manifest.json", UINTMAX_MAX));
 }
 
-/// A path to the byte: JSON holds UTF-8 alone, which the names of files need not be.
+/// Stores a path byte by byte if needed: file names may be other than the UTF-8 of JSON.
 void describe_path(const fs::path& path, Json& json) {
   json["scene"] = printable(path.string());
   if (json["scene"] == path.string()) return;
@@ -55,7 +55,7 @@ fs::path described_path(const Json& json) {
   }
 }
 
-/// @param hash that the report lists
+/// @param hash as listed in the report
 Candidate read_candidate(const fs::path& file, std::string hash) {
   try {
     const Json json = parse_json(read_file(file, most_description));
@@ -71,7 +71,7 @@ Candidate read_candidate(const fs::path& file, std::string hash) {
   }
 }
 
-/// The candidates that report.json lists.
+/// Returns the candidates listed in report.json.
 std::vector<Candidate> listed_candidates(const fs::path& report) {
   const fs::path file = report / "report.json";
   std::vector<Candidate> candidates;
@@ -90,7 +90,7 @@ std::vector<Candidate> listed_candidates(const fs::path& report) {
   return candidates;
 }
 
-/// A golden with its pictures, all of it as it was recorded.
+/// A golden with its unmodified pictures.
 struct Whole {
   Golden golden;
   std::vector<Png> pictures;
@@ -104,7 +104,7 @@ Whole read_whole(const fs::path& folder) {
     try {
       if (pixel_hash(decode_png(whole.pictures.back(), whole.golden.size)) == frame.pixels) continue;
     } catch (const std::invalid_argument&) {
-      // Said below.
+      // reported below
     }
     fail_to_read(file, "has been modified since it was recorded");
   }
@@ -115,7 +115,7 @@ Whole read_whole(const fs::path& folder) {
   throw UsageError(fmt::format("{}: cannot be accepted: {}", shown(candidate.scene_file), why));
 }
 
-/// The golden that a candidate makes of the one there is.
+/// Returns the golden after accepting a candidate, or only some of its pictures.
 Whole accepted(const Candidate& candidate, const std::vector<int>& frames) {
   if (candidate.scene_digest != no_scene_digest && digest_of_file(candidate.scene_file) != candidate.scene_digest) {
     refuse(candidate, "the scene has changed since the check; check it again");
@@ -204,7 +204,7 @@ std::vector<Candidate> find_candidates(const fs::path& report, const std::vector
 }
 
 void require_acceptable(const Candidate& candidate, const std::vector<int>& frames) {
-  has_golden(golden_folder(candidate.scene_file));  // or it throws
+  has_golden(golden_folder(candidate.scene_file));  // throws if another file is in its place
   accepted(candidate, frames);
 }
 

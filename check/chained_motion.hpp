@@ -8,9 +8,8 @@
 
 namespace drape {
 
-/// Runs a motion in windows, of which each begins with the rounded end of the one before: that is the golden motion.
-/// Every observer's begin() is called for each window, and once more for the motion's end. Returns early when a stop is
-/// requested.
+/// Runs the golden motion: in windows, each of which begins with the rounded end state of the previous one. Calls every
+/// observer's begin() for each window, and once more at the end. Returns early when a stop is requested.
 /// @param simulation before its first step
 /// @param starts     first steps of the windows, and the last step, see window_starts()
 /// @throws DivergedError after the observers saw the last finite step

@@ -36,7 +36,7 @@ std::size_t thread_count(const CheckOptions& options) {
   return options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
 }
 
-/// What is known of a scene before its check.
+/// Returns a result with the scene's data before the check.
 SceneResult unchecked(const Scene& scene, const std::string& name, const CheckSettings& settings) {
   SceneResult result;
   result.name = name;
@@ -48,7 +48,7 @@ SceneResult unchecked(const Scene& scene, const std::string& name, const CheckSe
   return result;
 }
 
-/// One check of one scene, from its golden to its verdict.
+/// The check of one scene, from its golden to its verdict.
 class SceneCheck {
  public:
   SceneCheck(const Scene& scene, const std::string& name, const CheckSettings& settings, PlayedMotion* recorded,
@@ -129,7 +129,7 @@ class SceneCheck {
     conclude();
   }
 
-  /// Has the scene, which names no method, that with which its golden was recorded.
+  /// Sets the golden's method for a scene that names none.
   void use_recorded_method() {
     const GoldenMethod recorded = golden_.method.value_or(GoldenMethod{});
     IntegratorSettings& integrator = scene_.simulation.integrator;
@@ -146,7 +146,7 @@ class SceneCheck {
     integrator.scheme = solved ? TimeScheme::sdirk2 : TimeScheme::backward_euler;
   }
 
-  /// Has a motion that begins where the golden one does, but with its vertices in another order, in that order.
+  /// Reorders the vertices of a motion that starts like the golden one, but with its vertices in another order.
   void match_vertices_of_golden() {
     Cloth& cloth = scene_.simulation.cloth;
     const Vertices &golden = golden_.windows.front().start.x, actual = recorded_->state(0).x;
@@ -164,8 +164,8 @@ class SceneCheck {
 
   [[nodiscard]] bool overridden() const { return !options_.overrides.empty(); }
 
-  /// Digest of what the scene file gives without overrides. Where that alone is no scene, the file cannot be told from
-  /// the one that was recorded.
+  /// Returns the digest of the scene file without overrides. If it is no valid scene on its own, returns the golden's
+  /// digest: the file then counts as unchanged.
   [[nodiscard]] std::string digest_without_overrides() const {
     if (!overridden() || scene_.digest == no_scene_digest) return scene_.digest;
     try {
@@ -192,7 +192,7 @@ class SceneCheck {
                     shown(result_.golden)));
   }
 
-  /// Compares times of the same instruction set alone: one that is half as wide may take twice as long.
+  /// Compares times of equal instruction sets only: one with half the vector width may take twice as long.
   void compare_time() {
     if (!settings_.time || !golden_.time || stop_.stop_requested() || recorded_ != nullptr) return;
     if (golden_.machine.kernels != instruction_set()) {
@@ -204,7 +204,7 @@ class SceneCheck {
     try {
       result_.time = time_mismatch(scene_, *golden_.time, *settings_.time, stop_);
     } catch (const DivergedError&) {
-      return;  // said of the motion
+      return;  // reported with the motion
     }
     if (!result_.time.empty()) result_.findings.push_back(result_.time);
   }
@@ -227,7 +227,7 @@ class SceneCheck {
     }
   }
 
-  /// Places the camera anew where what the golden places depend on has changed, for which the motion is run.
+  /// Recomputes the camera views by a run of the motion, if the golden views no longer hold.
   void place_camera() {
     if (same_camera(scene_.camera, golden_.camera) &&
         same_but_for_rounding(views_of_frames(scene_, golden_.size, golden_.frames), golden_.frames_views)) {
@@ -347,7 +347,7 @@ class SceneCheck {
     if (!stop_.stop_requested() && !overridden()) keep_candidate();
   }
 
-  /// What bless would record now. Where it cannot, because the motion diverges, there is nothing to accept.
+  /// Stores the recording that bless would make. If the motion diverges, there is nothing to accept.
   void keep_candidate() {
     std::optional<Recording> recording;
     try {
@@ -367,7 +367,7 @@ class SceneCheck {
   const std::stop_token& stop_;
   Progress& progress_;
   Golden golden_;
-  std::vector<GoldenFrame> frames_;  // those of the golden that are compared
+  std::vector<GoldenFrame> frames_;  // the compared frames of the golden
   SceneResult result_;
 };
 

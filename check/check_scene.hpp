@@ -15,65 +15,65 @@
 
 namespace drape {
 
-/// When a check writes goldens.
+/// Condition for writing goldens during a check.
 enum class UpdateMode {
   all,      ///< always
-  missing,  ///< where there is none; the check fails all the same
+  missing,  ///< if there is none; the check fails nevertheless
   none
 };
 
-/// What a check of a scene should do.
+/// Options of a scene's check.
 struct CheckOptions {
-  std::vector<int> frames = {};  ///< compare only these of the golden frames; empty: all of them
+  std::vector<int> frames = {};  ///< numbers of golden frames to compare; empty: all
   GlBackend backend = GlBackend::automatic;
-  bool end_to_end = false;  ///< run the whole motion and draw it as well
+  bool end_to_end = false;  ///< also run the whole motion and draw it
   UpdateMode update = UpdateMode::missing;
-  std::size_t threads = 0;  ///< that compute windows; 0: as many as the processor has
-  /// The report's folder, for the animation of a failed scene and what it would be accepted as; empty: neither is made.
+  std::size_t threads = 0;  ///< threads for windows; 0: one per processor
+  /// Folder of the report, for animations and candidates of failed scenes; empty: none are made.
   std::filesystem::path artefacts = {};
-  /// The scenes have other values than their files, as "--set cloth.mass=2": what they give cannot become golden.
+  /// Overrides of the scenes' values, as "--set cloth.mass=2"; their results cannot become golden.
   std::string overrides = {};
 };
 
-/// What bless did.
+/// The result of bless_scene().
 struct Blessing {
   std::filesystem::path folder;
   int frames = 0;
   std::uintmax_t size = 0;  ///< [bytes]
 };
 
-/// A golden that is not written yet.
+/// A golden in memory.
 struct Recording {
   Golden golden;
-  std::vector<Png> pictures;  ///< of its frames
+  std::vector<Png> pictures;  ///< pictures of its frames
 };
 
 /// Runs a scene, or reads its motion, and draws the compared frames.
 /// @param recorded the motion; null: the scene is simulated
-/// @returns nothing if it was stopped
+/// @returns nothing if stopped
 /// @throws DivergedError, UsageError, OutputError
 std::optional<Recording> record_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
                                       const std::stop_token& stop, Progress& progress,
                                       PlayedMotion* recorded = nullptr);
 
-/// Records a scene's golden in the place of an older one.
-/// @param settings  Scene::check with what the command line says
-/// @param recorded  as of record_scene()
-/// @returns nothing if it was stopped; then nothing has been written
-/// @throws UsageError before anything is computed if something else stands in that place, see has_golden()
+/// Records a scene's golden and replaces an older one.
+/// @param settings  Scene::check with the command line's changes
+/// @param recorded  as for record_scene()
+/// @returns nothing if stopped; then nothing is written
+/// @throws UsageError early if another file is in the golden's place, see has_golden()
 /// @throws DivergedError, UsageError, OutputError
 std::optional<Blessing> bless_scene(const Scene& scene, const CheckSettings& settings, GlBackend backend,
                                     const std::stop_token& stop, Progress& progress, PlayedMotion* recorded = nullptr);
 
 /// Compares a scene with its golden.
 /// @param name     of the scene in the report
-/// @param recorded as of record_scene(); its motion is compared as a whole, and its time is not
-/// @throws UsageError if the golden is damaged or has no such frames; DivergedError, OutputError
+/// @param recorded as for record_scene(); its motion is compared as a whole, its time is ignored
+/// @throws UsageError if the golden is damaged or lacks a frame; DivergedError, OutputError
 SceneResult check_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
                         const CheckOptions& options, const std::stop_token& stop, Progress& progress,
                         PlayedMotion* recorded = nullptr);
 
-/// The result of a scene that check_scene() throws for.
+/// Returns the result of a scene for which check_scene() threw this error.
 SceneResult unjudged_scene(const Scene& scene, const std::string& name, const CheckSettings& settings,
                            const Error& error);
 

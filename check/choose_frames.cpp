@@ -9,7 +9,7 @@ namespace drape {
 namespace {
 
 constexpr std::size_t most_chosen = 12;
-constexpr std::size_t close_part = 50;  // of the film: what is nearer than this looks much the same
+constexpr std::size_t close_part = 50;  // closer than 1/50 of the film, frames look alike
 
 class FrameChoice {
  public:
@@ -57,7 +57,7 @@ void offer_extremes(const FilmFacts& film, FrameChoice& choice) {
   const auto offer = [&](double FrameFacts::*fact, const char* most, const char* least) {
     const auto [lowest, highest] = std::minmax_element(film.frames.begin(), film.frames.end(),
                                                        [&](const auto& a, const auto& b) { return a.*fact < b.*fact; });
-    if (!((*lowest).*fact < (*highest).*fact)) return;  // nothing happens
+    if (!((*lowest).*fact < (*highest).*fact)) return;  // constant
     choice.offer(static_cast<int>(highest - film.frames.begin()), most);
     if (least != nullptr) choice.offer(static_cast<int>(lowest - film.frames.begin()), least);
   };

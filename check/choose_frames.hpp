@@ -6,30 +6,30 @@
 
 namespace drape {
 
-/// What happens at a frame of a film.
+/// Properties of a film's frame for the choice of compared frames.
 struct FrameFacts {
-  std::uint64_t touched = 0;        ///< bit k: the cloth is where body k pushes
-  std::size_t pins = 0;             ///< vertices that are held
+  std::uint64_t touched = 0;        ///< bit k: the cloth is within the contact range of body k
+  std::size_t pins = 0;             ///< number of pinned vertices
   double kinetic = 0, elastic = 0;  ///< energies [J]
-  double area = 0;                  ///< of the triangles as the camera sees them, near or far, covered or not [m²]
-  double change = 0;  ///< by how much the vertices have moved across the picture since the frame before, in sum [m]
+  double area = 0;    ///< area of the triangles projected towards the camera, without perspective or occlusion [m²]
+  double change = 0;  ///< summed vertex movement across the picture since the previous frame [m]
 };
 
-/// A film, by what happens in it.
+/// Properties of all frames of a film.
 struct FilmFacts {
   std::vector<std::string> bodies;  ///< "the sphere", "ground 2"
-  std::vector<FrameFacts> frames;   ///< of the film, from 0 on
+  std::vector<FrameFacts> frames;   ///< from frame 0
 };
 
-/// A frame that is compared, and why.
+/// A frame to compare, with the reason.
 struct ChosenFrame {
   int frame = 0;
   std::string why;  ///< "first contact with the sphere"
 };
 
-/// The frames in which a film does what it is there for: its start, the first contact with every body, the release of
-/// pins, the largest change of the picture, the extremes of energy and of the area on screen. What happens close to a
-/// frame that is there already is told with that one. At most a dozen, ascending.
+/// Chooses the significant frames of a film: start, first contact with each body, releases of pins, largest change of
+/// the picture, extremes of energy and screen area. An event close to a chosen frame is added to its reason. At most
+/// twelve, ascending.
 std::vector<ChosenFrame> choose_frames(const FilmFacts& film);
 
 }  // namespace drape

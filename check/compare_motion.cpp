@@ -14,7 +14,7 @@
 namespace drape {
 namespace {
 
-// Of energies that belong to the same bits: what is left is the order of a sum, if anybody changes that.
+// Tolerance for energies of bit-equal states, which may differ by the order of summation.
 constexpr double energy_rounding = 1e-12;
 
 double seconds(const GoldenWindow& window, double step) {
@@ -29,7 +29,7 @@ bool same_state(const State& a, const State& b) {
   return same(a.x, b.x) && same(a.v, b.v);
 }
 
-/// Compares a window, step by step.
+/// Comparison of one window with the golden, step by step.
 class Collector {
  public:
   Collector(const Golden& golden, std::size_t window, double tolerance)
@@ -38,7 +38,7 @@ class Collector {
     result.last_step = window_.last_step();
   }
 
-  /// The state that the motion itself begins with.
+  /// Compares the initial state of the motion.
   void begin(const State& initial) {
     if (same_state(initial, window_.start)) return add_same(initial.step);
     note_other_bits(initial.step);
@@ -66,7 +66,7 @@ class Collector {
     if (window_.middle.size() > 0) add_either(window_.middle_step(), x, window_.middle);
   }
 
-  /// @param state where the window ends, before it is rounded
+  /// @param state end of the window, before rounding
   void end(const State& state, const Energies& energies) {
     if (window_.steps.empty()) return;
     add_either(state.step, state.x, next_.start.x);
@@ -74,7 +74,7 @@ class Collector {
     add_energies(energies);
   }
 
-  /// Only the first problem is told.
+  /// Stores the first problem only.
   void fail(std::string problem) {
     if (result.problem.empty()) result.problem = std::move(problem);
     result.verdict = MotionVerdict::changed;
@@ -174,7 +174,7 @@ std::vector<WindowResult> compare_windows(const SimulationSettings& settings, co
 
 std::vector<WindowResult> compare_whole(const SimulationSettings& settings, const Golden& golden, const Golden& actual,
                                         double tolerance) {
-  const Simulation simulation(settings);  // for the names of its bodies
+  const Simulation simulation(settings);  // gives the names of its bodies
   std::vector<WindowResult> results;
   for (std::size_t i = 0; i + 1 < golden.windows.size(); ++i) {
     Collector collector(golden, i, tolerance);
@@ -203,7 +203,7 @@ std::vector<WindowPositions> rerun_window(const SimulationSettings& settings, co
       if (now.step == window.last_step()) positions.push_back({now.step, golden.windows[index + 1].start.x, now.x});
     });
   } catch (const DivergedError&) {
-    // What there is up to here is shown.
+    // Return the steps before the divergence.
   }
   return positions;
 }

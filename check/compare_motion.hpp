@@ -10,19 +10,18 @@
 
 namespace drape {
 
-/// Computes the windows of a golden motion again, each from its golden state, on several threads, and compares every
-/// step: by its hash, where everything is that moves the cloth, and half-way and at the end of each window the
-/// positions. At its end, a velocity counts as the way it leads within a step. The first window begins in the
-/// simulation's own initial state instead, so that a change of that is seen; there a velocity counts as its way within
-/// the window.
-/// @param tolerance how far a vertex or a body may be from its golden place [m]; 0: the bits must be the same
-/// @param done      called after every window, from the thread that computed it
-/// @returns a result for each window; those that a stop prevented are empty
+/// Simulates each window of a golden motion from its golden state, on several threads, and compares it. Each step is
+/// compared by its hash and its bodies, the middle and the end of a window by vertex positions. A velocity difference
+/// at the end counts as the distance that it causes within a step. The first window begins with the simulation's own
+/// initial state, to detect a change of it. There a velocity difference counts as the distance within the window.
+/// @param tolerance largest distance of a vertex or body from its golden position [m]; 0: all bits must be equal
+/// @param done      called after every window, on the thread that simulated it
+/// @returns a result for each window; empty for windows skipped after a stop
 std::vector<WindowResult> compare_windows(const SimulationSettings& settings, const Golden& golden, double tolerance,
                                           std::size_t threads, const std::stop_token& stop,
                                           const std::function<void()>& done);
 
-/// Compares a whole motion, recorded by the plan of the golden one, with that one in the same way.
+/// Compares a whole motion, recorded by the golden's plan, with the golden motion in the same way.
 std::vector<WindowResult> compare_whole(const SimulationSettings& settings, const Golden& golden, const Golden& actual,
                                         double tolerance);
 
@@ -32,10 +31,10 @@ struct WindowPositions {
   Vertices golden, actual;  ///< [m]
 };
 
-/// The steps of a window whose positions are compared, computed again; fewer if it diverges.
+/// Returns the compared steps of a window after a new simulation; fewer if it diverges.
 std::vector<WindowPositions> rerun_window(const SimulationSettings& settings, const Golden& golden, std::size_t window);
 
-/// "the motion changed at step 37 by up to 2.1 mm at vertex 213"; empty if it did not change.
+/// Returns "the motion changed at step 37 by up to 2.1 mm at vertex 213"; empty if it did not change.
 std::string describe_motion(const std::vector<WindowResult>& windows);
 
 }  // namespace drape

@@ -14,31 +14,31 @@
 
 namespace drape {
 
-/// Draws moments of a scene's motion as its film would show them. Make and use it on one thread.
+/// Renderer of moments of a scene's motion, as in its film. Create and use it on one thread.
 class DrawFrames {
  public:
   /// @throws UsageError, OutputError as Renderer
   DrawFrames(const Scene& scene, const Eigen::Vector2i& size, GlBackend backend);
 
-  /// What draws.
+  /// Returns a description of the renderer.
   [[nodiscard]] std::string renderer() const { return renderer_.description(); }
 
-  /// One picture, from where the camera is then.
+  /// Draws one picture.
   Image draw(const View& view, int frame, double time, const Vertices& positions);
 
-  /// A picture of each frame; fewer if it is stopped.
+  /// Draws a picture of each frame; fewer if stopped.
   std::vector<Png> draw(const std::vector<GoldenFrame>& frames, const std::stop_token& stop, Progress& progress);
 
-  /// Draws frames, and compares each with the golden picture of that frame.
-  /// @param frames as the golden has them, or as the motion gives them now, each with the hash of its golden picture
+  /// Draws frames and compares each with its golden picture.
+  /// @param frames of the golden or of a new motion, each with the hash of its golden picture
   /// @param folder of the golden
-  /// @returns a result for each frame; fewer if it is stopped
-  /// @throws UsageError if a golden picture is missing or not as it was recorded
+  /// @returns a result for each frame; fewer if stopped
+  /// @throws UsageError if a golden picture is missing or modified
   std::vector<FrameResult> compare(const std::vector<GoldenFrame>& frames, const std::filesystem::path& folder,
                                    const CheckSettings& settings, const std::stop_token& stop, Progress& progress);
 
  private:
-  Simulation simulation_;  // for the places of what the cloth can touch
+  Simulation simulation_;  // gives the positions of colliders
   Renderer renderer_;
 };
 

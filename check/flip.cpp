@@ -27,7 +27,7 @@ constexpr double feature_exponent = 0.5;                                   // q_
 constexpr double redistribution_color = 0.4, redistribution_error = 0.95;  // p_c, p_t
 constexpr double feature_width = 0.082;                                    // w [degrees]
 
-/// Linear RGB to XYZ with the primaries and the white point of sRGB, in the fractions of the authors.
+/// Returns the matrix from linear RGB to XYZ, for the primaries and white point of sRGB, in the authors' fractions.
 const Eigen::Matrix3d& xyz_from_rgb() {
   static const Eigen::Matrix3d matrix = [] {
     Eigen::Matrix3d m;
@@ -39,13 +39,13 @@ const Eigen::Matrix3d& xyz_from_rgb() {
   return matrix;
 }
 
-/// The XYZ of white, linear RGB (1, 1, 1).
+/// Returns the XYZ of white, linear RGB (1, 1, 1).
 const Color& white() {
   static const Color xyz = xyz_from_rgb() * Color::Ones();
   return xyz;
 }
 
-/// To the opponent space YCxCz, which is like L*a*b* but linear, so that filters may work in it.
+/// Converts to the opponent space YCxCz, which resembles L*a*b* but is linear, as filters require.
 Color opponent_from_rgb(const Color& rgb) {
   const Color t = (xyz_from_rgb() * rgb).cwiseQuotient(white());
   return {116 * t.y() - 16, 500 * (t.x() - t.y()), 200 * (t.y() - t.z())};
@@ -58,7 +58,7 @@ Color rgb_from_opponent(const Color& opponent) {
   return rgb_from_xyz * t.cwiseProduct(white());
 }
 
-/// To L*a*b* whose colours fade in the dark (Hunt's effect): a and b are multiplied by L/100.
+/// Converts to L*a*b* with colours that fade in the dark (Hunt's effect): a and b are multiplied by L/100.
 Color hunt_lab_from_rgb(const Color& rgb) {
   constexpr double delta = 6. / 29;
   const Color t = (xyz_from_rgb() * rgb).cwiseQuotient(white()).unaryExpr([](double value) {
@@ -68,7 +68,7 @@ Color hunt_lab_from_rgb(const Color& rgb) {
   return {lightness, 0.01 * lightness * 500 * (t.x() - t.y()), 0.01 * lightness * 200 * (t.y() - t.z())};
 }
 
-/// The HyAB distance of two colours: city-block in lightness, Euclidean in colour.
+/// Returns the HyAB distance of two colours: city-block in lightness, Euclidean in colour.
 double hyab(const Color& a, const Color& b) {
   const Color difference = a - b;
   return std::abs(difference[0]) + std::hypot(difference[1], difference[2]);
@@ -92,7 +92,7 @@ Planes opponent_planes(const Image& image) {
   return planes;
 }
 
-/// Correlates rows with one kernel and columns with the other; the outermost pixels are repeated beyond the border.
+/// Correlates rows with one kernel and columns with the other; border pixels are repeated outside.
 Plane filtered(const Plane& plane, const Kernel& across, const Kernel& down) {
   const Eigen::Index radius = across.size() / 2, width = plane.rows(), height = plane.cols();
   Plane wide(width + 2 * radius, height), rows = Plane::Zero(width, height), result = Plane::Zero(width, height);
@@ -110,14 +110,14 @@ Plane filtered(const Plane& plane, const Kernel& across, const Kernel& down) {
   return result;
 }
 
-/// exp(−x²/scale) for x = −radius … radius, in units of 1/pixels_per_degree.
+/// Returns exp(−x²/scale) for x = −radius … radius, times `unit`.
 Kernel bell(int radius, double scale, double unit) {
   const Kernel x = Kernel::LinSpaced(2 * radius + 1, -radius, radius) * unit;
   return (-x.square() / scale).exp();
 }
 
-/// One channel seen through the eye's contrast sensitivity: the sum of two Gaussians a·√(π/b)·exp(−π²x²/b), as wide as
-/// the widest of all channels needs, and normalised to a sum of 1 (section 4.1).
+/// Contrast sensitivity of the eye in one channel: the sum of two Gaussians a·√(π/b)·exp(−π²x²/b). All channels have a
+/// common radius and are normalised to a sum of 1 (section 4.1).
 struct Sensitivity {
   double a1, b1, a2, b2;
 
@@ -139,7 +139,7 @@ struct Sensitivity {
 constexpr std::array<Sensitivity, 3> sensitivities{
     {{1, 0.0047, 0, 0}, {1, 0.0053, 0, 0}, {34.1, 0.04, 13.5, 0.025}}};  // achromatic, red-green, blue-yellow
 
-/// What the eye makes of a picture: filtered, within what a display can show, in a perceptually uniform space.
+/// Returns a picture as perceived: filtered, clamped to the display's range, in a perceptually uniform space.
 Planes perceived(const Planes& opponent, double pixels_per_degree) {
   Planes planes;
   for (std::size_t c = 0; c < 3; ++c) planes[c] = sensitivities[c].apply(opponent[c], pixels_per_degree);
@@ -151,8 +151,8 @@ Planes perceived(const Planes& opponent, double pixels_per_degree) {
   return planes;
 }
 
-/// The magnitudes of the edges and of the points in a picture's lightness (section 4.3): the first and the second
-/// derivative of a Gaussian, whose positive weights are normalised to a sum of 1 and whose negative ones to −1.
+/// Returns the magnitudes of edges and points in a picture's lightness (section 4.3), by the first and second
+/// derivative of a Gaussian. Positive weights are normalised to a sum of 1, negative ones to −1.
 std::array<Plane, 2> features(const Plane& achromatic, double pixels_per_degree) {
   const double deviation = 0.5 * feature_width * pixels_per_degree;
   const int radius = static_cast<int>(std::ceil(3 * deviation));
@@ -167,7 +167,7 @@ std::array<Plane, 2> features(const Plane& achromatic, double pixels_per_degree)
   return {magnitude(-x * gauss), magnitude((x.square() / (deviation * deviation) - 1) * gauss)};
 }
 
-/// Maps exponentiated colour distances to [0, 1], spending most of the range on the small ones (section 4.2).
+/// Maps exponentiated colour distances to [0, 1]; small distances get most of the range (section 4.2).
 double redistributed(double distance) {
   static const double largest =
       std::pow(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), color_exponent);
@@ -191,7 +191,7 @@ ErrorMap flip_error(const Image& reference, const Image& test, double pixels_per
 
   ErrorMap map{.width = reference.width, .height = reference.height, .values = {}};
   map.values.reserve(static_cast<std::size_t>(a[0].size()));
-  for (Eigen::Index i = 0; i < a[0].size(); ++i) {  // column-major planes of columns × rows: the picture's own order
+  for (Eigen::Index i = 0; i < a[0].size(); ++i) {  // planes are column-major, columns × rows: the picture's own order
     const double distance = hyab({a[0](i), a[1](i), a[2](i)}, {b[0](i), b[1](i), b[2](i)});
     const double color = redistributed(std::pow(distance, color_exponent));
     const double edges = std::abs(features_a[0](i) - features_b[0](i));

@@ -12,8 +12,8 @@
 namespace drape {
 namespace {
 
-/// A text in a workflow command, see "Workflow commands for GitHub Actions".
-/// @param property whether it is the value of one, where ':' and ',' mean something
+/// Escapes a text for a workflow command, see "Workflow commands for GitHub Actions".
+/// @param property true for the value of a property, in which ':' and ',' are special
 std::string command_text(std::string_view text, bool property) {
   std::string escaped;
   for (const char c : escape_controls(text)) {

@@ -6,10 +6,10 @@
 
 namespace drape {
 
-/// What a check found, as Markdown for the summary of a GitHub job: a table of the scenes, those that failed first.
+/// Returns a check's results as Markdown for a GitHub job summary: a table of the scenes, failed ones first.
 std::string github_summary(const CheckReport& report);
 
-/// A line for each scene that failed, which GitHub shows beside the scene's file.
+/// Returns a line for each failed scene, which GitHub shows beside the scene's file.
 std::string github_annotations(const CheckReport& report);
 
 }  // namespace drape

@@ -18,15 +18,15 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uintmax_t most_manifest = std::uintmax_t{64} << 20;
-constexpr std::size_t most_pins = 64;  // whose places are kept for every step
+constexpr std::size_t most_pins = 64;  // stored with their positions for every step
 
-/// The numbers that say where a body is.
+/// Returns the numbers that describe a body's position.
 std::vector<double> numbers_of(const Collider& collider) {
   if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
     return {sphere->center[0], sphere->center[1], sphere->center[2], sphere->radius};
   }
   if (const auto* mesh = std::get_if<MeshShape>(&collider)) {
-    // Three of its vertices: where it is, how it is turned, and mostly what has become of its shape.
+    // Three of its vertices show its position and rotation, and most changes of its shape.
     std::vector<double> numbers;
     for (const Eigen::Index i : {Eigen::Index{0}, mesh->positions.rows() / 2, mesh->positions.rows() - 1}) {
       for (int axis = 0; axis < 3; ++axis) numbers.push_back(mesh->positions(i, axis));

@@ -28,14 +28,14 @@ namespace {
   throw UsageError(fmt::format("{}: {}; drape will not replace it: move it away", shown(place), what));
 }
 
-/// Whether a name in the folder of the frames is one that golden_picture() gives: "0040.png".
+/// Returns true for the file name of a golden picture, see golden_picture(): "0040.png".
 bool names_picture(const fs::path& name) {
   const std::string stem = name.stem().string();
   return name.extension() == ".png" && stem.size() >= 4 &&
          std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Whether something in a golden's folder is the golden's.
+/// Returns true if a file or folder within a golden's folder belongs to the golden.
 /// @param place relative to the folder
 bool is_own(const fs::path& place) {
   const bool in_frames = place.parent_path() == "frames";
@@ -43,7 +43,7 @@ bool is_own(const fs::path& place) {
                    : place == "manifest.json" || place == "motion.bin" || place == "frames";
 }
 
-/// Whether a file holds some words within its first bytes.
+/// Returns true if the beginning of a file contains a text.
 bool mentions(const fs::path& file, std::string_view words) {
   constexpr std::size_t looked_at = 4096;
   std::error_code ignored;
@@ -54,12 +54,12 @@ bool mentions(const fs::path& file, std::string_view words) {
   return start.find(words) != std::string::npos;
 }
 
-/// A damaged golden is one, too: one of its two files is enough.
+/// Returns true if a folder holds a golden; one of its two files suffices, so that a damaged one counts.
 bool is_golden(const fs::path& folder) {
   return mentions(folder / "manifest.json", "\"scene_hash\"") || mentions(folder / "motion.bin", "drape motion ");
 }
 
-/// Nothing else may stand where a golden has a file or a folder.
+/// Checks that a golden's file or folder has the expected type, if it exists.
 void require_type(const fs::path& place, fs::file_type type) {
   std::error_code ignored;
   const fs::file_type found = fs::symlink_status(place, ignored).type();
@@ -85,7 +85,7 @@ void require_own_files(const fs::path& folder) {
 
 std::error_code last_error() { return {errno, std::generic_category()}; }
 
-/// The same file, folder or link under another name: by a second name of a file if the file system has them.
+/// Copies a file, folder or link; regular files as hard links if the file system supports them.
 void keep(const fs::path& from, const fs::path& to) {
   if (fs::is_directory(fs::symlink_status(from))) {
     fs::create_directory(to);
@@ -98,7 +98,7 @@ void keep(const fs::path& from, const fs::path& to) {
   if (error) fs::copy(from, to, fs::copy_options::copy_symlinks);
 }
 
-/// Keeps what is in a golden's folder and is not drape's.
+/// Copies the foreign contents of a golden's folder.
 void keep_foreign(const fs::path& from, const fs::path& to) {
   for (const auto& entry : fs::directory_iterator(from)) {
     const fs::path name = entry.path().filename();
@@ -111,7 +111,7 @@ void keep_foreign(const fs::path& from, const fs::path& to) {
   }
 }
 
-/// Gives the files of a new golden, and its folders, the permissions of those that they replace.
+/// Gives the files and folders of a new golden the permissions of those that they replace.
 void keep_permissions(const fs::path& from, const fs::path& to) {
   std::vector<fs::path> names{".", "frames", "manifest.json", "motion.bin"};
   for (const auto& entry : fs::directory_iterator(to / "frames")) {
@@ -125,7 +125,7 @@ void keep_permissions(const fs::path& from, const fs::path& to) {
   }
 }
 
-/// Gives a complete folder its name. An older one of that name goes last.
+/// Renames a complete folder; removal of an older one of that name comes last.
 void give_name(const fs::path& complete, const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder)) {
@@ -134,7 +134,7 @@ void give_name(const fs::path& complete, const fs::path& folder) {
     return;
   }
   if (::renameat2(AT_FDCWD, complete.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) != 0) {
-    // Not every file system exchanges two names in one go.
+    // Some file systems cannot exchange two names atomically.
     if (errno != EINVAL && errno != ENOSYS) fail_to_write(folder, last_error());
     const fs::path old = complete.string() + "-old";
     fs::rename(folder, old, error);
@@ -161,7 +161,7 @@ std::uintmax_t write_files(const fs::path& folder, const Golden& golden, const s
   return size + write_file_atomically(folder / "manifest.json", manifest_text(sealed, checksum_of(motion)));
 }
 
-/// Hidden, beside a folder, and of this process alone.
+/// Returns a hidden folder beside another one, unique to this process.
 fs::path partial_folder(const fs::path& folder) {
   constexpr std::size_t longest = 200;  // a name has at most 255 bytes
   return folder.parent_path() /
@@ -204,12 +204,12 @@ void remove_golden(const fs::path& folder) {
 }
 
 std::uintmax_t write_golden(const fs::path& folder, const Golden& golden, const std::vector<Png>& pictures) {
-  has_golden(folder);  // or it throws
+  has_golden(folder);  // throws if foreign data are in its place
   std::error_code error;
   const bool exists = fs::exists(folder);
   const fs::path target = exists ? fs::canonical(folder) : folder;
   const fs::path partial = partial_folder(target);
-  fs::remove_all(partial, error);  // of a process that was killed and had the same number
+  fs::remove_all(partial, error);  // left by a killed process with the same number
   try {
     fs::create_directories(partial / "frames");
     const std::uintmax_t size = write_files(partial, golden, pictures);

@@ -11,7 +11,7 @@
 namespace drape {
 namespace {
 
-/// "half the speed", "twice the speed", "0.8 of the speed".
+/// Returns "half the speed", "twice the speed", "0.8 of the speed".
 std::string speed_in_words(double ratio) {
   if (ratio == 0.5) return "half the speed";
   if (ratio == 2) return "twice the speed";
@@ -65,7 +65,7 @@ std::vector<std::string> film_mismatch(const Scene& scene, const CheckSettings& 
   }
   if (now.fps != then.fps)
     changes.push_back(fmt::format("the film has {:g} frames a second, the golden one {:g}", now.fps, then.fps));
-  // Pictures that have the film's size are said to differ from the golden ones.
+  // Pictures of the film's own size are reported as different anyway.
   if (settings.size && now.size != then.size) {
     changes.push_back(fmt::format("the film has {}x{} pixels, the golden one {}x{}", now.size.x(), now.size.y(),
                                   then.size.x(), then.size.y()));

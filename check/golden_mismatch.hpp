@@ -8,18 +8,18 @@
 
 namespace drape {
 
-/// Why a scene's motion is another one than the golden before any step of it is compared; empty if it may be the same.
+/// Returns a reason why a scene's motion cannot equal the golden one, before any step is compared; empty: none.
 std::string motion_mismatch(const Scene& scene, const Golden& golden);
 
-/// Why a scene's pictures cannot be compared with the golden ones; empty if they can.
-/// @param some_frames only some of the golden frames are compared
+/// Returns a reason why a scene's pictures cannot be compared with the golden ones; empty: none.
+/// @param some_frames true if only some of the golden frames are compared
 std::string picture_mismatch(const Scene& scene, const CheckSettings& settings, const Golden& golden, bool some_frames);
 
-/// Sentences about settings of the film that differ from the golden ones: "the film plays at half the speed". None for
-/// a golden that was recorded without them.
+/// Returns sentences on film settings that differ from the golden ones: "the film plays at half the speed". Empty for a
+/// golden without film settings.
 std::vector<std::string> film_mismatch(const Scene& scene, const CheckSettings& settings, const Golden& golden);
 
-/// Whether the views of two lists are the same but for rounding, which may differ between processors.
+/// Returns true if two lists of views are equal except for rounding, which may differ between processors.
 bool same_but_for_rounding(const std::vector<View>& a, const std::vector<View>& b);
 
 }  // namespace drape

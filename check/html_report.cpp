@@ -19,7 +19,7 @@ using html::Markup;
 
 bool failed(const SceneResult& scene) { return tone_of(scene.verdict) == html::Tone::bad; }
 
-/// Failed scenes first, those that were recorded anew next, and otherwise in the order of the command line.
+/// Sorts scenes: failed ones first, then recorded ones, otherwise in the order of the command line.
 std::vector<const SceneResult*> by_importance(const CheckReport& report) {
   std::vector<const SceneResult*> scenes;
   for (const SceneResult& scene : report.scenes) scenes.push_back(&scene);
@@ -43,7 +43,7 @@ std::vector<const SceneResult*> by_importance(const CheckReport& report) {
   return scenes;
 }
 
-/// The outcome in one sentence: "2 of 5 scenes changed, 1 had no golden".
+/// Returns the outcome in one sentence: "2 of 5 scenes changed, 1 had no golden".
 std::string headline(const CheckReport& report) {
   const auto count = [&](SceneVerdict verdict) {
     return std::count_if(report.scenes.begin(), report.scenes.end(),
@@ -131,7 +131,7 @@ std::string html_report(const CheckReport& report) {
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const SceneResult& scene = *scenes[i];
     const std::string viewer = anchor(i) + "-pictures";
-    // Of a scene that is as it was, nobody needs to see more than that.
+    // The details of an unchanged scene are collapsed.
     const Markup content = scene_content(scene, viewer);
     page.content += html::section(2, anchor(i), Markup(scene.name) + verdict_badge(scene.verdict),
                                   failed(scene) ? content : html::details("Pictures and figures", content));

@@ -7,8 +7,8 @@
 
 namespace drape {
 
-/// The report as one self-contained HTML page: verdicts on top, failed scenes first, each with its pictures compared,
-/// its curves, and the commands that rerun and bless it.
+/// Returns the report as one self-contained HTML page: verdicts on top, then the scenes, failed ones first. Each scene
+/// has its compared pictures, curves, and the commands to rerun and bless it.
 std::string html_report(const CheckReport& report);
 
 /// Writes html_report() to a file. @throws OutputError if it cannot be written

@@ -19,13 +19,13 @@ std::string plural(std::int64_t count, const std::string& one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
-/// What a terminal shows after a colon, as a page shows it.
+/// Turns a message without capital and full stop into a sentence.
 std::string whole_sentence(std::string text) {
   if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() += 'A' - 'a';
   return text + ".";
 }
 
-/// What differs in a frame, in words.
+/// Describes the differences in a frame.
 std::string describe(const FrameResult& frame) {
   const PictureDifference& d = frame.difference;
   const std::string why = frame.why.empty() ? "" : " (" + frame.why + ")";
@@ -53,7 +53,7 @@ Markup viewer(const SceneResult& scene, const Comparison& comparison, const std:
     moment.caption = describe(frame);
     moment.size = scene.size;
     if (frame.difference.verdict != PictureVerdict::exact) moment.worst = frame.difference.worst_pixel;
-    // A picture belongs to its motion: where that is another one, both are accepted together.
+    // Pictures of a changed motion can only be accepted together with it.
     const bool alone =
         scene.has_candidate() && &comparison == &scene.windows && comparison.motion != MotionVerdict::changed;
     if (alone && frame.difference.verdict == PictureVerdict::changed) {
@@ -123,7 +123,7 @@ Markup provenance(const SceneResult& scene) {
                               limits.flip)}});
 }
 
-/// Curves and tables.
+/// Returns curves and tables.
 Markup figures(const SceneResult& scene, const Comparison& comparison) {
   std::vector<Markup> charts;
   for (const NamedChart& diagram : scene_charts(scene, comparison)) charts.push_back(html::chart(diagram.chart));

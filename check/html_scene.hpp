@@ -5,7 +5,7 @@
 #include "check/report.hpp"
 #include "html/components.hpp"
 
-// The parts of the HTML report that are about one scene.
+// Parts of the HTML report for one scene.
 
 namespace drape {
 
@@ -13,20 +13,20 @@ html::Tone tone_of(SceneVerdict verdict);
 html::Tone tone_of(MotionVerdict verdict);
 html::Tone tone_of(PictureVerdict verdict);
 
-/// The verdict as a word with its sign.
+/// Returns the verdict as a word with its sign.
 template <class Verdict>
 html::Markup verdict_badge(Verdict verdict) {
   return html::badge(verdict_name(verdict), tone_of(verdict));
 }
 
-/// The largest deviation of any vertex at any step [m]; 0 if there is none.
+/// Returns the largest deviation of any vertex at any step [m]; 0 if there is none.
 double largest_deviation(const Comparison& comparison);
 
-/// The largest FLIP error of any pixel in any frame.
+/// Returns the largest FLIP error of any pixel in any frame.
 double largest_flip(const Comparison& comparison);
 
-/// Everything about a scene but its name and verdict.
-/// @param id of its own in the page, for the viewers
+/// Returns the whole section of a scene except its name and verdict.
+/// @param id unique in the page, for the viewers
 html::Markup scene_content(const SceneResult& scene, const std::string& id);
 
 }  // namespace drape

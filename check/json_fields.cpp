@@ -7,7 +7,7 @@
 namespace drape {
 namespace {
 
-constexpr int deepest = 8;  // lists and objects within each other; a manifest has three
+constexpr int deepest = 8;  // levels of nesting; a manifest has three
 
 }  // namespace
 
@@ -89,7 +89,7 @@ double Fields::number(const Json& json, const char* key) const {
 }
 
 std::int64_t Fields::whole(const Json& json, const char* key, std::int64_t least, std::int64_t most) const {
-  // What is above the largest signed number is stored as an unsigned one.
+  // Numbers above the largest signed one are stored as unsigned.
   const bool fits = json.is_number_integer() &&
                     (!json.is_number_unsigned() || json.get<std::uint64_t>() <= static_cast<std::uint64_t>(most));
   if (!fits || json.get<std::int64_t>() < least || json.get<std::int64_t>() > most) {

@@ -13,15 +13,15 @@
 namespace drape {
 using Json = nlohmann::ordered_json;
 
-/// JSON whose nesting is bounded: the library takes a stack frame for each level.
-/// @throws std::invalid_argument saying what is wrong with the bytes
+/// Parses JSON with limited nesting, since the library takes a stack frame per level.
+/// @throws std::invalid_argument that describes the error in the bytes
 Json parse_json(std::string_view bytes);
 
-/// The values of a JSON object, each of which must be there and be what it is asked for as. Refers to the object.
-/// @throws std::invalid_argument that names the value and says what was expected
+/// Typed access to the members of a JSON object; a missing member or wrong type is an error. Refers to the object.
+/// @throws std::invalid_argument that names the member and the expected type
 class Fields {
  public:
-  /// @param name what stands before the names of its values in messages: "camera."
+  /// @param name prefix for the names of members in messages: "camera."
   Fields(const Json& json, std::string name);
 
   [[nodiscard]] bool has(const char* key) const { return json_.contains(key); }

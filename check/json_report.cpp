@@ -27,7 +27,7 @@ Json to_json(const WindowResult& window) {
           {"problem", window.problem}};
 }
 
-/// `prefix` tells the files of an end-to-end comparison from the others.
+/// Returns the JSON of a frame; `prefix` distinguishes the files of an end-to-end comparison.
 Json to_json(const SceneResult& scene, const FrameResult& frame, const std::string& prefix) {
   const PictureDifference& d = frame.difference;
   Json json{{"frame", frame.frame},
@@ -115,7 +115,7 @@ std::string json_report(const CheckReport& report) {
                   {"seconds", report.seconds},
                   {"machine", to_json(report.machine)},
                   {"scenes", std::move(scenes)}};
-  // The name of a file need not be UTF-8.
+  // File names may be other than UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 struct Case {
   const SceneResult* scene;
-  std::string name, failure, output;  // failure: its message; empty: passed
+  std::string name, failure, output;  // `failure` is its message; empty: passed
 
   [[nodiscard]] bool is_error() const { return scene->verdict == SceneVerdict::error; }
 };
@@ -67,7 +67,7 @@ void write(tinyxml2::XMLPrinter& xml, const Case& test) {
   xml.OpenElement("testcase");
   xml.PushAttribute("classname", printable(test.scene->file.string()).c_str());
   xml.PushAttribute("name", test.name.c_str());
-  // The scene's time, shared by its cases, is told once: with the first of them.
+  // Only the first case of a scene has the time, which covers all of them.
   xml.PushAttribute(
       "time",
       fmt::format("{:.3f}", test.name == "motion" || test.name == "golden" ? test.scene->seconds : 0.0).c_str());

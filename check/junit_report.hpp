@@ -6,7 +6,7 @@
 
 namespace drape {
 
-/// JUnit XML, as continuous-integration servers read it: of every scene a test case for its motion and one for its
+/// Returns JUnit XML for continuous-integration servers. Each scene has a test case for its motion and one for its
 /// pictures, and two more if it was checked end to end.
 std::string junit_report(const CheckReport& report);
 

@@ -7,14 +7,14 @@
 
 namespace drape {
 
-/// The machine that this runs on.
-/// @param renderer what draws, see Renderer::description()
+/// Returns a description of this machine.
+/// @param renderer see Renderer::description()
 Machine this_machine(std::string renderer);
 
-/// As it is written into a golden's manifest and into report.json.
+/// Returns the JSON for a golden's manifest and for report.json.
 nlohmann::ordered_json to_json(const Machine& machine);
 
-/// The moment, as "2026-01-31T12:00:00Z".
+/// Returns the current time as "2026-01-31T12:00:00Z".
 std::string utc_now();
 
 }  // namespace drape

@@ -17,7 +17,7 @@ namespace drape {
 namespace {
 
 constexpr int format_version = 3;
-constexpr int indent = 2;  // of the text, in spaces
+constexpr int indent = 2;  // spaces per level in the text
 
 template <int n, class T>
 Json array_of(const Eigen::Matrix<T, n, 1>& v) {
@@ -97,7 +97,7 @@ Json to_json(const GoldenFilm& film) {
 }
 
 GoldenFilm film_from(const Fields& fields) {
-  constexpr int most_samples = 64;  // of any OpenGL
+  constexpr int most_samples = 64;  // limit of any OpenGL
   return {.fps = fields.positive("fps"),
           .speed = fields.positive("speed"),
           .size = fields.pixels("size"),
@@ -140,7 +140,7 @@ std::vector<GoldenFrame> frames_from(const std::vector<Fields>& list) {
   return frames;
 }
 
-/// 0, or a number that positions can be counted in.
+/// Reads a quantum for positions; 0 is valid.
 double quantum_from(const Fields& fields, const char* key) {
   const double quantum = fields.number(key);
   if (!(quantum == 0 || quantum >= std::numeric_limits<double>::min())) fields.fail(key, "0 or a number above it");
@@ -178,7 +178,7 @@ Manifest manifest_from(const Fields& fields) {
   return manifest;
 }
 
-/// A manifest that this version of drape has written, and nobody else.
+/// Checks that this version of drape wrote the manifest, and that it is unmodified.
 void require_own(const Json& json, std::string_view bytes) {
   constexpr std::int64_t any = std::numeric_limits<int>::max();
   const int version = Fields(json, "").whole<int>("format", -any, any);

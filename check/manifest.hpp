@@ -7,21 +7,21 @@
 
 namespace drape {
 
-/// manifest.json, read.
+/// The contents of manifest.json.
 struct Manifest {
-  Golden golden;            ///< all but its windows, and the positions in its frames
-  std::string motion_hash;  ///< of the bytes of the motion.bin that was recorded with it
+  Golden golden;            ///< all but the windows, and the positions in the frames
+  std::string motion_hash;  ///< hash of the motion.bin recorded with it
 };
 
-/// The bytes of manifest.json.
+/// Returns the text of manifest.json.
 std::string manifest_text(const Golden& golden, const std::string& motion_hash);
 
-/// The inverse. The text is as it was written, which a checksum tells, and every value is there, of its type and in a
-/// range that makes sense.
-/// @throws std::invalid_argument saying what is wrong with the bytes
+/// Parses a manifest. A checksum detects modified text; every value must be present, with its type and a sensible
+/// range.
+/// @throws std::invalid_argument that describes the error in the bytes
 Manifest read_manifest(std::string_view bytes);
 
-/// A manifest of any values, with the checksum that belongs to them.
+/// Adds a valid checksum to a manifest with any values.
 /// @throws std::invalid_argument if the text is no JSON object
 std::string sealed_manifest(std::string_view text);
 

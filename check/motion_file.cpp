@@ -12,7 +12,7 @@ namespace drape {
 namespace {
 
 constexpr std::string_view magic = "drape motion 2\n";
-constexpr double most_quanta = 9e18;  // what a signed word holds, and a little less
+constexpr double most_quanta = 9e18;  // a little below the limit of a signed word
 
 std::int64_t multiple(double value, double quantum) {
   const double quanta = std::nearbyint(value / quantum);
@@ -26,8 +26,8 @@ bool is_multiple(double value, double quantum) {
 
 std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-/// Foretells a number of a field from those of vertices before it: of that beside it, and where a row lies beside this
-/// one, of the two there. Whatever the vertices are, it is some number.
+/// Predicts a coordinate from earlier vertices: the previous one, corrected by the difference of the two neighbours in
+/// the row before, if there is one. Any vertex order gives a valid prediction.
 double foretold(const Vertices& values, Eigen::Index i, Eigen::Index axis, Eigen::Index row) {
   if (i == 0) return 0;
   const double before = values(i - 1, axis);
@@ -53,7 +53,7 @@ class FieldWriter {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       for (Eigen::Index i = 0; i < values.rows(); ++i) {
         const double value = values(i, axis), guess = foretold(values, i, axis, row_);
-        // Differences are taken modulo 2⁶⁴, where every one can be undone.
+        // Differences are modulo 2⁶⁴, where all are reversible.
         const std::uint64_t difference = exact[static_cast<std::size_t>(i)]
                                              ? bits_of(value) - bits_of(guess)
                                              : static_cast<std::uint64_t>(multiple(value, quantum)) -
@@ -99,7 +99,7 @@ class FieldReader {
   Eigen::Index row_, vertices_;
 };
 
-/// Foretells the numbers of a step from the two before it, as if each went on steadily.
+/// Predictor of the numbers of a step from the previous two, by linear extrapolation.
 class SteadyBodies {
  public:
   std::vector<std::uint64_t> next(std::size_t count) {
@@ -145,7 +145,7 @@ std::vector<double> read_bodies(WordReader& reader, const Golden& golden, Steady
   return bodies;
 }
 
-/// How many words a golden's motion takes at most.
+/// Returns the largest number of words in a golden's motion.
 std::uint64_t most_words(const Golden& golden) {
   const auto vertices = static_cast<std::uint64_t>(golden.vertex_count);
   const auto steps = static_cast<std::uint64_t>(golden.step_count);
@@ -180,7 +180,7 @@ std::string pack_motion(const Golden& golden) {
 }
 
 std::uint64_t most_motion_bytes(const Golden& golden) {
-  // A hair more than the words have: what zlib cannot make smaller, it keeps as it is.
+  // Slightly more than the words: zlib stores incompressible data with a small overhead.
   const std::uint64_t words = most_words(golden);
   return 8 * words + words / 64 + 1024;
 }

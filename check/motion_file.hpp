@@ -8,19 +8,19 @@
 
 namespace drape {
 
-/// The windows of a golden motion and the positions in its pictures as the bytes of motion.bin: nothing is lost. Of a
-/// row of a field of vectors that is a multiple of the field's quantum, the multiples are stored, and of any other row
-/// the bits; of both the difference from what the vertices beside it foretell. What moves the cloth is stored as second
-/// differences, and only those that are not 0. All of it becomes 64-bit words whose most significant bytes come first,
-/// then the next ones (so that what is alike stands together), compressed by zlib.
+/// Serialises the windows of a golden motion and the positions of its pictures as motion.bin, without loss. A row of a
+/// vector field is stored in multiples of the field's quantum, or as raw bits if it is not a multiple. Both are stored
+/// as differences from a prediction by neighbouring vertices. Body positions are stored as second differences, those
+/// that are not 0. All become 64-bit words, arranged by byte significance (so that similar bytes are adjacent), and
+/// compressed by zlib.
 std::string pack_motion(const Golden& golden);
 
-/// The inverse: fills in the windows of a golden, and the positions of its frames, of which everything else is known.
-/// Every number that comes out is finite. Nothing larger is unpacked than belongs to such a golden.
-/// @throws std::invalid_argument saying what is wrong with the bytes
+/// Reads motion.bin: fills in the windows of a golden and the positions of its frames; all else must be known. Every
+/// number read is finite. The size is limited to that of such a golden.
+/// @throws std::invalid_argument that describes the error in the bytes
 void unpack_motion(std::string_view bytes, Golden& golden);
 
-/// How many bytes the motion of a golden takes at most.
+/// Returns the largest size of a golden's motion [bytes].
 std::uint64_t most_motion_bytes(const Golden& golden);
 
 }  // namespace drape

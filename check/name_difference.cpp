@@ -16,11 +16,11 @@ namespace {
 
 using Plane = Eigen::ArrayXXd;  // columns × rows of the picture
 
-constexpr double explained = 0.25;          // of the squared difference may be left for a name to hold
-constexpr Eigen::Index farthest_shift = 6;  // looked for [pixels]
-constexpr double steep = 24;                // between neighbours: an edge [of 255]
-constexpr double one_place = 0.1;           // of the picture's area, at most
-constexpr double least_share = 0.02;        // of the channels that another brightness changes
+constexpr double explained = 0.25;          // largest unexplained share of the squared difference
+constexpr Eigen::Index farthest_shift = 6;  // search radius [pixels]
+constexpr double steep = 24;                // smallest gradient of an edge [of 255]
+constexpr double one_place = 0.1;           // largest share of the picture's area
+constexpr double least_share = 0.02;        // smallest share of channels changed by another brightness
 
 Plane luminance(const Image& image) {
   Plane plane(image.width, image.height);
@@ -33,7 +33,7 @@ Plane luminance(const Image& image) {
   return plane;
 }
 
-/// Half the differences of the neighbours on both sides, in x and y; 0 on the border.
+/// Returns central differences in x and y; 0 on the border.
 std::array<Plane, 2> gradients(const Plane& plane) {
   std::array<Plane, 2> g{Plane::Zero(plane.rows(), plane.cols()), Plane::Zero(plane.rows(), plane.cols())};
   for (Eigen::Index y = 1; y + 1 < plane.cols(); ++y) {
@@ -45,13 +45,13 @@ std::array<Plane, 2> gradients(const Plane& plane) {
   return g;
 }
 
-/// The part of `plane` that stays within it under any of the shifts that are looked for, moved by one of them.
+/// Returns the part of `plane` that stays inside under all shifts within the search radius, shifted by (dx, dy).
 auto moved(const Plane& plane, int dx, int dy) {
   return plane.block(farthest_shift - dx, farthest_shift - dy, plane.rows() - 2 * farthest_shift,
                      plane.cols() - 2 * farthest_shift);
 }
 
-/// The nearest whole shift, and what is left of a pixel by linearisation (Lucas and Kanade 1981).
+/// Finds the best whole-pixel shift, and the remaining fraction by linearisation (Lucas and Kanade 1981).
 std::string name_shift(const Plane& expected, const Plane& actual) {
   if (expected.rows() <= 4 * farthest_shift || expected.cols() <= 4 * farthest_shift) return {};
   const Plane target = moved(actual, 0, 0);
@@ -75,7 +75,7 @@ std::string name_shift(const Plane& expected, const Plane& actual) {
   if (normal.determinant() <= 0) return {};
   const Eigen::Vector2d part = normal.inverse() * Eigen::Vector2d((g[0] * difference).sum(), (g[1] * difference).sum());
   const double left = (difference - g[0] * part[0] - g[1] * part[1]).square().sum();
-  // What is seen moves against the gradient.
+  // The picture moves against the gradient.
   const Eigen::Vector2d shift = whole - part;
   if (!(left < explained * unmoved) || part.norm() > 1 || shift.norm() < 0.005) return {};
   const auto along = [](double way, const char* forth, const char* back) {
@@ -86,7 +86,7 @@ std::string name_shift(const Plane& expected, const Plane& actual) {
          (sideways && upright ? " and " : "") + (upright ? along(shift[1], "down", "up") : "");
 }
 
-/// One factor for all channels of all pixels that changed.
+/// Fits one brightness factor to all changed channels.
 std::string name_brightness(const Image& expected, const Image& actual) {
   double changed = 0, product = 0, square = 0, all = 0;
   const auto visit = [&](auto&& add) {
@@ -107,9 +107,9 @@ std::string name_brightness(const Image& expected, const Image& actual) {
   return fmt::format("a brightness {:.2g} % {}", 100 * std::abs(factor - 1), factor > 1 ? "higher" : "lower");
 }
 
-/// The same new colour wherever there was the same old one.
+/// Fits one new colour to all pixels of the same old colour.
 std::string name_colors(const Image& expected, const Image& actual) {
-  constexpr int levels = 32;  // of a channel
+  constexpr int levels = 32;  // levels per channel
   struct Bin {
     Eigen::Array3d sum = Eigen::Array3d::Zero();
     double square = 0, count = 0;

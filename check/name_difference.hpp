@@ -7,13 +7,13 @@
 
 namespace drape {
 
-/// What kind of difference two pictures of one size have, in words: a shift, another brightness, other colours, other
+/// Names the kind of difference between two pictures of one size: a shift, another brightness, other colours, other
 /// edges, or one place only.
-/// @returns empty if there is none, or none of these explains most of it
+/// @returns empty if the pictures are equal, or no kind explains most of the difference
 std::string name_difference(const Image& expected, const Image& actual);
 
-/// What is another than here where a golden was recorded, of what may change a picture or a bit: "with another renderer
-/// (…; here …)". Empty if nothing is.
+/// Names the differences of the recording machine that may change a picture or a bit: "with another renderer (…; here
+/// …)". Empty if there are none.
 std::string name_other_machine(const Machine& recorded, const Machine& here);
 
 }  // namespace drape

@@ -16,7 +16,7 @@
 namespace drape {
 namespace {
 
-/// What the header of a PNG file says: width and height [pixels], ISO/IEC 15948, 11.2.2.
+/// Returns width and height from the header of a PNG file [pixels], ISO/IEC 15948, 11.2.2.
 std::pair<std::uint32_t, std::uint32_t> png_size(std::string_view bytes) {
   constexpr std::string_view signature("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
   if (!bytes.starts_with(signature) || bytes.size() < 24) throw std::invalid_argument("is not a PNG");
@@ -28,7 +28,7 @@ std::pair<std::uint32_t, std::uint32_t> png_size(std::string_view bytes) {
   return {number(16), number(20)};
 }
 
-/// Calls visit(column, row) for every pixel of a picture that a rectangle covers.
+/// Calls visit(column, row) for every pixel covered by a rectangle.
 template <class Visit>
 void for_each_covered(const std::vector<PixelRectangle>& rectangles, const Eigen::Vector2i& size, const Visit& visit) {
   for (const auto& [left, top, width, height] : rectangles) {
@@ -106,7 +106,7 @@ Image decode_png(std::string_view bytes, const Eigen::Vector2i& size) {
   try {
     bgr = decode_picture(bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
-    // said below
+    // reported below
   }
   if (bgr.cols != size.x() || bgr.rows != size.y()) throw std::invalid_argument("is damaged");
   Image image(bgr.cols, bgr.rows);
@@ -115,8 +115,7 @@ Image decode_png(std::string_view bytes, const Eigen::Vector2i& size) {
 }
 
 std::uintmax_t most_png_bytes(const Eigen::Vector2i& size) {
-  // Four channels of 16 bits and a byte for each row, not packed at all, with room for what a program says about
-  // itself.
+  // Four 16-bit channels and a byte per row, uncompressed, with room for metadata.
   return (std::uintmax_t{1} << 20) + 9 * static_cast<std::uintmax_t>(size.x()) * static_cast<std::uintmax_t>(size.y());
 }
 

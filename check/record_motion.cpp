@@ -25,10 +25,10 @@ FilmExtent whole_film(const Scene& scene) {
   return FilmExtent(scene.video, scene.simulation.step, scene.step_count(), std::nullopt);
 }
 
-/// Keeps the windows of a motion while it passes by.
+/// Observer that stores the windows of a motion.
 class Recorder final : public StepObserver {
  public:
-  /// @param recorded says the energies, if it is not null
+  /// @param recorded source of the energies; null: the simulation
   Recorder(const std::vector<std::int64_t>& starts, const Quanta& quanta, PlayedMotion* recorded)
       : starts_(starts), quanta_(quanta), recorded_(recorded) {}
 
@@ -64,7 +64,7 @@ class Recorder final : public StepObserver {
   PlayedMotion* recorded_;
 };
 
-/// The distance of vertices in the row beside, of a mesh that is a grid: the commonest one that is not 1.
+/// Returns the index distance between rows of a grid mesh: the most frequent distance of a spring's ends except 1.
 int row_of(const Cloth& cloth) {
   std::map<int, int> count;
   for (const Spring& spring : cloth.springs) ++count[spring.j - spring.i];
@@ -74,7 +74,7 @@ int row_of(const Cloth& cloth) {
   return commonest == count.end() ? 1 : commonest->first;
 }
 
-/// All of a golden that is known before its motion.
+/// Returns the known parts of a golden before its motion is run.
 Golden described(const Scene& scene, const CheckSettings& settings, const RecordPlan& plan) {
   Golden golden;
   golden.scene_digest = scene.digest;

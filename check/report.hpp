@@ -11,169 +11,167 @@
 #include "html/motion_player.hpp"
 #include "scene/check_settings.hpp"
 
-// What a check found, as plain data: the terminal's lines, the JSON, the JUnit XML and the HTML page are all made from
-// it.
+// Results of a check as plain data, from which terminal output, JSON, JUnit XML and HTML page are made.
 
 namespace drape {
 
-/// How a motion compares with the golden one, from best to worst.
+/// Agreement of a motion with the golden one, from best to worst.
 enum class MotionVerdict { same_bits, within_tolerance, changed };
 
-/// How a picture compares with the golden one, from best to worst.
+/// Agreement of a picture with the golden one, from best to worst.
 enum class PictureVerdict {
-  exact,   ///< the same bytes
-  noise,   ///< other bytes, but within every limit: another processor rounds differently
-  changed  ///< anything else
+  exact,   ///< equal bytes
+  noise,   ///< within all limits; rounding differs between processors
+  changed  ///< beyond a limit
 };
 
-/// What came out of a scene's check.
+/// Outcome of checking one scene.
 enum class SceneVerdict {
   passed,
   changed,  ///< the motion or a picture changed
-  missing,  ///< there was no golden to compare with; it is there now unless the check was not to write one
-  updated,  ///< the golden was recorded anew because the check was told to
-  error     ///< it could not be judged: the golden is damaged, the motion diverged, the picture cannot be drawn, …
+  missing,  ///< there was no golden; the check has written one unless told otherwise
+  updated,  ///< the golden was recorded again on request
+  error     ///< not judged: damaged golden, diverged motion, drawing failed, …
 };
 
-/// The bytes of a PNG file; empty: there is no such picture.
+/// The bytes of a PNG file; empty: no picture.
 using Png = std::string;
 
 /// The difference of two pictures of the same size.
 struct PictureDifference {
   PictureVerdict verdict = PictureVerdict::exact;
-  std::int64_t pixels = 0;           ///< that differ at all
-  double fraction = 0;               ///< of all pixels, 0 to 1
-  int largest_channel = 0;           ///< the largest difference in any channel, 0 to 255
-  double mean_flip = 0;              ///< over all pixels, 0 to 1
+  std::int64_t pixels = 0;           ///< number of differing pixels
+  double fraction = 0;               ///< share of all pixels, 0 to 1
+  int largest_channel = 0;           ///< largest difference in any channel, 0 to 255
+  double mean_flip = 0;              ///< mean over all pixels, 0 to 1
   double max_flip = 0;               ///< 0 to 1
-  std::array<int, 2> worst_pixel{};  ///< column and row, from the top left, of the largest FLIP error
+  std::array<int, 2> worst_pixel{};  ///< column and row of the largest FLIP error, from the top left
 };
 
 /// One compared frame.
 struct FrameResult {
-  int frame = 0;       ///< number of the film's frame
-  double time = 0;     ///< of the scene [s]
-  std::string why;     ///< it is compared: "first contact with the sphere"
-  bool judged = true;  ///< or it is shown only, see CheckSettings::ignore_frames
+  int frame = 0;       ///< number in the film
+  double time = 0;     ///< time in the scene [s]
+  std::string why;     ///< reason for its choice: "first contact with the sphere"
+  bool judged = true;  ///< false: shown only, see CheckSettings::ignore_frames
   PictureDifference difference;
-  std::string kind;  ///< what kind of difference it is, see name_difference(); empty: none, or no kind of its own
+  std::string kind;  ///< kind of difference, see name_difference(); empty: none or unnamed
   Png expected;      ///< the golden picture
-  Png actual;        ///< this and the next two are empty if the pictures are the same bytes
-  Png amplified;     ///< the absolute difference, brightened so that the largest is white
-  Png flip_map;      ///< the FLIP error of every pixel in the colours of the map "magma", black 0 to pale yellow 1
+  Png actual;        ///< this and the next two are empty for equal bytes
+  Png amplified;     ///< absolute difference, brightened so that the largest is white
+  Png flip_map;      ///< FLIP error per pixel in the colours of "magma", black 0 to pale yellow 1
 };
 
-/// A vertex that is not where it was.
+/// A displaced vertex.
 struct Deviation {
   std::int64_t step = 0;
   int vertex = 0;
   double distance = 0;  ///< [m]
 };
 
-/// A piece of motion, computed from a golden state.
+/// A window of the motion, simulated from a golden state.
 struct WindowResult {
   std::int64_t first_step = 0, last_step = 0;
   MotionVerdict verdict = MotionVerdict::same_bits;
-  std::optional<std::int64_t> other_bits;  ///< the first step that did not end in the same bits; absent: all did
-  std::vector<Deviation> deviations;  ///< the worst vertex of every step whose positions are compared; fewer if the
-                                      ///< motion diverged
-  std::optional<Deviation> first;     ///< the first of them that is beyond the tolerance
-  std::optional<Deviation> largest;   ///< of all; absent if there is none
-  std::string problem;  ///< a sentence if there is something else to say: that it diverged, or that a body moved
+  std::optional<std::int64_t> other_bits;  ///< first step with different bits; absent: none
+  std::vector<Deviation> deviations;       ///< largest deviation in each compared step; fewer after a divergence
+  std::optional<Deviation> first;          ///< first deviation beyond the tolerance
+  std::optional<Deviation> largest;        ///< largest of all deviations; absent if there is none
+  std::string problem;                     ///< a sentence on other problems, such as a divergence or a moved body
 };
 
-/// Motion and pictures of a scene beside its golden ones.
+/// The motion and pictures of a scene compared with its golden.
 struct Comparison {
   MotionVerdict motion = MotionVerdict::same_bits;  ///< the worst of the windows
   PictureVerdict picture = PictureVerdict::exact;   ///< the worst of the frames
   std::vector<WindowResult> windows;                ///< ascending
   std::vector<FrameResult> frames;                  ///< ascending
-  /// The first compared frame whose picture changed, or from which on the motion did.
+  /// First compared frame with a changed picture, or after the first change of the motion.
   std::optional<int> first_bad_frame;
 };
 
-/// Where and with what something was computed.
+/// The machine and the program of a computation.
 struct Machine {
   std::string drape;      ///< version
   std::string compiler;   ///< "GNU 12.2.0"
   std::string system;     ///< "Linux 6.1.0 x86_64"
   std::string processor;  ///< "Intel(R) Xeon(R) …"
-  std::string cpu_flags;  ///< those that matter to floating-point code: "sse2 sse4_1 avx avx2 fma"
+  std::string cpu_flags;  ///< flags relevant to floating-point code: "sse2 sse4_1 avx avx2 fma"
   std::string kernels;    ///< instruction set of the simulation's kernels: "avx2"
   std::string renderer;   ///< "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 3.3 …"
 };
 
 struct SceneResult {
-  std::string name;              ///< unique in the report: "5", or "homework-5" if there are several of that name
-  std::filesystem::path file;    ///< the scene's
-  std::filesystem::path golden;  ///< the golden's folder
+  std::string name;              ///< unique in the report: "5", or "homework-5" for duplicate names
+  std::filesystem::path file;    ///< the scene file
+  std::filesystem::path golden;  ///< folder of the golden
   SceneVerdict verdict = SceneVerdict::passed;
-  ErrorKind error = ErrorKind::usage;  ///< of the verdict "error": what is wrong
+  ErrorKind error = ErrorKind::usage;  ///< category, for the verdict "error"
   std::vector<std::string> findings;  ///< sentences, most important first: "the motion changed at step 37 by up to …"
-  Comparison windows;                 ///< the motion in windows from golden states, and the pictures of those states
-  std::optional<Comparison> end_to_end;  ///< the whole motion run again and drawn, if that was asked for
+  Comparison windows;                 ///< windows from golden states, and the pictures of those states
+  std::optional<Comparison> end_to_end;  ///< the whole motion, run again and drawn; absent if not requested
 
-  CheckSettings settings;  ///< with what the command line says
-  std::string film;        ///< settings of the film that have changed, as sentences; empty: none
-  std::string time;        ///< a sentence if the first steps take too long; empty: they do not, or were not measured
-  double ignored = 0;      ///< the part of every picture that is not judged, 0 to 1
-  std::string elsewhere;   ///< what was another where the golden was recorded, see name_other_machine()
-  bool scene_changed = false;  ///< the scene file has changed since it was recorded
+  CheckSettings settings;      ///< settings with the command line's changes
+  std::string film;            ///< sentences on changed film settings; empty: none changed
+  std::string time;            ///< a sentence if the first steps take too long; empty: in time, or not measured
+  double ignored = 0;          ///< share of each picture that is not judged, 0 to 1
+  std::string elsewhere;       ///< differences of the recording machine, see name_other_machine()
+  bool scene_changed = false;  ///< the scene file differs from the recorded one
   std::string recorded_at;     ///< "2026-01-31T12:00:00Z"; empty without a golden
   Machine recorded_on;
-  std::string renderer;       ///< what drew the pictures now
-  std::array<int, 2> size{};  ///< of the pictures [pixels]
-  std::string animation;      ///< a GIF's bytes: expected, actual and difference side by side, looping around the
-                              ///< first bad frame; empty if there is none
-  std::string stills;         ///< some of its moments for paper: a PNG's bytes
+  std::string renderer;       ///< renderer of the new pictures
+  std::array<int, 2> size{};  ///< size of the pictures [pixels]
+  std::string animation;      ///< GIF bytes: expected, actual and difference side by side, around the first bad frame;
+                              ///< empty: none
+  std::string stills;         ///< PNG bytes: some frames of the animation for print
   html::PlayedMotion expected,
-      actual;             ///< compared states of a changed motion, to turn; without frames: there are none
-  std::string candidate;  ///< hash of the candidate that is kept beside the report; empty: there is none
+      actual;             ///< compared states of a changed motion, for interactive viewing; without frames: none
+  std::string candidate;  ///< hash of the candidate beside the report; empty: none
   std::string rerun_command;
-  std::string accept_command;  ///< makes what it is now the golden: drape accept, or drape bless without a candidate;
-                               ///< empty: no command does, because the check was given other values than the file's
-  double seconds = 0;          ///< that the check took
+  std::string accept_command;  ///< makes the candidate golden: drape accept, or drape bless without one; empty for a
+                               ///< check with overrides
+  double seconds = 0;          ///< duration of the check
 
-  /// Whether what it is now is kept beside the report, and can be accepted.
+  /// Returns true if the report has a candidate of this scene to accept.
   [[nodiscard]] bool has_candidate() const { return !candidate.empty(); }
 
-  /// Whether it is as its golden, or has become it.
+  /// Returns true if the scene equals its golden, or was recorded again.
   [[nodiscard]] bool passed() const { return verdict == SceneVerdict::passed || verdict == SceneVerdict::updated; }
 };
 
-/// A run of `drape check`.
+/// The results of one `drape check`.
 struct CheckReport {
-  std::string command;         ///< as it was typed, but for where and how fast it ran
-  std::string run_options;     ///< the rest of it: " --report out/ci --jobs 4"; empty in a merged report
-  std::string accept_command;  ///< makes everything that changed golden; empty: there is nothing
+  std::string command;         ///< command as typed, without the options below
+  std::string run_options;     ///< options for output and speed: " --report out/ci --jobs 4"; empty in a merged report
+  std::string accept_command;  ///< accepts all changes; empty: there are none
   std::string date;            ///< "2026-01-31T12:00:00Z"
   Machine machine;
-  std::vector<SceneResult> scenes;  ///< in the order of the command line
+  std::vector<SceneResult> scenes;  ///< results in the order of the command line
   double seconds = 0;
 
-  /// Whether nothing changed, nothing was missing, and everything could be judged.
+  /// Returns true if every scene was judged, had a golden, and passed.
   [[nodiscard]] bool passed() const;
 };
 
-/// The command as it was typed.
+/// Returns the command as typed.
 inline std::string full_command(const CheckReport& report) { return report.command + report.run_options; }
 
-/// "2.1 % of the picture and frame 40 are ignored"; empty if nothing is.
+/// Returns "2.1 % of the picture and frame 40 are ignored"; empty if nothing is.
 std::string describe_ignored(const SceneResult& scene);
 
-/// What came out of the pictures of a comparison: verdict_name(), or "not judged" where all of them are ignored.
+/// Returns the verdict on the pictures of a comparison: verdict_name(), or "not judged" if all of them are ignored.
 std::string picture_verdict(const SceneResult& scene, const Comparison& comparison);
 
-/// "same bits", "within tolerance", "changed".
+/// Returns "same bits", "within tolerance" or "changed".
 const char* verdict_name(MotionVerdict verdict);
-/// "exact", "noise", "changed".
+/// Returns "exact", "noise" or "changed".
 const char* verdict_name(PictureVerdict verdict);
-/// "passed", "changed", "missing", "updated", "error".
+/// Returns "passed", "changed", "missing", "updated" or "error".
 const char* verdict_name(SceneVerdict verdict);
 
-/// The folder of a scene's files beside the report, relative to it: "5/".
-/// @returns `name`/frame_0040.KIND.png for "expected", "actual", "difference" and "flip", and with "end_to_end." before
-///          those for the pictures of the whole motion
+/// Returns the path of a scene's picture, relative to the report.
+/// @returns `name`/frame_0040.KIND.png for "expected", "actual", "difference" and "flip"; KIND has the prefix
+/// "end_to_end." for pictures of the whole motion
 std::filesystem::path frame_file(const SceneResult& scene, int frame, const std::string& kind);
 
 }  // namespace drape

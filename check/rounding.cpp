@@ -11,21 +11,21 @@
 namespace drape {
 namespace {
 
-constexpr int position_bits = 29;        // below the largest coordinate of the cloth at rest
-constexpr double compared_part = 0.1;    // of the tolerance
-constexpr int smallest_exponent = -900;  // of any quantum: numbers in it are then still normal
+constexpr int position_bits = 29;        // bits below the largest coordinate of the cloth at rest
+constexpr double compared_part = 0.1;    // share of the tolerance
+constexpr int smallest_exponent = -900;  // exponent limit of all quanta, so that their multiples are normal numbers
 
 constexpr double largest_multiple = 0x1p52;
 
-// What these effects promise of a state may hold by less than a rounding.
+// The constraints of these effects may hold by less than a rounding error.
 constexpr std::array<std::string_view, 2> exact_effects{SelfCollision::name, StrainLimit::name};
 
-/// The largest power of two that is not above a number.
+/// Returns the largest power of two up to a number.
 double power_below(double number) { return std::exp2(std::max(std::ilogb(number), smallest_exponent)); }
 
 double nearest(double value, double quantum) {
   const double multiple = std::nearbyint(value / quantum);
-  return std::abs(multiple) < largest_multiple ? multiple * quantum : value;  // which is a multiple already
+  return std::abs(multiple) < largest_multiple ? multiple * quantum : value;  // larger values are multiples already
 }
 
 }  // namespace

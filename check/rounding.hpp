@@ -7,37 +7,35 @@
 
 namespace drape {
 
-/// To what a golden's numbers are rounded: powers of two, so that what is rounded is exact, and stays when it is
-/// rounded again. 0: not at all.
+/// The rounding units of a golden's numbers: powers of two, so that rounding is exact and repeatable. 0: no rounding.
 struct Quanta {
-  double position = 0;  ///< of the states in which windows begin, and of pictures [m]
-  double velocity = 0;  ///< of those states [m/s]
-  double compared = 0;  ///< of what is only compared [m]
+  double position = 0;  ///< quantum of states at the start of windows, and of pictures [m]
+  double velocity = 0;  ///< quantum of these states [m/s]
+  double compared = 0;  ///< quantum of data that are only compared [m]
 
   bool operator==(const Quanta&) const = default;
 
-  /// Of the motion's end, from which nothing goes on.
+  /// Returns the quanta for the end of the motion, from which no step begins.
   [[nodiscard]] Quanta at_end() const { return {compared, velocity_factor * compared, compared}; }
 
-  static constexpr double velocity_factor = 16;  ///< what is rounded leads as far in a sixteenth of a second [1/s]
+  static constexpr double velocity_factor = 16;  ///< velocity quantum per position quantum [1/s]
 };
 
-/// The finest rounding of what is compared, where the bits are to be the same [m].
+/// Finest rounding of compared data, for bit-equal comparisons [m].
 constexpr double least_quantum = 0x1p-34;
 
-/// A position takes about 30 bits, and a velocity is rounded to what leads as far in a sixteenth of a second. Both are
-/// exact where the rounding of a state could break a constraint that steps keep: of layers that touch each other, or of
-/// springs that must not be longer. What is compared is rounded to a tenth of the tolerance, so that the rounding
-/// decides nothing.
+/// Returns the quanta of a motion. A position has about 30 bits; the velocity quantum moves a vertex by one position
+/// quantum in 1/16 s. Both quanta are 0 if rounding could violate a constraint: contact of layers, or strain limits.
+/// Compared data are rounded to a tenth of the tolerance, too fine to affect a verdict.
 Quanta quanta_for(const SimulationSettings& settings, double motion_tolerance);
 
-/// Every coordinate to the nearest multiple, but for some rows.
+/// Rounds every coordinate to the nearest multiple, except in some rows.
 Vertices rounded(const Vertices& values, double quantum, const std::vector<int>& exact_rows = {});
 
-/// Every number to the nearest multiple.
+/// Rounds every number to the nearest multiple.
 std::vector<double> rounded(std::vector<double> numbers, double quantum);
 
-/// A state as a window begins with it. Pins stay where they are.
+/// Rounds the start state of a window; pins keep their positions.
 State rounded(const State& state, const std::vector<int>& pins, const Quanta& quanta);
 
 }  // namespace drape

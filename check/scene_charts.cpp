@@ -19,7 +19,7 @@ NamedChart motion_chart(const SceneResult& scene, const Comparison& comparison) 
                                fmt::format("step {}: {}", deviation.step, readable_length(deviation.distance)),
                                {}});
     }
-    series.points.push_back({NAN, NAN, {}, {}});  // every window starts anew from a golden state
+    series.points.push_back({NAN, NAN, {}, {}});  // each window starts from a golden state: interrupt the line
   }
   html::Chart chart{"Largest vertex deviation from the golden motion, halfway through and at the end of every window",
                     "step",

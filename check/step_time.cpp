@@ -13,20 +13,19 @@
 namespace drape {
 namespace {
 
-constexpr double shortest_run = 0.03;  // of what is measured at once [s]
+constexpr double shortest_run = 0.03;  // duration of one measurement [s]
 constexpr double calibration_time = 0.01;
-constexpr std::size_t turns = 7;  // of which the median counts
-constexpr int attempts = 6;       // until a time counts as too long
+constexpr std::size_t turns = 7;  // the result is their median
+constexpr int attempts = 6;       // measurements before a time counts as too long
 
-/// Processor time of this thread [s].
+/// Returns the CPU time of this thread [s].
 double thread_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// A loop over springs between points, of the kind that simulations spend their time in. It stays as it is: goldens
-/// hold ratios to it.
+/// A loop over springs between points, typical of a simulation's work. It must not change: goldens hold ratios to it.
 class Calibration {
  public:
   Calibration() {
@@ -35,7 +34,7 @@ class Calibration {
     }
   }
 
-  /// Time of a pass over all springs [s].
+  /// Returns the time of a pass over all springs [s].
   double seconds() {
     const double begin = thread_seconds();
     double now = begin;
@@ -64,8 +63,8 @@ class Calibration {
   std::vector<std::array<double, 3>> x_ = std::vector<std::array<double, 3>>(points);
 };
 
-/// Runs the first steps. Where `steps` is 0, steps until it has taken long enough.
-/// @returns how many they were
+/// Runs the first steps; with `steps` = 0, until the time is measurable.
+/// @returns their number
 std::int64_t run(const Scene& scene, std::int64_t steps, const std::stop_token& stop) {
   const double begin = thread_seconds();
   Simulation simulation(scene.simulation);
@@ -78,7 +77,7 @@ std::int64_t run(const Scene& scene, std::int64_t steps, const std::stop_token& 
   return done;
 }
 
-/// Time of a run, of which short ones are repeated [s].
+/// Returns the time of a run, repeated if short [s].
 double run_seconds(const Scene& scene, std::int64_t steps, const std::stop_token& stop) {
   const double begin = thread_seconds();
   double taken = 0;
@@ -101,7 +100,7 @@ double median(std::vector<double> values) {
 std::optional<GoldenTime> measure_step_time(const Scene& scene, std::int64_t steps, const std::stop_token& stop) {
   Calibration calibration;
   GoldenTime time;
-  time.steps = run(scene, steps, stop);  // also brings everything into caches
+  time.steps = run(scene, steps, stop);  // also warms the caches
   std::vector<double> ratios;
   double before = calibration.seconds();
   for (std::size_t turn = 0; turn < turns && time.steps > 0; ++turn) {

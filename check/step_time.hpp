@@ -10,17 +10,17 @@
 
 namespace drape {
 
-/// Measures the processor time of setting a scene up and of its first steps, as a ratio to a loop that does not change
-/// between versions and runs in turns with it. The median of several turns.
-/// @param steps of the measured run; 0: as many as take long enough to be measured, at most the whole motion
-/// @returns nothing if it was stopped
+/// Measures the CPU time of a scene's setup and first steps, relative to a fixed calibration loop that alternates with
+/// it. Returns the median of several turns.
+/// @param steps of the measured run; 0: as many as a measurable time needs, at most the whole motion
+/// @returns nothing if stopped
 /// @throws DivergedError
 std::optional<GoldenTime> measure_step_time(const Scene& scene, std::int64_t steps, const std::stop_token& stop);
 
-/// Compares a scene's time with its golden one. Where the limit is exceeded it measures again, several times, so that a
-/// busy machine does not fail a check.
-/// @param limit largest accepted ratio of both
-/// @returns "the first 40 steps take 1.52 times as long as …"; empty if they do not, or if it was stopped
+/// Compares a scene's time with its golden one. Repeats the measurement several times if the limit is exceeded, so that
+/// a busy machine does not fail a check.
+/// @param limit largest accepted ratio of the two
+/// @returns "the first 40 steps take 1.52 times as long as …"; empty if within the limit or stopped
 /// @throws DivergedError
 std::string time_mismatch(const Scene& scene, const GoldenTime& golden, double limit, const std::stop_token& stop);
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_bodies = 64;  // bits in FrameFacts::touched
 
-/// "the sphere"; of several, "sphere 2".
+/// Returns "the sphere", or "sphere 2" if there are several.
 std::vector<std::string> names_of(const std::vector<Collider>& colliders) {
   std::map<std::string, int> count;
   for (const Collider& collider : colliders) ++count[body_kind(collider)];
@@ -32,7 +32,7 @@ std::vector<std::string> names_of(const std::vector<Collider>& colliders) {
   return names;
 }
 
-/// Whether a vertex is where a body pushes, or in the box around a mesh.
+/// Returns true if a vertex is within a body's range of contact, or in the bounding box of a mesh.
 bool touches(const Vertices& x, const Collider& collider) {
   if (const auto* sphere = std::get_if<SphereShape>(&collider)) {
     const double reach = std::max(sphere->reach, sphere->radius);
@@ -48,7 +48,7 @@ bool touches(const Vertices& x, const Collider& collider) {
   return (x * ground.normal).minCoeff() < ground.height + ground.thickness;
 }
 
-/// Towards the camera, which may not have a place yet.
+/// Returns the direction towards the camera; one that follows the motion is placed for the start.
 Eigen::Vector3d towards_camera(const Scene& scene) {
   if (!needs_motion(scene.camera)) return fixed_view(scene.camera).axes().row(2);
   Framing framing(scene.camera, static_cast<double>(scene.video.size.x()) / scene.video.size.y());

@@ -11,9 +11,9 @@
 
 namespace drape {
 
-/// Runs a scene's golden motion, see run_chained(), to see what happens in its film.
-/// @param recorded the motion, which is read then; null: the scene is simulated
-/// @returns nothing if it was stopped
+/// Runs a scene's golden motion, see run_chained(), and collects the facts of its film.
+/// @param recorded the motion to read; null: the scene is simulated
+/// @returns nothing if stopped
 /// @throws DivergedError
 std::optional<FilmFacts> survey_motion(const Scene& scene, std::int64_t window_steps, const Quanta& quanta,
                                        const std::stop_token& stop, Progress& progress,

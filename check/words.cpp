@@ -29,7 +29,7 @@ Words unpack_words(std::string_view bytes, std::uint64_t most) {
       throw std::invalid_argument("has a size that cannot be read");
     size = 10 * size + static_cast<std::size_t>(c - '0');
   }
-  // zlib packs a byte into no less than a thousandth of one: nothing larger is reserved for a damaged file.
+  // The compression ratio of zlib is below 1100: reserve no more for a damaged file.
   if (line == std::string_view::npos || size % 8 != 0 || size / 1100 > bytes.size()) {
     throw std::invalid_argument("is truncated");
   }

@@ -11,19 +11,19 @@ namespace drape {
 
 using Words = std::vector<std::uint64_t>;
 
-/// Words as bytes: those of most significance of all words first, then the next ones, compressed by zlib, after a line
-/// that says how many bytes they unpack to.
+/// Serialises words: the most significant bytes of all words first, then the next ones, compressed by zlib. A line with
+/// the unpacked size comes first.
 std::string pack_words(const Words& words);
 
-/// The inverse.
-/// @param most how many words there can be: nothing larger is unpacked
-/// @throws std::invalid_argument saying what is wrong with the bytes
+/// Reads these bytes.
+/// @param most largest number of words; larger data are rejected before decompression
+/// @throws std::invalid_argument that describes the error in the bytes
 Words unpack_words(std::string_view bytes, std::uint64_t most);
 
-/// Writes numbers of all kinds as words.
+/// Writer of numbers as words.
 class WordWriter {
  public:
-  /// Small ones of either sign are stored as small ones without: 0, −1, 1, −2, …
+  /// Writes a number in zigzag encoding, which maps 0, −1, 1, −2, … to small unsigned numbers.
   void whole(std::int64_t n) { bits((static_cast<std::uint64_t>(n) << 1) ^ static_cast<std::uint64_t>(n >> 63)); }
   void bits(std::uint64_t n) { words_.push_back(n); }
   void number(double value) { bits(std::bit_cast<std::uint64_t>(value)); }
@@ -33,8 +33,8 @@ class WordWriter {
   Words words_;
 };
 
-/// Reads them again.
-/// @throws std::invalid_argument where there is nothing more, or something that cannot be
+/// Reader of words.
+/// @throws std::invalid_argument at the end of the data, or for an invalid number
 class WordReader {
  public:
   explicit WordReader(Words words) : words_(std::move(words)) {}
@@ -53,7 +53,7 @@ class WordReader {
     return n;
   }
   double number();
-  /// Looks that so many words follow, before anything is made for them.
+  /// Checks that enough words follow, before memory is allocated for them.
   void need(std::uint64_t words) const {
     if (words > words_.size() - next_) throw std::invalid_argument("is truncated");
   }
@@ -64,7 +64,7 @@ class WordReader {
   std::size_t next_ = 0;
 };
 
-/// The number, which must be finite. @throws std::invalid_argument if it is not
+/// Returns the number if it is finite. @throws std::invalid_argument otherwise
 double finite(double value);
 
 }  // namespace drape

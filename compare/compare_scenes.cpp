@@ -27,7 +27,7 @@ constexpr int most_page_pictures = 75, most_page_moments = 25;
 
 bool is_page(const std::string& path) { return std::filesystem::path(path).extension() == ".html"; }
 
-/// Those of the outputs that are pages, or those that are not.
+/// Returns the outputs that are pages, or those that are not.
 std::vector<std::string> outputs_that(bool pages, const CompareOptions& options) {
   std::vector<std::string> chosen;
   for (const std::string& path : options.outputs) {
@@ -36,7 +36,7 @@ std::vector<std::string> outputs_that(bool pages, const CompareOptions& options)
   return chosen;
 }
 
-/// Those that are drawn.
+/// Returns the frames to draw.
 FrameRange frames_of(const std::vector<Scene>& scenes, const CompareOptions& options) {
   const FrameRange all = all_frames(scenes, options), wanted = options.frames.value_or(all);
   if (wanted.last > all.last) {
@@ -97,10 +97,10 @@ class Comparison {
  private:
   using Moment = MotionsInStep::Moment;
 
-  /// Whether the motions must be known before the first picture of them is drawn.
+  /// Returns true if the motions must be known before the first picture is drawn.
   [[nodiscard]] bool look_ahead() const { return needs_motion(first_.camera) || colors_.needs_motion(); }
 
-  /// Plays the motions from their start.
+  /// Plays the motions from the start.
   template <class Work>
   void play(const char* stage, int last, Work work) {
     progress_.begin(stage, "frames", last + 1);
@@ -110,7 +110,7 @@ class Comparison {
     });
   }
 
-  /// @returns nothing if it was interrupted
+  /// @returns nothing if interrupted
   std::optional<CameraPath> find_path() {
     const int count = all_frames(scenes_, options_).count();
     if (look_ahead()) {
@@ -155,7 +155,7 @@ class Comparison {
     outputs_.add({*moment.front(), layout_.compose(pen_, panels, extra, fmt::format("t = {:.2f} s", time), bar_)});
   }
 
-  /// Has a page's players take the motions, unless a browser could not hold them.
+  /// Prepares the page's players, unless the motions are too large for a browser.
   void begin_players() {
     const FilmInfo film = comparison_info(scenes_, options_);
     std::size_t vertices = 0;
@@ -193,7 +193,7 @@ class Comparison {
     }
   }
 
-  /// Whether a page shows this frame: so many, evenly spread, the first and the last among them.
+  /// Returns true if the page shows this frame: evenly spread frames, with the first and the last.
   [[nodiscard]] bool on_page(int index) const {
     if (outputs_that(true, options_).empty()) return false;
     const int moments = std::clamp(most_page_pictures / static_cast<int>(scenes_.size()), 2, most_page_moments);
@@ -212,7 +212,7 @@ class Comparison {
     }
   }
 
-  /// The diagrams of a page, beside it.
+  /// Writes the diagrams of a page beside it.
   void write_diagrams(const std::filesystem::path& page) {
     const std::filesystem::path folder = page.parent_path() / (page.stem().string() + "-diagrams");
     for (const NamedChart& diagram : comparison_charts(result_)) {
@@ -232,9 +232,9 @@ class Comparison {
   PanelLayout layout_;
   MotionsInStep motions_;
   Outputs outputs_;
-  bool comparable_ = true;  // vertex by vertex
+  bool comparable_ = true;  // the motions have matching vertices
   std::vector<Renderer> renderers_;
-  std::deque<MotionPacker> packers_;  // by motion, where there is a page
+  std::deque<MotionPacker> packers_;  // by motion; empty without a page
   std::optional<Image> bar_;
   std::vector<PageMoment> moments_;
   CompareResult result_;
@@ -257,7 +257,7 @@ FilmInfo comparison_info(const std::vector<Scene>& scenes, const CompareOptions&
   film.height = size.y();
   film.largest_file = options.largest_file;
   film.sheet = options.sheet;
-  if (film.sheet) film.sheet->labelled = false;  // every picture says its time
+  if (film.sheet) film.sheet->labelled = false;  // every picture has its time
   return film;
 }
 

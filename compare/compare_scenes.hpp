@@ -17,58 +17,58 @@
 
 namespace drape {
 
-/// How scenes are compared.
+/// Options of a comparison.
 struct CompareOptions {
-  /// By scene: its motion, where that is in a file and need not be computed. Empty: none is.
+  /// Motion file of each scene; null: the scene is simulated. Empty: all are simulated.
   std::vector<std::shared_ptr<MotionReader>> recorded;
-  std::vector<std::string> outputs;  ///< films, pictures and sheets as of a run; .html: a page
-  int columns = 0, rows = 0;         ///< of the grid of panels; 0: what suits their number
-  bool difference = false;           ///< colour each by its distance to the first
-  std::optional<SheetGrid> sheet;    ///< what a .png without {frame} holds instead of the last picture
+  std::vector<std::string> outputs;  ///< films, pictures and sheets as for a run; .html: a page
+  int columns = 0, rows = 0;         ///< size of the grid of panels; 0: automatic
+  bool difference = false;           ///< colour each cloth by its distance to the first
+  std::optional<SheetGrid> sheet;    ///< frames in a .png whose path lacks {frame}; absent: the last
   std::optional<std::int64_t> steps;
   std::optional<FrameRange> frames;
-  std::optional<FileLimit> largest_file;  ///< that a film may become, see FittedFilm
+  std::optional<FileLimit> largest_file;  ///< size limit of a film, see FittedFilm
   GlBackend backend = GlBackend::automatic;
-  std::string command;  ///< that asked for it, for the page
+  std::string command;  ///< the user's command, for the page
 };
 
-/// What became of one of the motions.
+/// The result for one of the motions.
 struct ComparedMotion {
   std::string label;
   Statistics statistics;
   std::string divergence;                         ///< empty unless it diverged
-  std::vector<double> total_energy;               ///< by frame [J]
-  std::vector<std::optional<double>> most, mean;  ///< of the vertices' distances to the first, by frame [m]
+  std::vector<double> total_energy;               ///< total energy per frame [J]
+  std::vector<std::optional<double>> most, mean;  ///< vertex distances to the first motion, per frame [m]
   std::string method = {};                        ///< "liu13", "implicit-sdirk2"
-  std::string matched = {};                       ///< how its vertices are compared, see VertexMatch::note
-  html::PlayedMotion played = {};                 ///< to turn on a page; without frames where there is none
+  std::string matched = {};                       ///< matching of its vertices, see VertexMatch::note
+  html::PlayedMotion played = {};  ///< motion for interactive viewing on a page; without frames if there is none
 };
 
 struct CompareResult {
   bool interrupted = false;
   std::vector<ComparedMotion> motions;
   std::vector<KeyDifference> differences;
-  std::vector<double> times;  ///< of the frames [s]
+  std::vector<double> times;  ///< times of the frames [s]
   int frames_wanted = 0;
-  std::vector<std::vector<OutputFile>> outputs;  ///< the files of each output that there is
-  std::vector<std::string> problems;             ///< a message for each that could not be written
-  std::string missing;  ///< what of the page's diagrams could not be made, as a sentence; empty: nothing
+  std::vector<std::vector<OutputFile>> outputs;  ///< the files of each completed output
+  std::vector<std::string> problems;             ///< a message for each output that could not be written
+  std::string missing;                           ///< a sentence on missing diagrams of the page; empty: none missing
 };
 
-/// The moments of the i-th motion that a comparison shows: those of the first scene's film.
+/// Returns the times of the i-th motion in a comparison: those of the first scene's film.
 /// @throws UsageError as FilmExtent
 FilmExtent compared_extent(const std::vector<Scene>& scenes, const CompareOptions& options, std::size_t i);
 
-/// What is known of the film of a comparison before its first frame: the clock and the size are the first scene's.
+/// Returns the known properties of a comparison's film; frame rate and size are the first scene's.
 /// @throws UsageError as FilmExtent, and if the grid is too small
 FilmInfo comparison_info(const std::vector<Scene>& scenes, const CompareOptions& options);
 
-/// Looks whether scenes can be compared, and opens everything that would be written.
-/// @throws Error what compare_scenes() would end with
+/// Checks that scenes can be compared and that all outputs can be opened.
+/// @throws Error as compare_scenes() would
 void require_comparison(const std::vector<Scene>& scenes, const CompareOptions& options);
 
-/// Draws the motions of scenes side by side, as MotionsInStep plays them, from one camera that has all of them in view,
-/// the first scene's.
+/// Draws the motions of scenes side by side, as MotionsInStep plays them. All use the first scene's camera, which has
+/// every motion in view.
 /// @param scenes at least two
 CompareResult compare_scenes(const std::vector<Scene>& scenes, const CompareOptions& options,
                              const std::stop_token& stop, Progress& progress);

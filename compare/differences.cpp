@@ -9,7 +9,7 @@
 namespace drape {
 namespace {
 
-constexpr std::size_t most_named = 4;  // differences in a label; the page has all of them
+constexpr std::size_t most_named = 4;  // in a label; the page lists all differences
 constexpr const char *absent = "–", *present = "there";
 
 bool counts(const std::string& key) {
@@ -17,7 +17,7 @@ bool counts(const std::string& key) {
   return key != "scene" && std::ranges::none_of(taken_from_first, [&](auto table) { return key.starts_with(table); });
 }
 
-/// Of a key of an effect, the effect: "effects.sphere"; else nothing.
+/// Returns the effect of an effect's key: "effects.sphere"; empty for other keys.
 std::string effect_of(const std::string& key) {
   return key.starts_with("effects.") ? key.substr(0, key.rfind('.')) : std::string();
 }
@@ -35,7 +35,7 @@ bool all_same(const std::vector<std::string>& values) {
   return std::ranges::all_of(values, [&](const std::string& value) { return value == values.front(); });
 }
 
-/// Names that tell scenes apart: theirs, or those of their files, or where these lie. Theirs, if none of them do.
+/// Returns distinct names: the scenes' names, else their file names, else their paths; the scenes' names by default.
 std::vector<std::string> names_of(const std::vector<Scene>& scenes) {
   std::vector<std::vector<std::string>> choices(3);
   for (const Scene& scene : scenes) {
@@ -49,7 +49,7 @@ std::vector<std::string> names_of(const std::vector<Scene>& scenes) {
   return choices[0];
 }
 
-/// "method = liu13"; a method needs no name.
+/// Returns "method = liu13"; the value alone for a method or scheme.
 std::string difference_text(const KeyDifference& difference, std::size_t scene) {
   const std::string& value = difference.values[scene];
   if (effect_of(difference.key) == "effects") {
@@ -64,12 +64,12 @@ std::string difference_text(const KeyDifference& difference, std::size_t scene) 
 }  // namespace
 
 std::vector<KeyDifference> differences(const std::vector<Scene>& scenes) {
-  // A motion that was made elsewhere has no keys to compare.
+  // A motion from another program has no keys to compare.
   if (std::ranges::any_of(scenes, [](const Scene& scene) { return scene.fields.empty(); })) return {};
   std::vector<std::string> keys;
   for (const Scene& scene : scenes) {
     for (const SceneField& field : scene.fields) {
-      // Of an effect that not all of them have, there is nothing else to say.
+      // Report an effect that some scenes lack as one difference, without its keys.
       const std::string effect = effect_of(field.path);
       const bool shared =
           effect.empty() || std::ranges::all_of(scenes, [&](const Scene& other) { return has_effect(other, effect); });
@@ -90,7 +90,7 @@ std::vector<KeyDifference> differences(const std::vector<Scene>& scenes) {
 }
 
 std::vector<std::string> labels(const std::vector<Scene>& scenes, const std::vector<KeyDifference>& differences) {
-  std::vector<KeyDifference> told;  // what things look like is seen
+  std::vector<KeyDifference> told;  // without keys of the look, which is visible
   std::ranges::copy_if(differences, std::back_inserter(told),
                        [](const KeyDifference& difference) { return !difference.key.starts_with("look."); });
   std::vector<std::string> names;

@@ -7,18 +7,18 @@
 
 namespace drape {
 
-/// A key in which scenes differ, and what each of them has.
+/// A key with different values in some scenes.
 struct KeyDifference {
   std::string key;                  ///< "integrator.method"
-  std::vector<std::string> values;  ///< by scene; "–" where it has no such key
+  std::vector<std::string> values;  ///< values by scene; "–" for a missing key
 };
 
-/// Every such key, given or not. What a comparison takes from its first scene alone does not count: camera, film, and
-/// what stands beside the picture.
+/// Returns the keys that differ, given or by default. Excludes keys that a comparison takes from its first scene:
+/// camera, film, caption and overlay.
 std::vector<KeyDifference> differences(const std::vector<Scene>& scenes);
 
-/// What tells each scene from the others, in words: "liu13, tolerance = 0.001". Their names, where these differ or
-/// nothing else does.
+/// Returns a label for each scene that tells it from the others: "liu13, tolerance = 0.001". Uses the scenes' names if
+/// they differ, or if nothing else does.
 std::vector<std::string> labels(const std::vector<Scene>& scenes, const std::vector<KeyDifference>& differences);
 
 }  // namespace drape

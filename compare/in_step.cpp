@@ -8,7 +8,7 @@
 namespace drape {
 namespace {
 
-/// What is seen of all motions at a moment.
+/// Combines the vertices and colliders of all motions at a moment.
 Frame together(const MotionsInStep::Moment& moment) {
   Frame all{};
   Eigen::Index rows = 0;
@@ -51,14 +51,14 @@ MotionsInStep::MotionsInStep(const std::vector<Scene>& scenes, const CompareOpti
 }
 
 void MotionsInStep::play(int last, const std::stop_token& stop, const std::function<void(int, const Moment&)>& work) {
-  std::deque<FramePlayer> players;  // which cannot be moved
+  std::deque<FramePlayer> players;  // a deque, since players cannot be moved
   for (FrameSource& source : sources_) players.emplace_back(source);
   Moment moment(players.size());
   for (int k = 0; k <= last && !stop.stop_requested(); ++k) {
     for (std::size_t i = 0; i < players.size(); ++i) moment[i] = &players[i].next();
     work(k, moment);
   }
-  // A motion is over, and known, when there is no frame any more.
+  // A motion counts as known after its last frame: ask for one more.
   for (std::size_t i = 0; i < players.size() && !stop.stop_requested(); ++i) players[i].next();
 }
 

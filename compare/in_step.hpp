@@ -12,34 +12,34 @@
 
 namespace drape {
 
-/// The frames of a comparison: until the last motion is over.
+/// Returns the frames of a comparison, up to the end of the longest motion.
 FrameRange all_frames(const std::vector<Scene>& scenes, const CompareOptions& options);
 
-/// The motions of a comparison, each at the moments of the first scene's film. Each is computed once, however often
-/// they are played, or read where it is in a file; they are never held in memory.
+/// The motions of a comparison, each at the times of the first scene's film. Each motion is simulated once, for any
+/// number of passes, or read from its file. Frames beyond a memory limit are stored in temporary files.
 class MotionsInStep {
  public:
-  /// By motion: its frame of a moment. A motion that is over, or has diverged, stays as it was last.
+  /// The current frame of each motion. A motion that has ended or diverged keeps its last frame.
   using Moment = std::vector<const Frame*>;
 
-  /// @param scenes outlive it
-  /// @param often  whether they are played more than once, from their start to the end of all
+  /// @param scenes outlive the object
+  /// @param often  true if the motions are played more than once, always from start to end
   MotionsInStep(const std::vector<Scene>& scenes, const CompareOptions& options, bool often);
 
-  /// Plays all of them from their start, and tells of every moment up to the last. Ends early when a stop is requested.
+  /// Plays all motions from the start; calls work(k, moment) for each frame k up to `last`. Ends early when stopped.
   void play(int last, const std::stop_token& stop, const std::function<void(int, const Moment&)>& work);
 
-  /// The i-th, as far as it was played.
+  /// Returns the i-th motion, as far as it was played.
   [[nodiscard]] const FrameSource& motion(std::size_t i) const { return sources_[i]; }
 
-  /// Where the first scene's camera is in each of so many frames: what its view must have in view are all motions, and
-  /// a direction that it leaves open is the one that its own film would have.
-  /// @returns nothing if a stop is requested before that is known
+  /// Returns the first scene's camera for `count` frames, with all motions in view. A direction that the scene leaves
+  /// open is that of its own film.
+  /// @returns nothing if stopped before that is known
   std::optional<CameraPath> camera_path(int count, const std::stop_token& stop);
 
  private:
   const std::vector<Scene>& scenes_;
-  int first_count_;  // frames of the first motion
+  int first_count_;  // frames of the first motion's film
   std::deque<FrameSource> sources_;
 };
 

@@ -39,7 +39,7 @@ Markup differences_table(const CompareResult& result) {
   return html::table(table);
 }
 
-/// The largest of numbers by frame; nothing where there are none.
+/// Returns the largest value over all frames; nothing if there is none.
 std::optional<double> largest(const std::vector<std::optional<double>>& values) {
   std::optional<double> most;
   for (const auto& value : values) {
@@ -76,7 +76,7 @@ Markup figures_table(const CompareResult& result) {
                                   "read from a file has none.");
 }
 
-/// An empty series of the i-th motion: in the colour of its method where that tells the motions apart.
+/// Returns an empty series for the i-th motion, in its method's colour if the methods tell all motions apart.
 html::ChartSeries series_of(const CompareResult& result, std::size_t i) {
   std::set<std::string> methods;
   for (const ComparedMotion& motion : result.motions) methods.insert(motion.method);
@@ -91,8 +91,8 @@ html::ChartSeries series_of(const CompareResult& result, std::size_t i) {
   return series;
 }
 
-/// Lines over time, one for each motion.
-/// @param of a motion's numbers by frame
+/// Plots a quantity over time, a line per motion.
+/// @param of returns a motion's value at a frame
 template <class Of>
 NamedChart lines(const CompareResult& result, const std::string& name, const std::string& title,
                  const std::string& y_title, Of of) {
@@ -109,7 +109,7 @@ NamedChart lines(const CompareResult& result, const std::string& name, const std
   return {name, std::move(chart)};
 }
 
-/// Each motion to turn, opened one at a time.
+/// Returns a player for each motion; one opens at a time.
 Markup players(const CompareResult& result) {
   Markup content;
   for (std::size_t i = 0; i < result.motions.size(); ++i) {

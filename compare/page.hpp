@@ -8,18 +8,17 @@
 
 namespace drape {
 
-/// A moment of a comparison, as a page shows it.
+/// A moment of a comparison on a page.
 struct PageMoment {
   double time = 0;                    ///< [s]
   std::vector<std::string> pictures;  ///< PNG files, by panel
 };
 
-/// The diagrams of a page, as far as there is anything to draw: "energy", and how far motions are from the first,
-/// "distance".
+/// Returns the diagrams of a page: "energy", and "distance" for the distances to the first motion. Omits empty ones.
 std::vector<NamedChart> comparison_charts(const CompareResult& result);
 
-/// A self-contained page: the motions in step, their figures, and in what they differ.
-/// @param bar a PNG file that says what the colours mean; empty: they mean nothing
+/// Returns a self-contained page: the motions in step, their figures, and their differing keys.
+/// @param bar PNG file of the colour bar; empty: there is none
 std::string comparison_page(const CompareResult& result, const std::vector<PageMoment>& moments, const std::string& bar,
                             const std::string& command);
 

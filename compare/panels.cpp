@@ -13,16 +13,16 @@
 namespace drape {
 namespace {
 
-constexpr int gap = 6;  // between panels [pixels]
+constexpr int gap = 6;  // gap between panels [pixels]
 constexpr std::uint8_t paper = 255;
 
-/// A unit in which a length has few digits, and how many of it are a metre.
+/// Returns a unit in which a length has few digits, and its number per metre.
 std::pair<const char*, double> unit_of(double length) {
   if (length >= 0.5) return {"m", 1};
   return length >= 5e-4 ? std::pair{"mm", 1e3} : std::pair{"µm", 1e6};
 }
 
-/// Puts a picture below another of the same width.
+/// Appends a picture of the same width below another.
 void append_below(Image& upper, const Image& lower) {
   upper.height += lower.height;
   upper.pixels.insert(upper.pixels.end(), lower.pixels.begin(), lower.pixels.end());
@@ -58,7 +58,7 @@ void PanelColors::survey(const std::vector<const Frame*>& frames) {
 }
 
 std::vector<Rgb> PanelColors::colors(const std::vector<const Frame*>& frames, std::size_t panel) const {
-  // The first one is what the others are compared with: it looks as it does.
+  // The first scene is the reference, and keeps its own look.
   if (!scale_ || (difference_ && panel == 0)) return {};
   return scale_->colors(values(frames, panel));
 }

@@ -14,46 +14,46 @@
 
 namespace drape {
 
-/// What the vertices' colours show in all panels of a comparison, on one scale: their distance to the first scene's, or
-/// what the first scene's look says; nothing where it says nothing.
+/// Vertex colours in all panels of a comparison, on a common scale. They show the distance to the first scene's
+/// vertices, or the quantity in the first scene's look; without either there are none.
 class PanelColors {
  public:
   PanelColors(const std::vector<Scene>& scenes, const std::vector<std::string>& labels, bool difference);
 
   [[nodiscard]] bool wanted() const { return scale_.has_value(); }
   [[nodiscard]] bool needs_motion() const { return scale_ && scale_->needs_motion(); }
-  /// The next moment of all motions.
+  /// Adds the next frame of all motions to the survey.
   void survey(const std::vector<const Frame*>& frames);
-  /// Of a panel's vertices; none: the cloth looks as its scene says.
+  /// Returns the colours of a panel's vertices; empty: the scene's own look.
   [[nodiscard]] std::vector<Rgb> colors(const std::vector<const Frame*>& frames, std::size_t panel) const;
-  /// The bar below all panels.
+  /// Draws the colour bar below all panels.
   [[nodiscard]] Image bar(Pen& pen, int width, int size) const;
 
  private:
   [[nodiscard]] Eigen::VectorXd values(const std::vector<const Frame*>& frames, std::size_t panel) const;
 
   bool difference_;
-  std::string first_;                    // the first scene's label
-  std::vector<VertexMeasure> measures_;  // by scene; empty where distances are shown
-  std::vector<VertexMatch> matches_;     // by scene, where distances are shown
+  std::string first_;                    // label of the first scene
+  std::vector<VertexMeasure> measures_;  // measures by scene; empty if distances are shown
+  std::vector<VertexMatch> matches_;     // matches by scene, if distances are shown
   std::optional<ColorScale> scale_;
 };
 
-/// How panels stand in a picture, and what stands with them.
+/// The layout of panels in a picture, with their headings, the time and the colour bar.
 class PanelLayout {
  public:
-  /// @param columns of the grid; 0: what suits the number of panels
-  /// @param extra   lines in each head beside its label
+  /// @param columns of the grid; 0: automatic
+  /// @param extra   lines in each heading below its label
   /// @throws UsageError if the grid is too small
   PanelLayout(Pen& pen, const std::vector<std::string>& labels, const Eigen::Vector2i& panel, int columns, int rows,
               int extra, bool bar);
 
-  /// Of the whole picture [pixels].
+  /// Returns the size of the whole picture [pixels].
   [[nodiscard]] Eigen::Vector2i size() const;
   [[nodiscard]] int text_size() const { return text_; }
 
-  /// Puts pictures of the panels' size under their heads, and what belongs to all of them below.
-  /// @param extra for each panel a line more for its head, or none at all
+  /// Composes panel pictures with headings above, time and colour bar below.
+  /// @param extra an additional heading line for each panel, or empty
   [[nodiscard]] Image compose(Pen& pen, const std::vector<Image>& panels, const std::vector<std::string>& extra,
                               const std::string& time, const std::optional<Image>& bar) const;
 
@@ -68,8 +68,8 @@ class PanelLayout {
   bool bar_;
 };
 
-/// How far vertices are from where another frame has them [m].
-/// @param order the numbers that they have there; empty: the same
+/// Returns the distances of vertices from those of another frame [m].
+/// @param order indices of the vertices in the other frame; empty: equal indices
 Eigen::VectorXd distances(const Frame& frame, const Frame& other, const VertexOrder& order = {});
 
 }  // namespace drape

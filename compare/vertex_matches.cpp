@@ -3,7 +3,7 @@
 namespace drape {
 namespace {
 
-constexpr double same_place = 1e-3;  // edges
+constexpr double same_place = 1e-3;  // tolerance, in mean edge lengths
 
 VertexMatch match(const Cloth& cloth, const Cloth& first) {
   VertexMatch found;

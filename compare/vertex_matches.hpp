@@ -8,15 +8,15 @@
 
 namespace drape {
 
-/// The vertices of the first scene that those of another one are compared with.
+/// A mapping of a scene's vertices to those of the first scene.
 struct VertexMatch {
-  bool comparable = true;  ///< it has as many
-  VertexOrder order;       ///< by vertex of this scene that of the first; empty: the same number
-  std::string note;        ///< the end of a sentence that begins with the scene's name, where numbers are not enough
+  bool comparable = true;  ///< both have the same number of vertices
+  VertexOrder order;       ///< index in the first scene, by vertex of this scene; empty: equal indices
+  std::string note;        ///< end of a sentence that begins with the scene's name, unless indices are equal
 };
 
-/// Matches the vertices of each scene with those of the first. They have the same numbers where the triangles are the
-/// same, or where they start at the same places. Otherwise they are matched by where they start, if that is possible.
+/// Matches the vertices of each scene with those of the first. Indices are kept if the triangles or the start positions
+/// are the same. Otherwise vertices are matched by their start positions, if possible.
 std::vector<VertexMatch> match_scenes(const std::vector<Scene>& scenes);
 
 }  // namespace drape

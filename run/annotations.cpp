@@ -13,14 +13,14 @@
 namespace drape {
 namespace {
 
-/// Told apart with any kind of colour vision (M. Okabe and K. Ito 2008), whatever the method.
+/// Colours distinguishable with any kind of colour vision (M. Okabe and K. Ito 2008).
 const Rgb total_color{0, 0, 0}, kinetic_color{0.835, 0.369, 0}, gravity_color{0, 0.447, 0.698},
     elastic_color{0, 0.620, 0.451};
 
-/// Of the bands: a little smaller than a caption.
+/// Returns the text size of the bands, a little smaller than a caption's [pixels].
 int band_text_size(const Scene& scene) { return std::max(11, text_size(scene.video.size.y()) * 5 / 6); }
 
-/// Does something with the scene's text; an error names where it is.
+/// Calls work() and prefixes its error messages with the caption's place in the scene.
 auto attributed(const Scene& scene, const auto& work) {
   const auto placed = [&](const Error& error) {
     return fmt::format("{}: {}", scene.caption_place.empty() ? shown(scene.file) : scene.caption_place, error.what());
@@ -39,8 +39,8 @@ std::string caption_text(const Scene& scene, const Frame& frame) {
   return scene.caption.filled.fill(value);
 }
 
-/// Looks whether the letters of the scene's caption are there, and whether it fits into the picture where the film
-/// begins and where it ends.
+/// Checks that the fonts have all letters of the caption, and that it fits into the picture at both ends of the film.
+/// @throws UsageError, OutputError
 void require_caption(Pen& pen, const Scene& scene) {
   if (scene.caption.filled.empty()) return;
   Frame first, last;
@@ -53,7 +53,7 @@ void require_caption(Pen& pen, const Scene& scene) {
   }
 }
 
-/// Adds rows to a picture, below it.
+/// Appends the rows of `band` below a picture.
 void append(Image& picture, const Image& band) {
   picture.height += band.height;
   picture.pixels.insert(picture.pixels.end(), band.pixels.begin(), band.pixels.end());

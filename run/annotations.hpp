@@ -12,43 +12,43 @@
 
 namespace drape {
 
-/// What a scene's film shows beside what the scene looks like: the caption, what the colours of its vertices mean, and
-/// the curves of its energies. Made and used on the thread that draws, but for survey(), which comes before.
+/// A film's additions to the rendered image: the caption, the colour bar, and the energy curves. Lives
+/// on the drawing thread; survey() is called earlier, by the thread that simulates.
 class Annotations {
  public:
-  /// @throws OutputError where there is no font for its text
+  /// @throws OutputError if no font for the text is installed
   explicit Annotations(const Scene& scene);
 
-  /// Whether a scene asks for any.
+  /// Returns true if the scene asks for any annotation.
   static bool wanted(const Scene& scene);
-  /// The size of its film's pictures: bands stand below what is drawn [pixels].
+  /// Returns the size of the film's pictures, with the bands below the drawing [pixels].
   static Eigen::Vector2i film_size(const Scene& scene);
-  /// What the renderer is to draw: a cloth that has its colours from its vertices has no texture.
+  /// Returns the scene's look for the renderer: a cloth coloured by vertex gets no texture.
   static Look look(const Scene& scene);
 
-  /// What the frames must hold.
+  /// Returns the frame data that the annotations need.
   [[nodiscard]] FrameContents contents() const;
 
-  /// Whether the whole motion must be seen before the first frame is drawn.
+  /// Returns true if the whole motion must be surveyed before the first frame is drawn.
   [[nodiscard]] bool needs_motion() const;
-  /// The next frame of the whole motion.
+  /// Adds the next frame of the whole motion to the survey.
   void survey(const Frame& frame);
 
-  /// Of the frame's vertices; none: the cloth has its own.
+  /// Returns one colour per vertex of the frame; empty if the cloth keeps its own colour.
   [[nodiscard]] std::vector<Rgb> colors(const Frame& frame) const;
 
-  /// The film's picture of a frame.
-  /// @param drawn as the renderer has drawn it
+  /// Returns the film's picture of a frame.
+  /// @param drawn the renderer's image
   [[nodiscard]] Image annotate(Image drawn, const Frame& frame);
 
  private:
   const Scene& scene_;
   Pen pen_;
   std::optional<VertexColoring> coloring_;
-  std::vector<double> times_;        // of what was surveyed
-  std::vector<Curve> energies_;      // likewise
+  std::vector<double> times_;        // times of the surveyed frames [s]
+  std::vector<Curve> energies_;      // energies of the surveyed frames [J]
   std::optional<CurveBand> curves_;  // made when the first frame is drawn
-  std::optional<Image> bar_;         // likewise
+  std::optional<Image> bar_;         // made when the first frame is drawn
 };
 
 }  // namespace drape

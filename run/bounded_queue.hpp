@@ -9,13 +9,13 @@
 
 namespace drape {
 
-/// A queue between two threads that makes the faster one wait: nothing is ever dropped while both ends are open.
+/// A bounded queue between two threads. The faster thread waits; no item is dropped while the queue is open.
 template <class T>
 class BoundedQueue {
  public:
   explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
-  /// Adds an item, waiting while the queue is full. Returns false, without adding it, once the queue is closed.
+  /// Adds an item; waits while the queue is full. Returns false, without adding it, once the queue is closed.
   bool push(T item) {
     std::unique_lock lock(mutex_);
     not_full_.wait(lock, [&] { return items_.size() < capacity_ || closed_; });
@@ -25,7 +25,7 @@ class BoundedQueue {
     return true;
   }
 
-  /// Takes the oldest item, waiting while there is none. Returns nothing once the queue is closed and empty.
+  /// Takes the oldest item; waits while the queue is empty. Returns nothing once the queue is closed and empty.
   std::optional<T> pop() {
     std::unique_lock lock(mutex_);
     not_empty_.wait(lock, [&] { return !items_.empty() || closed_; });
@@ -36,7 +36,7 @@ class BoundedQueue {
     return item;
   }
 
-  /// Ends the flow: nothing more can be added, what is in the queue can still be taken. May be called from either end.
+  /// Closes the queue to new items; queued items can still be taken. Callable from either end.
   void close() {
     const std::scoped_lock lock(mutex_);
     closed_ = true;

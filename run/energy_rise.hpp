@@ -7,31 +7,31 @@
 
 namespace drape {
 
-/// How far the total energy of a cloth rose that nothing gives any. What touches it can make energy out of nothing
-/// where it is laid over a step instead of solved in it. It changes nothing of the motion.
+/// Monitor of the total energy of a cloth that nothing feeds with energy. Contact that is corrected after a step, and
+/// not solved in it, can create energy. The monitor does not change the motion.
 class EnergyRise final : public StepObserver {
  public:
   void begin(const Simulation& simulation) override;
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
-  /// A step that was done before, see StepObserver.
+  /// Records a step of an earlier run, see StepObserver.
   void replay(const StepRow& row, double time, double seconds) override;
 
-  /// How far it rose at most above that of the start [J], and what part that is of all that the cloth ever had: its
-  /// kinetic and elastic energy at the start, and its weight times how far its centre of mass fell. What the push of an
-  /// obstacle stores is in neither, so that it is too little rather than too much.
+  /// The largest rise of the total energy above that at the start [J], and its share of the available energy. Available
+  /// are the kinetic and elastic energy at the start, and the weight times the fall of the centre of mass. The
+  /// potential of an obstacle's push is left out of both, which can only make them smaller.
   struct Rise {
     double energy, of_available;
-    /// Whether it is more than the tolerance of a step explains.
+    /// Returns true if the rise exceeds 1 % of the available energy, more than a step's tolerance explains.
     [[nodiscard]] bool notable() const { return of_available > 0.01; }
   };
-  /// Nothing where something gives the cloth energy, or it touches nothing.
+  /// Returns the rise; nothing if the cloth touches nothing or gets energy from outside.
   [[nodiscard]] std::optional<Rise> rise() const;
 
  private:
   void note(const Energies& now);
 
   bool watches_ = false;
-  std::optional<Energies> first_;    // at the start
+  std::optional<Energies> first_;    // energies at the start
   double available_ = 0, rise_ = 0;  // [J]
 };
 

@@ -5,10 +5,10 @@
 namespace drape {
 namespace {
 
-constexpr std::int64_t between_looks = 128;  // steps
-constexpr double coarse_share = 0.01;        // of the cloth's size
-constexpr double still = 1e-3;               // sizes of the cloth in a second, and less is standing still…
-constexpr double moment = 0.01;              // …as is what forces out of balance would give it within this time [s]
+constexpr std::int64_t between_looks = 128;  // steps between two estimates
+constexpr double coarse_share = 0.01;        // share of the cloth's size
+constexpr double still = 1e-3;               // speed below which a cloth is at rest [cloth sizes/s]
+constexpr double moment = 0.01;              // or the speed that unbalanced forces cause within this time [s]
 
 }  // namespace
 

@@ -7,48 +7,48 @@
 
 namespace drape {
 
-/// How exactly the steps of a run were solved, and whether a cloth that came to rest is in equilibrium. Both are
-/// estimates of the program about its own result: they change nothing of it.
+/// Estimates of the solver error of a run's steps, and of the unbalanced force on a cloth at rest. The estimates do not
+/// change the motion.
 class Exactness final : public StepObserver {
  public:
   void begin(const Simulation& simulation) override;
-  /// Looks at every step whose error is known, because it stopped at one or an accuracy was asked for, and else at
-  /// every 128th, since it costs some iterations.
+  /// Records the error of a step that has an error estimate: one that met an error tolerance or was given an accuracy.
+  /// In other runs estimates the error of every 128th step only, since an estimate costs some iterations.
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
-  /// A step that was done before, see StepObserver.
+  /// Records a step of an earlier run, see StepObserver.
   void replay(const StepRow& row, double time, double seconds) override;
-  /// Looks at the last step, and whether the cloth stands still.
+  /// Estimates the error of the last step, and the unbalanced force if the cloth is at rest.
   void finish(const Simulation& simulation);
 
-  /// When a step was accurate enough; nothing where nothing is minimised.
+  /// Returns the stopping criterion of a step; nothing for a method without minimisation.
   [[nodiscard]] const std::optional<Accuracy>& accuracy() const { return accuracy_; }
 
-  /// What a step was asked to add to the error at most [m]; nothing where it was not.
+  /// Returns the error allowed per step [m]; nothing if no accuracy was given.
   [[nodiscard]] const std::optional<double>& asked() const { return asked_; }
 
-  /// The error of a step, if it was the last one that was looked at.
+  /// Returns the error of a step [m], if that step is the last one estimated.
   [[nodiscard]] std::optional<double> error_of(std::int64_t step) const {
     return last_ == step ? std::optional(last_error_) : std::nullopt;
   }
 
-  /// The error of the steps that were looked at: how far their worst vertex is from the exact solution [m]. That of the
-  /// time step is in it where an accuracy was asked for, and else is not.
+  /// The distance of the worst vertex from the exact solution, over the estimated steps [m]. Includes the error of the
+  /// time step only if an accuracy was given.
   struct Errors {
     double mean, largest;
   };
-  /// Nothing where nothing was looked at.
+  /// Returns nothing if no step was estimated.
   [[nodiscard]] std::optional<Errors> errors() const;
-  /// Whether the mean error is one that nobody would call accurate, above a hundredth of the cloth's size.
+  /// Returns true if the mean error exceeds a hundredth of the cloth's size.
   [[nodiscard]] bool coarse() const;
 
-  /// The forces out of balance on a cloth that stands still, each vertex's by itself.
+  /// The unbalanced forces on a cloth at rest, as the norm of each vertex's force.
   struct Unbalanced {
     double force;                     ///< [N]
-    std::optional<double> of_weight;  ///< where there is gravity
-    /// Whether it is more than the error of a default step leaves, several times over.
+    std::optional<double> of_weight;  ///< share of the weight; absent without gravity
+    /// Returns true if the force exceeds 1 % of the weight, several times the error that default steps leave.
     [[nodiscard]] bool notable() const { return of_weight && *of_weight > 0.01; }
   };
-  /// Nothing where the cloth moves at the end, or nothing is minimised.
+  /// Returns nothing if the cloth moves at the end, or if the method minimises nothing.
   [[nodiscard]] const std::optional<Unbalanced>& unbalanced() const { return unbalanced_; }
 
  private:
@@ -57,9 +57,9 @@ class Exactness final : public StepObserver {
 
   std::optional<Accuracy> accuracy_;
   std::optional<double> asked_;
-  double size_ = 0;  // of the cloth [m]
+  double size_ = 0;  // size of the cloth [m]
   double sum_ = 0, largest_ = 0, last_error_ = 0;
-  std::int64_t looked_at_ = 0, last_ = 0;  // steps, and the number of the last of them
+  std::int64_t looked_at_ = 0, last_ = 0;  // number of estimated steps, and the last one
   std::optional<Unbalanced> unbalanced_;
 };
 

@@ -9,10 +9,10 @@
 
 namespace drape {
 
-/// Draws a film's pictures, with what the scene wants to be written on them. Used on the thread that owns the context.
+/// Painter of a film's pictures, with the scene's annotations. Lives on the thread that owns the OpenGL context.
 class FilmPainter {
  public:
-  /// @param annotations where the scene asks for them
+  /// @param annotations absent if the scene asks for none
   FilmPainter(const Scene& scene, const CameraPath& path, std::optional<Annotations>& annotations, GlBackend backend)
       : path_(path),
         annotations_(annotations),

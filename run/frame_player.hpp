@@ -8,18 +8,17 @@
 
 namespace drape {
 
-/// Hands out the frames of a motion one by one, whoever asks for them, and has the next ones made meanwhile on a thread
-/// of its own.
+/// A reader of a motion's frames, one by one. A thread of its own makes the next frames ahead of time.
 class FramePlayer {
  public:
-  /// @param source outlives it, and is used by nobody else meanwhile
+  /// @param source outlives the player, which alone uses it
   explicit FramePlayer(FrameSource& source);
   ~FramePlayer();
   FramePlayer(const FramePlayer&) = delete;
   FramePlayer& operator=(const FramePlayer&) = delete;
 
-  /// The next frame. When the motion is over, or diverges, its last one again and again.
-  /// @throws Error whatever stops the motion otherwise
+  /// Returns the next frame; after the end or a divergence, the last frame again and again.
+  /// @throws Error any other failure of the motion
   const Frame& next();
 
  private:
@@ -27,7 +26,7 @@ class FramePlayer {
   Frame now_;
   bool over_ = false;
   std::exception_ptr error_;
-  std::jthread thread_;  // last: it uses all the others
+  std::jthread thread_;  // last: it uses all members above
 };
 
 }  // namespace drape

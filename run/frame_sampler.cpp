@@ -13,11 +13,11 @@
 namespace drape {
 namespace {
 
-// Times are products of decimal fractions; a frame that falls on a step must not miss it by their rounding.
+// A frame that falls on a step must be found despite the rounding of its decimal time [steps].
 constexpr double rounding = 1e-9;
 
-/// How far a time lies before the end of a step, in steps: from 0, exactly where it is that end, to the whole way from
-/// the moment before, which is `duration` ago.
+/// Returns the share of the interval between a time and the end of a step. It is exactly 0 at the end and 1 at the
+/// previous moment, `duration` seconds earlier.
 double part_back(double time, double end, double duration) {
   const double back = std::clamp((end - time) / duration, 0.0, 1.0);
   return back < rounding ? 0 : back;

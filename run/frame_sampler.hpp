@@ -10,63 +10,62 @@
 
 namespace drape {
 
-/// Frame numbers, both ends included.
+/// A range of frame numbers, both ends included.
 struct FrameRange {
   int first = 0;
   int last = 0;
   [[nodiscard]] int count() const { return last - first + 1; }
 };
 
-/// Which moments of a motion a film shows: frame k is taken at k·speed/fps seconds, or else after k·n steps, from 0 to
-/// the end of the motion.
+/// The times of a film's frames. Frame k shows time k·speed/fps [s] or the end of step k·n, from 0 to the motion's end.
 struct FilmExtent {
-  std::int64_t steps;                 ///< that are simulated: no more than the last frame needs
-  double step;                        ///< h [s]
-  std::optional<std::int64_t> every;  ///< n, where frames are counted in steps
-  double seconds_per_frame;           ///< of the scene's time
-  FrameRange frames;                  ///< that are drawn
+  std::int64_t steps;                 ///< steps to simulate: up to the last frame
+  double step;                        ///< step length h [s]
+  std::optional<std::int64_t> every;  ///< n, if frames are counted in steps
+  double seconds_per_frame;           ///< scene time from a frame to the next [s]
+  FrameRange frames;                  ///< frames to draw
 
   /// @param frame_range absent: the whole motion
-  /// @param every_steps from a frame to the next, at least 1; absent: as the video says
+  /// @param every_steps steps per frame, at least 1; absent: the video's frame rate
   /// @throws UsageError if the motion has no such frames
   FilmExtent(const Video& video, double h, std::int64_t step_count, const std::optional<FrameRange>& frame_range,
              std::optional<std::int64_t> every_steps = {});
 
-  /// Of a frame that is a step's end, with that step's own bits.
+  /// Returns the time of a frame [s]; for the end of a step, exactly the step's own floating-point value.
   [[nodiscard]] double time(int frame) const {
     return every ? static_cast<double>(frame * *every) * step : frame * seconds_per_frame;
   }
 };
 
-/// What a film's frames hold: where everything is, or also how the cloth moves, which takes time to find out.
+/// The data in a film's frames: positions only, or also velocities and energies, which cost time to compute.
 enum class FrameContents { places, motion };
 
-/// What frames are made of: where a motion is at the end of a step.
+/// The state of a motion at the end of a step, from which frames are made.
 struct Moment {
   const State& state;
-  int iterations;                                               ///< of the step
-  std::int64_t next;                                            ///< the step of the moment after this
-  std::function<Energies()> energies;                           ///< called if they are needed
-  std::function<std::vector<Collider>(double time)> colliders;  ///< at any time
+  int iterations;                                               ///< solver iterations of this step
+  std::int64_t next;                                            ///< the step of the next moment
+  std::function<Energies()> energies;                           ///< called only if a frame needs them
+  std::function<std::vector<Collider>(double time)> colliders;  ///< colliders at a given time [s]
 };
 
-/// Hands out the frames of a range as soon as a motion has reached them. A frame between two moments is interpolated
-/// linearly between them, its velocities and energies too.
+/// Interpolator of a film's frames, which hands out each frame of a range as soon as the motion has reached it.
+/// Positions, velocities and energies are interpolated linearly between two moments.
 class FrameTaker {
  public:
   using Receiver = std::function<void(Frame)>;
 
   FrameTaker(const FilmExtent& extent, Receiver receiver, FrameContents contents = FrameContents::places);
 
-  /// The next moment.
+  /// Adds the next moment.
   void add(const Moment& moment);
 
-  /// Whether all frames are made.
+  /// Returns true if all frames are made.
   [[nodiscard]] bool done() const { return next_ > extent_.frames.last; }
 
  private:
   [[nodiscard]] Frame frame(int index, const Moment& moment) const;
-  /// Keeps what frames up to the next moment are interpolated from.
+  /// Stores the data from which frames up to the next moment are interpolated.
   void keep(const Moment& moment);
   [[nodiscard]] double time_of(std::int64_t step) const { return static_cast<double>(step) * extent_.step; }
 
@@ -78,7 +77,7 @@ class FrameTaker {
   Energies previous_energies_;
 };
 
-/// Watches a simulation and hands out its frames.
+/// Observer of a simulation that hands out its frames.
 class FrameSampler final : public StepObserver {
  public:
   using Receiver = FrameTaker::Receiver;

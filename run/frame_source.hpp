@@ -14,22 +14,22 @@
 
 namespace drape {
 
-/// The frames of a motion, with all that frames can hold, to go through as often as they are wanted: the motion is
-/// simulated the first time only, or is read each time where it is in a file.
+/// The frames of a motion, with all data that frames can hold, for any number of passes. The first pass simulates the
+/// motion; a motion file is read again in each pass.
 class FrameSource {
  public:
-  /// @param scene    outlives it
-  /// @param recorded its motion, if that is in a file; null: it is simulated
-  /// @param memory   for the frames of a simulation, see FrameTape; absent: they are gone through once
+  /// @param scene    outlives the source
+  /// @param recorded a reader of the motion file; null: the motion is simulated
+  /// @param memory   for the frames of a simulation, see FrameTape; absent: a single pass
   FrameSource(const Scene& scene, std::shared_ptr<MotionReader> recorded, const FilmExtent& extent,
               std::optional<std::size_t> memory);
 
-  /// Hands out every frame, in their order. Returns early when a stop is requested.
-  /// @throws OutputError if the system's folder for temporary files takes no more
+  /// Hands out every frame in order. Returns early when a stop is requested.
+  /// @throws OutputError if the system's temporary folder is full
   void pass(const FrameTaker::Receiver& receiver, const std::stop_token& stop);
 
-  /// Whether the motion is known to its end, because all of it was gone through; of it, how the steps went (their times
-  /// only where it was simulated), and why it diverged, if it did.
+  /// Returns true once a pass has reached the end of the motion. Then statistics() has its steps (with times only if it
+  /// was simulated), and divergence() the message if the motion diverged.
   [[nodiscard]] bool known() const { return known_; }
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
   [[nodiscard]] const std::string& divergence() const { return divergence_; }
@@ -41,7 +41,7 @@ class FrameSource {
   const Scene& scene_;
   std::shared_ptr<MotionReader> recorded_;
   FilmExtent extent_;
-  std::optional<FrameTape> tape_;  // unless it is read, or gone through once
+  std::optional<FrameTape> tape_;  // absent for a motion file or a single pass
   bool known_ = false;
   Statistics statistics_;
   std::string divergence_;

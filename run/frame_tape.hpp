@@ -11,28 +11,27 @@
 
 namespace drape {
 
-/// Keeps the frames of a film to go through them again. What does not fit into so much memory lies in a file without a
-/// name.
+/// A store of a film's frames for repeated passes. Frames beyond the memory limit go to an unnamed temporary file.
 class FrameTape {
  public:
   static constexpr std::size_t usual_memory = std::size_t{256} << 20;  ///< [bytes]
 
   explicit FrameTape(std::size_t memory = usual_memory) : memory_(memory) {}
 
-  /// The next frame. None can be added once the tape was gone through.
-  /// @throws OutputError if the system's folder for temporary files takes no more
+  /// Adds the next frame; not allowed after for_each() was called.
+  /// @throws OutputError if the system's temporary folder is full
   void add(Frame frame);
 
   [[nodiscard]] int count() const { return static_cast<int>(frames_.size()); }
 
-  /// Calls visit(frame) for each frame, in their order, as it was added. Returns early when a stop is requested.
+  /// Calls visit(frame) for each frame, in the order of addition. Returns early when a stop is requested.
   void for_each(const std::function<void(const Frame&)>& visit, const std::stop_token& stop = {});
 
  private:
   std::size_t memory_;
-  std::vector<Frame> frames_;   // without positions and velocities where they lie in the file
-  std::size_t in_memory_ = 0;   // how many of them have theirs
-  std::optional<Spool> spool_;  // made when a frame does not fit
+  std::vector<Frame> frames_;   // all frames; those in the file lack positions and velocities
+  std::size_t in_memory_ = 0;   // number of frames with their data in memory
+  std::optional<Spool> spool_;  // made for the first frame that does not fit
 };
 
 }  // namespace drape

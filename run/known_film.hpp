@@ -5,10 +5,10 @@
 
 namespace drape {
 
-/// What the camera of a scene has to know of its film.
+/// Returns the properties of a scene's film that its camera needs.
 /// @param size  of the pictures [pixels]
-/// @param count of the frames
-/// @param pass  see KnownFilm::pass; not called where the camera needs no motion
+/// @param count number of frames
+/// @param pass  see KnownFilm::pass; called only if the camera needs the motion
 inline KnownFilm known_film(const Scene& scene, const Eigen::Vector2i& size, int count,
                             decltype(KnownFilm::pass) pass) {
   return {.aspect = static_cast<double>(size.x()) / size.y(),

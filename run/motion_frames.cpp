@@ -4,7 +4,7 @@
 namespace drape {
 namespace {
 
-/// The last state before a time; the first if there is none.
+/// Returns the last state before a time; the first state if there is none.
 std::size_t last_before(const MotionReader& motion, double time, double h) {
   std::size_t first = 0, end = motion.states();
   while (end - first > 1) {
@@ -21,7 +21,7 @@ void sample_motion(MotionReader& motion, const Scene& scene, const FilmExtent& e
   const System system = make_system(scene.simulation);
   FrameTaker taker(extent, receiver, contents);
   const std::size_t first = last_before(motion, extent.time(extent.frames.first), extent.step);
-  // One more, so that a frame that falls on a state by rounding has the one before.
+  // Begin one state earlier, so that a frame which falls on a state by rounding has its predecessor.
   for (std::size_t i = first > 0 ? first - 1 : 0; i < motion.states() && !taker.done() && !stop.stop_requested(); ++i) {
     const State& state = motion.state(i);
     taker.add({.state = state,
@@ -33,7 +33,7 @@ void sample_motion(MotionReader& motion, const Scene& scene, const FilmExtent& e
 }
 
 int frames_in_gaps(const MotionReader& motion, const FilmExtent& extent) {
-  constexpr double on_a_step = 1e-9;  // steps
+  constexpr double on_a_step = 1e-9;  // tolerance [steps]
   int count = 0;
   for (int frame = extent.frames.first; frame <= extent.frames.last; ++frame) {
     const double time = extent.time(frame);

@@ -8,13 +8,13 @@
 
 namespace drape {
 
-/// Hands out the frames of a motion that is in a file, to the bit those that its simulation would give where its states
-/// are those that they need. Returns early when a stop is requested.
-/// @param scene of the motion, for what the cloth can touch
+/// Hands out the frames of a motion file. They equal those of the simulation to the bit if the file stores the states
+/// that they need. Returns early when a stop is requested.
+/// @param scene of the motion, for its colliders
 void sample_motion(MotionReader& motion, const Scene& scene, const FilmExtent& extent, FrameContents contents,
                    const FrameTaker::Receiver& receiver, const std::stop_token& stop);
 
-/// How many frames fall between states that are more than a step apart, so that a simulation would give others.
+/// Returns the number of frames that fall between states more than one step apart; a simulation would give others.
 int frames_in_gaps(const MotionReader& motion, const FilmExtent& extent);
 
 }  // namespace drape

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t tasks_in_flight = 8;
 
-/// Whether a frame of a film needs where the cloth is at the end of a step: it falls on that or within a step of it.
+/// Returns true if a frame needs the state after this step: it lies at the step's end or less than a step away.
 bool is_near_frame(const FilmExtent& extent, std::int64_t step) {
   constexpr double nearly_a_step = 1 - 1e-10;
   const double time = static_cast<double>(step) * extent.step, reach = nearly_a_step * extent.step;
@@ -46,7 +46,7 @@ MotionRecorder::~MotionRecorder() {
   if (!finished_) discard_if_empty();
 }
 
-/// Nothing is lost where nothing was done.
+/// Deletes the file if no step was done, since nothing is lost then.
 void MotionRecorder::discard_if_empty() {
   if (statistics_.steps() == 0 && !begun_) writer_.discard();
 }
@@ -60,7 +60,7 @@ void MotionRecorder::begin(const Simulation& simulation) {
 void MotionRecorder::after_step(const Simulation& simulation, const StepReport& report, double /*seconds*/) {
   add(simulation, report);
   const auto now = std::chrono::steady_clock::now();
-  const bool last = simulation.state().step == extent_.steps;  // after which there is nothing to go on with
+  const bool last = simulation.state().step == extent_.steps;  // a complete motion needs no checkpoint
   if (last || std::chrono::duration<double>(now - kept_).count() < options_.checkpoint_seconds) return;
   keep(simulation);
   kept_ = now;
@@ -118,7 +118,7 @@ MotionOutcome MotionRecorder::finish(bool whole, const Simulation* last, std::ve
     discard_if_empty();
     if (statistics_.steps() > 0) outcome.growing = growing_name(options_.path).string();
   }
-  finished_ = true;  // the statistics may be elsewhere from here on
+  finished_ = true;  // the statistics may have moved away from here on
   return outcome;
 }
 

@@ -15,26 +15,26 @@
 
 namespace drape {
 
-/// A motion file that a run writes.
+/// Options of the motion file that a run writes.
 struct MotionOptions {
-  std::string path = {};  ///< may have {scene}, see make_sink()
+  std::string path = {};  ///< may contain {scene}, see make_sink()
   RecordedSteps recorded = {};
-  double checkpoint_seconds = 60;  ///< of work that are lost at most when the process is killed
+  double checkpoint_seconds = 60;  ///< the most work lost if the process is killed [s]
 };
 
-/// Of a motion file, what has become of it.
+/// The outcome of writing a motion file.
 struct MotionOutcome {
   std::optional<OutputFile> complete;
-  std::string growing;  ///< where what there is of it can be gone on with; empty where it is complete or was given up
-  std::string file;     ///< its name when it is complete
+  std::string growing;  ///< the incomplete file, from which a run can resume; empty if complete or given up
+  std::string file;     ///< the name of the complete file
 };
 
-/// Watches a run and writes its motion file, on a thread of its own. Of a run that is gone on with it is told the rest.
+/// Observer that writes a run's motion file on a thread of its own. When resuming, it receives only new steps.
 class MotionRecorder final : public StepObserver {
  public:
-  /// @param from       where the run goes on from; null: it begins
+  /// @param from       the checkpoint to resume from; null: a new run
   /// @param extent     of the run
-  /// @param statistics of the run, which are told of a step before this is
+  /// @param statistics of the run, updated before this observer at each step
   /// @param given_up   called, from any thread, when the file cannot be written
   /// @throws UsageError, OutputError as MotionFileWriter
   MotionRecorder(const MotionOptions& options, const Resumption* from, const Scene& scene, const FilmExtent& extent,
@@ -44,9 +44,9 @@ class MotionRecorder final : public StepObserver {
   void begin(const Simulation& simulation) override;
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
 
-  /// Waits until all is written.
-  /// @param whole whether the run came to its end; otherwise what there is can be gone on with
-  /// @param last  the simulation, where it can be gone on from
+  /// Waits until everything is written.
+  /// @param whole true if the run reached its end; otherwise the file can be resumed
+  /// @param last  the simulation, if it can be resumed
   /// @param problems gets a message if the file was given up
   MotionOutcome finish(bool whole, const Simulation* last, std::vector<std::string>& problems);
 
@@ -66,8 +66,8 @@ class MotionRecorder final : public StepObserver {
   MotionFileWriter writer_;
   std::chrono::steady_clock::time_point kept_;
   BoundedQueue<Task> tasks_;
-  std::string problem_;  // written by the thread
-  const bool begun_;     // the file has the start already
+  std::string problem_;  // written by the recorder's thread
+  const bool begun_;     // true: the file already has the start
   bool finished_ = false;
   std::jthread thread_;
 };

@@ -18,7 +18,7 @@ std::vector<std::string> write_records(MotionReader& motion, const Scene& scene,
   std::vector<StepObserver*> observers = records.observers();
   observers.push_back(&statistics);
   for (StepObserver* observer : observers) observer->begin(simulation);
-  const std::int64_t first = motion.last_step() == 0 ? 1 : 0;  // of no step everything is known at the beginning
+  const std::int64_t first = motion.last_step() == 0 ? 1 : 0;  // without steps, begin() has the whole motion
   for (std::int64_t step = first; step < motion.rows(); ++step) {
     const double time = static_cast<double>(step) * motion.header().step;
     for (StepObserver* observer : observers) observer->replay(motion.row(step), time, unknown);

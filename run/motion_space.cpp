@@ -13,8 +13,7 @@ namespace drape {
 namespace fs = std::filesystem;
 namespace {
 
-// Of the 48 bytes that a vertex has in a state, what is left of them packed. States that are further apart foretell
-// each other less well.
+// The packed share of a state's 48 bytes per vertex. States further apart are predicted less well from one another.
 constexpr double expected_share = 0.6, expected_share_apart = 0.85, undamped = 1.25;
 
 std::string size_text(double bytes) {
@@ -22,7 +21,7 @@ std::string size_text(double bytes) {
   return fmt::format("{:.3g} GB", bytes / 1e9);
 }
 
-/// The folder that a file is or will be in, or the nearest one above that is there.
+/// Returns the folder of a file, or its nearest existing parent folder.
 fs::path folder_there(const fs::path& file) {
   std::error_code ignored;
   fs::path folder = fs::absolute(file, ignored).parent_path();
@@ -48,12 +47,12 @@ MotionSpace motion_space(const Scene& scene, const RunOptions& options) {
   const double most = states * (64 + 48 * vertices) + (steps + 1) * (72 + 32 * colliders);
 
   const double usual = motion.recorded.every == 1 ? expected_share : expected_share_apart;
-  // Motions that numerical damping does not smooth are harder to foretell.
+  // Motions without numerical damping are less smooth and harder to predict.
   const double share = is_explicit(scene.simulation.integrator.method) ? std::min(1.0, undamped * usual) : usual;
   std::error_code error;
   const double there = options.from ? static_cast<double>(options.from->length) : 0;
   const fs::space_info space = fs::space(folder_there(motion.path), error);
-  // What a file system does not say is not held against it.
+  // If the file system does not tell its free space, assume that there is enough.
   const double free = error ? most : static_cast<double>(space.available);
   return {.expected = std::max(0.0, share * most - there), .most = std::max(0.0, most - there), .free = free};
 }

@@ -17,11 +17,11 @@
 namespace drape {
 namespace {
 
-/// Hands over what a sink takes.
+/// Passes the part of a frame that a sink takes.
 void add_to(Encoder& encoder, const FilmFrame& frame) { frame.image ? encoder.add(*frame.image) : encoder.skip(); }
 void add_to(MotionWriter& writer, const FilmFrame& frame) { writer.add(frame.frame); }
 
-/// Whether its films repeat for ever, so that they can begin anywhere.
+/// Returns true if films of this format loop, so that they can begin at any frame.
 bool loops(const OutputFormat& format) {
   constexpr std::array<std::string_view, 3> extensions{".gif", ".webp", ".apng"};
   return std::ranges::find(extensions, format.extension) != extensions.end();
@@ -139,14 +139,14 @@ FrameContents Outputs::contents() const {
   return any_is<MotionWriter>() ? FrameContents::motion : FrameContents::places;
 }
 
-/// Does a thing with an output's sink, and gives the output up if it fails.
+/// Applies work() to an output's sink; gives the output up if it fails.
 template <class Work>
 void Outputs::attempt(Output& output, Work work) {
   if (!output.sink) return;
   try {
     std::visit([&](auto& sink) { work(*sink); }, *output.sink);
   } catch (const std::exception& error) {
-    const bool complete = dynamic_cast<const Error*>(&error) != nullptr;  // a message that names the file
+    const bool complete = dynamic_cast<const Error*>(&error) != nullptr;  // the message names the file already
     problems_.push_back(complete ? error.what() : fmt::format("cannot write {}: {}", output.path, error.what()));
     output.sink.reset();
   }

@@ -12,74 +12,74 @@
 
 namespace drape {
 
-/// Which moments of a scene's motion a run of it shows.
+/// Returns the times of the frames that a run of a scene shows.
 /// @throws UsageError if the motion has no such frames
 FilmExtent film_extent(const Scene& scene, const RunOptions& options);
 
-/// The same without a range of frames: what the film of the whole motion shows.
+/// Returns the same for the whole motion, ignoring a range of frames.
 FilmExtent whole_extent(const Scene& scene, RunOptions options);
 
-/// What is known of a run's film before its first frame. Refers to the scene's cloth and look.
-/// @param progress if given, shows how much of it is encoded when it ends
+/// Returns the properties of a run's film known before its first frame. Refers to the scene's cloth and look.
+/// @param progress if not null, shows the progress of encoding at the end
 /// @throws UsageError as film_extent()
 FilmInfo film_info(const Scene& scene, const RunOptions& options, Progress* progress = nullptr);
 
-/// Whether any of a run's outputs must be drawn.
+/// Returns true if any of a run's outputs needs rendering.
 bool needs_drawing(const RunOptions& options);
 
-/// Opens everything that a run would write, and leaves nothing of it.
-/// @throws Error what the run would end with otherwise, perhaps after hours
+/// Checks that all outputs of a run can be opened, and leaves no file behind.
+/// @throws Error the same error as the run would, perhaps after hours
 void require_outputs(const Scene& scene, const RunOptions& options);
 
-/// Looks whether the texture of a scene that is to be drawn can be, if it has one.
-/// @param largest the most pixels that a texture may be wide or high
+/// Checks the texture of a scene that is to be drawn, if it has one.
+/// @param largest the largest width and height of a texture [pixels]
 /// @throws UsageError that names the place in the scene
 void require_texture(const Scene& scene, int largest = largest_texture);
 
 /// A frame on its way to the outputs.
 struct FilmFrame {
   Frame frame;
-  std::optional<Image> image;  ///< absent: it was not drawn, since nobody needs it
+  std::optional<Image> image;  ///< absent if no output needs the rendered image
 };
 
-/// The outputs of a run. One that cannot be written is given up, and does not keep the others from being completed.
+/// The outputs of a run. A failed output is given up; the others continue.
 class Outputs {
  public:
-  /// @param poster whether each film that is drawn gets one
-  /// @param start_at_poster whether films that repeat for ever begin with its frame; their pictures are kept until the
-  /// end
+  /// @param poster true to add a poster to each film that is drawn
+  /// @param start_at_poster true to begin looping films with the poster's frame; their pictures stay in memory until
+  /// the end
   /// @throws UsageError, OutputError as make_sink()
   Outputs(const std::vector<std::string>& paths, const FilmInfo& film, bool poster = false,
           bool start_at_poster = false);
 
-  /// Whether no output takes frames (any more).
+  /// Returns true if no output takes frames (any more).
   [[nodiscard]] bool none() const;
 
-  /// Whether any (still) takes images.
+  /// Returns true if any output (still) takes images.
   [[nodiscard]] bool drawn() const;
 
-  /// Returns whether any needs the picture of the film's frame with this number, from 0. Asked from any thread, as it
-  /// is known from the beginning.
+  /// Returns true if any output needs the image of this frame (counted from 0 in the film). The
+  /// answer never changes; any thread may ask.
   [[nodiscard]] bool needs_picture(int index) const;
 
-  /// What the frames must hold for them.
+  /// Returns the frame data that the outputs need.
   [[nodiscard]] FrameContents contents() const;
 
   /// @param frame with its image, if any output takes images
   void add(const FilmFrame& frame);
 
-  /// Completes what can be completed.
-  /// @returns the files of each output that was, in their order
+  /// Completes all outputs that did not fail.
+  /// @returns the files of each completed output, in order
   std::vector<std::vector<OutputFile>> finish(Ending ending);
 
-  /// A message for each output that was given up.
+  /// Returns a message for each output that was given up.
   [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
 
  private:
   struct Output {
     std::string path;
-    std::optional<AnySink> sink;  ///< absent once it was given up
-    bool held = false;            ///< whether it gets its pictures at the end, beginning with the poster's
+    std::optional<AnySink> sink;  ///< absent if it was given up
+    bool held = false;            ///< true: gets its pictures at the end, beginning with the poster's
   };
   template <class AnyOf>
   [[nodiscard]] bool any_is() const;
@@ -88,15 +88,15 @@ class Outputs {
 
   void hold_loops(const FilmInfo& film);
   void release(Encoder& encoder) const;
-  /// @returns what was written
+  /// @returns the files written
   std::vector<OutputFile> write_poster(const std::string& file, Ending ending);
 
   std::vector<Output> outputs_;
-  std::vector<bool> pictures_;  // of the film's frames, whether any output needs it
+  std::vector<bool> pictures_;  // for each frame of the film: true if any output needs its image
   std::optional<Poster> poster_;
   std::vector<std::string> poster_files_;
-  std::vector<Image> held_;       // of the film
-  std::size_t poster_place_ = 0;  // among them
+  std::vector<Image> held_;       // the film's images
+  std::size_t poster_place_ = 0;  // index of the poster among them
   std::vector<std::string> problems_;
 };
 

@@ -11,7 +11,7 @@
 namespace drape {
 
 Poster::Poster(const FilmInfo& film) {
-  std::map<Edge, int> waiting;  // edges of one triangle so far, and its third vertex
+  std::map<Edge, int> waiting;  // edges of one triangle so far, with its third vertex
   for (const Triangle& t : film.triangles()) {
     for (std::size_t i = 0; i < 3; ++i) {
       const int a = t[i], b = t[(i + 1) % 3], opposite = t[(i + 2) % 3];
@@ -34,7 +34,7 @@ double Poster::bend(const Vertices& x) const {
 }
 
 void Poster::see(const Frame& frame, const Image& image) {
-  constexpr double noise = 1e-9;  // a flat cloth is bent by the rounding of its coordinates
+  constexpr double noise = 1e-9;  // rounding of coordinates bends even a flat cloth
   const double now = bend(frame.positions);
   if (image_ && now <= most_ + noise) return;
   most_ = now;

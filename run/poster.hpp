@@ -10,15 +10,15 @@
 
 namespace drape {
 
-/// The one picture of a film that tells most of it: of the frame in which the cloth is bent most, by the angles between
-/// neighbouring triangles, each as much as their edge is long. Of several such frames it is the first.
+/// A film's poster: the first of the frames in which the cloth is bent most. Bending is the sum of the angles between
+/// neighbouring triangles, weighted by edge length.
 class Poster {
  public:
   explicit Poster(const FilmInfo& film);
 
   void see(const Frame& frame, const Image& image);
 
-  /// Absent as long as nothing was seen.
+  /// Returns the poster; absent until the first frame was seen.
   [[nodiscard]] const std::optional<Image>& image() const { return image_; }
   [[nodiscard]] int frame() const { return frame_; }
 
@@ -34,7 +34,7 @@ class Poster {
   int frame_ = 0;
 };
 
-/// Where the posters of these outputs go: "film.poster.png" beside each film that is drawn.
+/// Returns the names of the posters of these outputs: "film.poster.png" beside each film that is drawn.
 std::vector<std::string> poster_files(const std::vector<std::string>& outputs, const FilmInfo& film);
 
 }  // namespace drape

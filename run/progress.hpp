@@ -5,9 +5,9 @@
 
 namespace drape {
 
-/// How far one stage of a run is. Written by the thread that works, read by the one that shows it.
+/// Progress of one stage of a run. Written by the working thread, read by the displaying one.
 struct Progress {
-  std::atomic<const char*> stage = "";  ///< a verb: "simulating", "drawing"; a literal
+  std::atomic<const char*> stage = "";  ///< a verb such as "simulating", "drawing"; a string literal
   std::atomic<const char*> unit = "";   ///< "steps", "frames"
   std::atomic<std::int64_t> done = 0;
   std::atomic<std::int64_t> total = 0;

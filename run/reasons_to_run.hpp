@@ -4,16 +4,16 @@
 
 namespace drape {
 
-/// What a run is for. It may lose one after the other, on any thread, where it cannot be written.
+/// The purposes of a run: outputs, motion file, records. Any thread may drop one that cannot be written.
 class ReasonsToRun {
  public:
   ReasonsToRun(bool outputs, bool motion, bool records) : outputs_(outputs), motion_(motion), records_(records) {}
 
-  /// @returns whether there is nothing left to run for
+  /// @returns true if no purpose is left
   bool lose_outputs() { return lose(outputs_); }
   bool lose_motion() { return lose(motion_); }
 
-  /// Whether everything was lost.
+  /// Returns true if no purpose is left.
   [[nodiscard]] bool none() const { return none_; }
 
  private:

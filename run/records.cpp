@@ -9,7 +9,7 @@
 
 namespace drape {
 
-/// A file that remembers what went wrong with it.
+/// A file that stores its first error instead of throwing it.
 class Records::Record {
  public:
   explicit Record(const std::string& path) : file_(path) {}

@@ -10,7 +10,7 @@
 
 namespace drape {
 
-/// Where a run's records go; empty: not wanted.
+/// Paths of a run's records; empty: not wanted.
 struct RecordPaths {
   std::string stats;      ///< JSON, see Statistics::to_json
   std::string energies;   ///< CSV: step,time,total,kinetic,gravity,elastic, from step 0 on [s, J]
@@ -18,23 +18,23 @@ struct RecordPaths {
   std::string trace;      ///< CSV: step,time,iterations,residual,step_us, from step 1 on [s, N, µs]
 };
 
-/// Writes the records of a run. The files get their names when finish() is called, whatever the outcome of the run was;
-/// without it nothing of them is left. One that cannot be written does not keep the others from it, nor the run.
+/// Writer of a run's records. The files get their names in finish(), whether or not the run succeeded; without that
+/// call no file is left. A record that cannot be written stops neither the others nor the run.
 class Records {
  public:
-  /// Opens what is wanted, so that an unwritable folder is known before anything is computed.
+  /// Opens the files early, so that an unwritable folder is reported before the simulation starts.
   /// @throws OutputError if a file cannot be written
   explicit Records(const RecordPaths& paths);
   ~Records();
 
-  /// What must watch the run for the records that are wanted.
+  /// Returns the observers that the wanted records need.
   [[nodiscard]] std::vector<StepObserver*> observers() const;
 
-  /// Whether any is wanted.
+  /// Returns true if any record is wanted.
   [[nodiscard]] bool wanted() const;
 
-  /// Completes every file, under the name that its ending gives it, and returns their names.
-  /// @param problems gets a message for each that could not be written
+  /// Completes every file, with a name that depends on `ending`, and returns the names.
+  /// @param problems gets a message for each record that could not be written
   std::vector<std::string> finish(const Simulation& simulation, const Statistics& statistics,
                                   const std::string& outcome, Ending ending, std::vector<std::string>& problems);
 

@@ -28,14 +28,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Frames in flight between two stages: enough to ride out an uneven step or frame, little enough to hold in memory.
+// Frames in flight between two stages: enough to absorb an uneven step or frame, few enough for the memory.
 constexpr std::size_t queue_capacity = 8;
-// Whoever interrupts a run waits no longer for what there is to be drawn [s].
+// Maximum drawing time after an interruption [s].
 constexpr double longest_wait = 5;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-/// The three threads of a run and what flows between them.
+/// The three threads of a run and the queues between them.
 class Pipeline {
  public:
   Pipeline(const Scene& scene, const RunOptions& options, const std::stop_token& stop, Progress& progress)
@@ -67,14 +67,14 @@ class Pipeline {
     const auto begin = Clock::now();
     std::vector<std::jthread> threads;
     try {
-      // The consumers first: where a thread cannot be had, those that run already end when their queues close.
+      // Consumers start first: if a thread cannot be created, those that run end when their queues close.
       if (result_.frames_wanted > 0) threads.emplace_back([this] { guarded(&Pipeline::write); });
       if (drawn_) threads.emplace_back([this] { guarded(&Pipeline::draw); });
       threads.emplace_back([this] { guarded(&Pipeline::simulate); });
     } catch (...) {
       fail();
     }
-    threads.clear();  // waits for them
+    threads.clear();  // joins them
     if (error_) std::rethrow_exception(error_);
     finish_motion();
     if (reasons_.none()) throw OutputError(fmt::format("{}", fmt::join(result_.problems, "\n")));
@@ -84,7 +84,7 @@ class Pipeline {
   }
 
  private:
-  /// Runs one thread's work; an exception ends the whole run.
+  /// Runs the work of one thread; an exception ends the whole run.
   void guarded(void (Pipeline::*work)()) {
     try {
       (this->*work)();
@@ -93,7 +93,7 @@ class Pipeline {
     }
   }
 
-  /// Ends the run with the exception that is being handled, unless there is one already.
+  /// Ends the run with the current exception, unless an earlier one is stored.
   void fail() {
     const std::scoped_lock lock(mutex_);
     if (!error_) error_ = std::current_exception();
@@ -127,7 +127,7 @@ class Pipeline {
     close_queues();
   }
 
-  /// Hands each frame on as soon as the motion has reached it.
+  /// Sends each frame as soon as the motion has reached it.
   void simulate_and_draw(std::vector<StepObserver*> observers) {
     FrameSampler sampler(
         extent_, [this](Frame frame) { send(std::move(frame)); }, contents());
@@ -143,8 +143,8 @@ class Pipeline {
     take_steps(observers);
   }
 
-  /// For a camera or annotations that have to know the motion: all of it, so that a frame looks the same whichever
-  /// range of frames is drawn. Interrupted before that is known, what there is is drawn as the motion up to there asks.
+  /// Surveys the whole motion before drawing, for a camera or annotations that depend on it. So a frame looks the same
+  /// in every range of frames. After an interruption, draws the steps done so far as if they were the whole motion.
   void simulate_then_draw(std::vector<StepObserver*> observers) {
     FrameTape tape;
     const FilmExtent whole = whole_extent(scene_, options_);
@@ -177,7 +177,7 @@ class Pipeline {
       if (simulation_->state().step < extent_.steps) return;
       result_.statistics.finish(*simulation_);
       whole_ = true;
-    } catch (const Interrupted&) {  // as it looked at the last step
+    } catch (const Interrupted&) {  // during the error estimate of the last step
     } catch (const DivergedError& diverged) {
       result_.outcome = Outcome::diverged;
       result_.divergence = diverged.what();
@@ -188,16 +188,16 @@ class Pipeline {
     path_.push(camera_path(scene_.camera, known_film(scene_, scene_.video.size, count, std::move(pass))));
   }
 
-  /// What the frames must hold.
+  /// Returns the frame data that outputs and annotations need.
   [[nodiscard]] FrameContents contents() const {
     return std::max(outputs_.contents(), annotations_ ? annotations_->contents() : FrameContents::places);
   }
 
-  /// In place of simulate(), where the motion is in a file: it is read as often as it has to be known.
+  /// Replaces simulate() for a motion file, which is read once per pass.
   void play() {
     const auto read = [this](const FilmExtent& extent, const auto& visit) {
       sample_motion(*options_.recorded, scene_, extent, contents(), visit, stop_.get_token());
-      if (stop_.stop_requested()) throw Interrupted();  // a camera cannot do with a part of the motion
+      if (stop_.stop_requested()) throw Interrupted();  // a camera needs the whole motion
     };
     const FilmExtent whole = whole_extent(scene_, options_);
     progress_.begin(drawn_ ? "drawing" : "reading", "frames", extent_.frames.count());
@@ -208,14 +208,14 @@ class Pipeline {
       if (drawn_) place_camera(whole.frames.count(), [&](const auto& visit) { read(whole, visit); });
       read(extent_, [this](Frame frame) { send(std::move(frame)); });
       whole_ = true;
-    } catch (const Interrupted&) {  // what was sent is drawn and written
+    } catch (const Interrupted&) {  // the frames sent so far are drawn and written
     }
     close_queues();
   }
 
   void send(Frame frame) { drawn_ ? frames_.push(std::move(frame)) : film_.push({std::move(frame), std::nullopt}); }
 
-  /// Ends the flow of frames where it begins. What is on its way is still drawn and written.
+  /// Closes the queues at the source. Frames on their way are still drawn and written.
   void close_queues() {
     path_.close();
     frames_.close();
@@ -224,13 +224,13 @@ class Pipeline {
 
   void draw() {
     if (const std::optional<CameraPath> path = path_.pop()) paint(*path);
-    film_.close();  // when OpenGL is left to the next who draws
+    film_.close();  // after the painter has released OpenGL
   }
 
   void paint(const CameraPath& path) {
     FilmPainter painter(scene_, path, annotations_, options_.backend);
     result_.renderer = painter.description();
-    // A frame that no output needs is held back until it is known not to be the last of a film that ends early.
+    // Hold back a frame that no output needs: the last frame of a film that ends early must be drawn.
     std::optional<Frame> held;
     while (std::optional<Frame> frame = frames_.pop()) {
       if (held) film_.push({std::move(*std::exchange(held, {})), std::nullopt});
@@ -269,7 +269,7 @@ class Pipeline {
     if (outputs_.none()) stop_writing();
   }
 
-  /// When no output is left. The run goes on for the sake of its records and motion file, if there are any.
+  /// Ends the run when no output is left, unless its records or motion file still need it.
   void stop_writing() {
     close_queues();
     film_.close();
@@ -280,23 +280,23 @@ class Pipeline {
   const RunOptions& options_;
   Progress& progress_;
   FilmExtent extent_;
-  std::optional<Simulation> simulation_;  // unless the motion is in a file
+  std::optional<Simulation> simulation_;  // absent if the motion is in a file
   Outputs outputs_;
-  const bool drawn_;  // whether there is anything to draw
+  const bool drawn_;  // true if any output needs rendering
   Records records_;
   ReasonsToRun reasons_;
-  std::optional<Annotations> annotations_;  // where there is anything to draw, and the scene asks for them
+  std::optional<Annotations> annotations_;  // absent if nothing is drawn or the scene asks for none
   std::optional<MotionRecorder> recorder_;
   BoundedQueue<CameraPath> path_{1};
   BoundedQueue<Frame> frames_{queue_capacity};
   BoundedQueue<FilmFrame> film_{queue_capacity};
   std::stop_source stop_;
   std::stop_callback<std::function<void()>> pass_on_;
-  std::stop_source undrawn_;  // of the drawing, when no output takes images any more
+  std::stop_source undrawn_;  // stops the drawing when no output takes images any more
   std::mutex mutex_;
   std::exception_ptr error_;
   bool whole_ = false;  // every step was taken
-  bool cut_ = false;    // not every frame was drawn, or not as the whole motion asks
+  bool cut_ = false;    // some frames are missing, or were drawn without the whole motion
   RunResult result_;
 };
 

@@ -21,9 +21,9 @@ class Watch final : public StepObserver {
   const std::function<void(const StepReport&)>& after_step_;
 };
 
-/// Tells observers of the steps before.
+/// Replays the earlier steps to the observers.
 void replay(const Resumption& from, double h, std::span<StepObserver* const> observers) {
-  if (from.checkpoint.state.step == 0) return;  // nothing was done: it begins
+  if (from.checkpoint.state.step == 0) return;  // a new run
   for (std::int64_t step = 0; step <= from.checkpoint.state.step; ++step) {
     const StepRow& row = from.row(step);
     const double seconds =
@@ -94,8 +94,8 @@ void run_on(const SimulationSettings& settings, const State& state, std::int64_t
     simulation.restore(state);
     run_steps(simulation, steps, observers, stop);
   } catch (const DivergedError&) {
-    // Up to here there is something to see.
-  } catch (const Interrupted&) {  // before there was anything
+    // Show the steps before the divergence.
+  } catch (const Interrupted&) {  // during setup
   }
 }
 

@@ -12,29 +12,29 @@
 
 namespace drape {
 
-/// For a simulation that is to end within a step, too.
+/// Returns a Stop for a simulation that a stop request may end within a step.
 Stop heeding(const std::stop_token& stop);
 
-/// Advances a simulation until it has done that many steps in all, telling the observers, in their order. Returns early
-/// when a stop is requested: within a step, if the simulation heeds it, and then as if that step had not begun.
-/// @param from where the simulation goes on from, if it does
+/// Advances a simulation to step number `steps` and calls the observers in order. Returns early when a stop is
+/// requested. A simulation with a Stop ends within the step, in the state before it.
+/// @param from the checkpoint to resume from, if any
 /// @throws DivergedError after the observers saw the last finite step
 void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserver* const> observers,
                const std::stop_token& stop, const Resumption* from = nullptr);
 
-/// The same, telling one function.
+/// Advances likewise, with one function as the observer.
 void run_steps(Simulation& simulation, std::int64_t steps, const std::stop_token& stop,
                const std::function<void(const StepReport&)>& after_step = {});
 
-/// Makes sure that a checkpoint has all that the simulation would have kept.
-/// @throws UsageError if parts of it are missing
+/// Checks that a checkpoint has every part that the simulation would have saved.
+/// @throws UsageError if parts are missing
 void require_whole(const Resumption& from, const Simulation& simulation);
 
-/// Goes on from a state, in a simulation of its own, until so many steps are done in all. Ends where that diverges.
+/// Continues a state in a new simulation to step number `steps`. Ends early if that diverges.
 void run_on(const SimulationSettings& settings, const State& state, std::int64_t steps,
             const std::vector<StepObserver*>& observers, const std::stop_token& stop);
 
-/// Shows how many steps are done.
+/// Observer that shows the number of steps done.
 class StepCounter final : public StepObserver {
  public:
   explicit StepCounter(Progress& progress) : progress_(progress) {}

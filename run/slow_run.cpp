@@ -7,7 +7,7 @@
 namespace drape {
 namespace {
 
-/// What takes the time, and what would take less.
+/// The main cost of a run and its remedy.
 struct Reason {
   std::string why, faster;
 };
@@ -19,7 +19,7 @@ std::string about(double seconds) {
 }
 
 Reason of_iterations(double iterations, const SimulationSettings& settings) {
-  constexpr double coarse = 1e-4;  // of the cloth's size: a hundred times what is solved to by default
+  constexpr double coarse = 1e-4;  // share of the cloth's size: a hundred times the default tolerance
   const IntegratorSettings& integrator = settings.integrator;
   const std::string why = fmt::format("each takes {:.0f} iterations", iterations);
   if (integrator.method != Method::quasi_newton) return {why, "method = \"quasi-newton\""};
@@ -69,7 +69,7 @@ void SlowRun::after_step(const Simulation& simulation, const StepReport& report,
   if (told_) return;
   pace_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
   if (pace_.seconds < next_look_) return;
-  next_look_ = 2 * pace_.seconds;  // a run may become slow
+  next_look_ = 2 * pace_.seconds;  // a run may become slow later
   if (pace_.whole() < limits_.long_run) return;
   told_ = true;
   tell_(describe_pace(pace_, simulation.settings()));

@@ -9,37 +9,37 @@
 
 namespace drape {
 
-/// How a run went so far.
+/// Progress and costs of a run so far.
 struct Pace {
-  std::int64_t steps = 0;  ///< done
-  std::int64_t left = 0;   ///< still to do
-  double seconds = 0;      ///< since its first step began [s]
-  double simulated = 0;    ///< of these, in steps [s]
-  double iterations = 0;   ///< of all steps
-  double substeps = 0;     ///< of all steps
-  bool drawn = false;      ///< it also draws
+  std::int64_t steps = 0;  ///< steps done
+  std::int64_t left = 0;   ///< steps still to do
+  double seconds = 0;      ///< time since the first step began [s]
+  double simulated = 0;    ///< part of `seconds` spent in steps [s]
+  double iterations = 0;   ///< sum over all steps
+  double substeps = 0;     ///< sum over all steps
+  bool drawn = false;      ///< the run also draws
 
-  /// The time that all steps will have taken, as those so far have gone on average [s].
+  /// Returns the predicted time of the whole run, from the mean so far [s].
   [[nodiscard]] double whole() const {
     return seconds + seconds / static_cast<double>(steps) * static_cast<double>(left);
   }
 };
 
-/// What makes a run slow and what would be faster: "300 steps will take about 37 s: each takes 700 iterations; faster
+/// Returns the main cost of a run and a remedy: "300 steps will take about 37 s: each takes 700 iterations; faster
 /// would be …".
 std::string describe_pace(const Pace& pace, const SimulationSettings& settings);
 
-/// Tells once of a run that it will take long, as soon as that is known.
+/// Observer that reports once, as early as possible, that a run will take long.
 class SlowRun final : public StepObserver {
  public:
   struct Limits {
-    double after = 5;      ///< the first steps whose pace is trusted [s]
-    double long_run = 30;  ///< what is told of [s]
+    double after = 5;      ///< the pace is trusted after this time [s]
+    double long_run = 30;  ///< runs longer than this are reported [s]
   };
 
   /// @param steps of the whole run
-  /// @param drawn whether it also draws
-  /// @param tell  called from the thread that simulates
+  /// @param drawn true if the run also draws
+  /// @param tell  called from the simulating thread
   SlowRun(std::int64_t steps, bool drawn, std::function<void(const std::string&)> tell)
       : SlowRun(steps, drawn, std::move(tell), Limits{}) {}
   SlowRun(std::int64_t steps, bool drawn, std::function<void(const std::string&)> tell, const Limits& limits)

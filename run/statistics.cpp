@@ -61,7 +61,7 @@ double Statistics::mean_microseconds() const {
 
 double Statistics::median_microseconds() const {
   if (microseconds_.empty()) return 0;
-  if (std::isnan(mean_microseconds())) return mean_microseconds();  // they are not known
+  if (std::isnan(mean_microseconds())) return mean_microseconds();  // step times are unknown
   std::vector<float> sorted = microseconds_;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
@@ -89,7 +89,7 @@ std::vector<Statistics::EffectShare> Statistics::effects() const {
 
 namespace {
 
-/// null where no accuracy was asked for and nothing is minimised.
+/// Returns null if no accuracy was given and nothing is minimised.
 nlohmann::ordered_json accuracy_json(const Statistics& statistics) {
   const Exactness& exactness = statistics.exactness();
   nlohmann::ordered_json json;
@@ -113,7 +113,7 @@ nlohmann::ordered_json accuracy_json(const Statistics& statistics) {
   return json;
 }
 
-/// null where something gives the cloth energy, or nothing can touch it.
+/// Returns null if the cloth gets energy from outside or can touch nothing.
 nlohmann::ordered_json rise_json(const Statistics& statistics) {
   const auto rise = statistics.energy_rise();
   if (!rise) return nullptr;
@@ -123,7 +123,7 @@ nlohmann::ordered_json rise_json(const Statistics& statistics) {
 }  // namespace
 
 std::string Statistics::to_json(const std::string& outcome) const {
-  // Of every effect its name, and of those of one name together their share of the steps' time.
+  // Effects of one name share one entry: the sum of their shares.
   auto names = nlohmann::ordered_json::array();
   auto shares = nlohmann::ordered_json::object();
   for (const EffectShare& effect : effects()) {

@@ -10,59 +10,59 @@
 
 namespace drape {
 
-/// How the steps of a run went, in figures.
+/// Statistics of the steps of a run.
 class Statistics final : public StepObserver {
  public:
   void begin(const Simulation& simulation) override;
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
   void replay(const StepRow& row, double time, double seconds) override;
-  /// After the last step.
+  /// Completes the error estimates after the last step.
   void finish(const Simulation& simulation) { exactness_.finish(simulation); }
 
   [[nodiscard]] std::int64_t steps() const { return static_cast<std::int64_t>(microseconds_.size()); }
   [[nodiscard]] double mean_iterations() const;
   [[nodiscard]] int max_iterations() const { return max_iterations_; }
-  /// Steps that ended at the cap without meeting the stopping rule, or the accuracy that was asked for.
+  /// Returns the number of steps that reached the iteration limit before the stopping criterion or the accuracy.
   [[nodiscard]] std::int64_t not_converged() const { return not_converged_; }
-  /// The largest ‖∇g‖ that such a step was left with [N].
+  /// Returns the largest residual ‖∇g‖ of these steps [N].
   [[nodiscard]] double worst_residual() const { return worst_residual_; }
-  /// Into how many substeps a step was cut.
+  /// Returns the mean number of substeps per step.
   [[nodiscard]] double mean_substeps() const;
   [[nodiscard]] std::int64_t max_substeps() const { return max_substeps_; }
   [[nodiscard]] const Exactness& exactness() const { return exactness_; }
   [[nodiscard]] std::optional<EnergyRise::Rise> energy_rise() const { return energy_rise_.rise(); }
-  /// Of every step.
+  /// Returns the time of each step [µs].
   [[nodiscard]] const std::vector<float>& microseconds() const { return microseconds_; }
   [[nodiscard]] double mean_microseconds() const;
   [[nodiscard]] double median_microseconds() const;
   [[nodiscard]] double total_seconds() const;
 
-  /// An effect of the scene, and which part of the steps' time it took.
+  /// An effect of the scene and its share of the step time.
   struct EffectShare {
     std::string name;
-    std::optional<double> share;  ///< 0 to 1; absent where it was not measured, and of a run that goes on its own part
+    std::optional<double> share;  ///< 0 to 1, over the new steps of a resumed run; absent if not measured
   };
-  /// Every effect of the scene, in the order of their evaluation.
+  /// Returns every effect of the scene, in the order of evaluation.
   [[nodiscard]] std::vector<EffectShare> effects() const;
 
-  /// The --stats file.
+  /// Returns the contents of the --stats file.
   /// @param outcome "completed", "interrupted" or "diverged"
   [[nodiscard]] std::string to_json(const std::string& outcome) const;
 
  private:
   void note(int iterations, std::int64_t substeps, bool converged, double residual, double seconds);
-  /// Of the steps of this run, without those before.
+  /// Returns the time of this run's own steps, without replayed ones [s].
   [[nodiscard]] double own_seconds() const;
 
   std::string method_, scheme_;
   std::int64_t vertices_ = 0, springs_ = 0;
   double h_ = 0;
   std::vector<std::string> effects_;
-  std::vector<double> effect_seconds_;  // empty unless the simulation measures them
+  std::vector<double> effect_seconds_;  // empty unless the simulation measures them [s]
   std::vector<float> microseconds_;
   std::int64_t iterations_ = 0, not_converged_ = 0, substeps_ = 0, max_substeps_ = 0;
   int max_iterations_ = 0;
-  std::size_t replayed_ = 0;  // steps
+  std::size_t replayed_ = 0;  // number of steps
   double worst_residual_ = 0;
   Exactness exactness_;
   EnergyRise energy_rise_;

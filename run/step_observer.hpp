@@ -5,19 +5,19 @@
 
 namespace drape {
 
-/// Something that watches a simulation from the thread that runs it.
+/// An observer of a simulation, called from the simulating thread.
 class StepObserver {
  public:
   virtual ~StepObserver() = default;
-  /// Before the first step.
+  /// Called before the first step.
   virtual void begin(const Simulation& /*simulation*/) {}
-  /// After that, where a run goes on: every step that was done before, and first of all the start, as step 0.
-  /// @param time    its end [s]
-  /// @param seconds that the step took
+  /// Called after begin() in a resumed run, for every earlier step; the first call is the start, as step 0.
+  /// @param time    end of the step [s]
+  /// @param seconds computing time of the step [s]
   virtual void replay(const StepRow& /*row*/, double /*time*/, double /*seconds*/) {}
-  /// After every step.
-  /// @param seconds that the step took
-  /// @throws Interrupted, of several observers the first alone: the step is then taken back
+  /// Called after every step.
+  /// @param seconds computing time of the step [s]
+  /// @throws Interrupted only from the first of several observers; the step is then undone
   virtual void after_step(const Simulation& simulation, const StepReport& report, double seconds) = 0;
 };
 

@@ -8,7 +8,7 @@
 namespace drape {
 namespace {
 
-/// Of one thread, at least: two share the smallest cloth that is divided.
+/// Minimum for one thread: two threads share the smallest cloth that is divided.
 constexpr int vertices_of_a_thread = worth_dividing / 2;
 
 }  // namespace

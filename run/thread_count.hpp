@@ -4,13 +4,13 @@
 
 namespace drape {
 
-/// The most threads that share a step unless more are asked for: with more, what each loop costs to divide grows, and
-/// the memory's bandwidth is used up (docs/performance.md).
+/// Limit of the automatic thread count. Beyond it loop overhead grows and memory bandwidth is exhausted
+/// (docs/performance.md).
 inline constexpr int most_automatic_threads = 16;
 
-/// The same settings with the threads that share the steps of a run.
-/// @param asked so many, or 0: as many as gain something and find a processor of their own, and only while they do
-/// @param drawn whether frames are drawn and encoded meanwhile, for which a processor is left
+/// Returns the settings with the number of threads for the steps of a run.
+/// @param asked number of threads; 0: as many as pay off and find an idle processor, only while they do
+/// @param drawn true if frames are drawn and encoded at the same time, which reserves one processor
 SimulationSettings with_threads(SimulationSettings settings, int asked, bool drawn);
 
 }  // namespace drape

@@ -12,20 +12,20 @@
 namespace drape {
 namespace {
 
-constexpr std::int64_t states = 12;         // along the reference, from which steps are solved
-constexpr double error_of_reference = 0.1;  // of the smallest accuracy
+constexpr std::int64_t states = 12;         // states of the reference in which single steps are solved
+constexpr double error_of_reference = 0.1;  // largest error of the reference, as a share of the smallest accuracy
 
 void sort_without_repetition(std::vector<std::int64_t>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// A scene's study while it is done.
+/// The running study of one scene.
 class SceneStudy {
  public:
   SceneStudy(const std::string& name, const std::string& file, const AccuracyOptions& asked)
       : scene_(load_scene(file, asked.overrides)) {
-    scene_.simulation.integrator.scheme = TimeScheme::backward_euler;  // of the steps whose solves are compared
+    scene_.simulation.integrator.scheme = TimeScheme::backward_euler;  // for the steps whose solves are compared
     result_.name = name;
     result_.scene = file;
     result_.options = complete(asked, scene_);
@@ -66,7 +66,7 @@ class SceneStudy {
     return find_same_steps(stop, progress) && find_small_steps(stop, progress);
   }
 
-  /// The reference in the scene's own steps, and what it says about contact and buckling.
+  /// Computes the reference with the scene's own steps, and the times of contact and buckling.
   bool find_same_steps(const std::stop_token& stop, Progress& progress) {
     const bool judged = result_.options.parts.estimates && !cases_.asked.empty();
     if (!result_.options.parts.solve && !judged) return true;

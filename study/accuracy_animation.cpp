@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_panels = 4;
 constexpr double usual_tolerance = 1e-3;
 
-/// Spread over a list, its ends included.
+/// Returns up to most_panels elements, evenly spread over a list and including its ends.
 template <class T>
 std::vector<T> spread(const std::vector<T>& all) {
   if (all.size() <= most_panels) return all;
@@ -38,7 +38,7 @@ AnimationPanel panel(const StepPoint& p) {
           fmt::format("{}, h = {:g} s: {}", step_method_name(p.method), p.step, cost_label(p.measured.time().median))};
 }
 
-/// The method whose tolerance or step is varied: that whose errors are seen best.
+/// Returns the method whose tolerance or step varies: Liu13 if present, since its errors are the most visible.
 StepMethod shown_method(const SceneAccuracy& accuracy) {
   const std::vector<StepMethod>& methods = accuracy.options.methods;
   const bool has_liu13 = std::find(methods.begin(), methods.end(), StepMethod(Method::liu13)) != methods.end();

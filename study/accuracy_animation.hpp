@@ -6,14 +6,14 @@
 
 namespace drape {
 
-/// What the panels of an animation differ in.
+/// The property in which the panels of an animation differ.
 enum class AnimatedBy { tolerances, methods, steps };
 inline constexpr std::array<const char*, 3> animated_by_names{"tolerances", "methods", "steps"};
 
-/// Makes an animation of a scene that was studied: up to four tolerances of one method, the methods at one tolerance,
-/// or up to four time steps of one method.
-/// @param folder of the results
-/// @returns nothing if it was stopped, or there are not two panels
+/// Animates a studied scene: up to four tolerances of one method, the methods at one tolerance, or up to four time
+/// steps of one method.
+/// @param folder for the results
+/// @returns nothing if stopped, or with fewer than two panels
 /// @throws OutputError
 std::optional<StudyPicture> animate_accuracy(const SceneAccuracy& accuracy, AnimatedBy by,
                                              const std::filesystem::path& folder, GlBackend backend,

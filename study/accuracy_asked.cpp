@@ -32,8 +32,8 @@ html::ChartPoint point_of(const SceneAccuracy& scene, const MotionPoint& p, doub
           {}};
 }
 
-/// Cost across, and something of the motions up, for methods of an order: with an accuracy that was asked for, and
-/// dashed with fixed steps.
+/// Plots a property of the motions (up) against their cost (across), for the methods of one order. Motions with an
+/// accuracy are solid lines, fixed steps dashed.
 template <class Value>
 html::Chart by_cost(const SceneAccuracy& scene, int order, const std::string& title, const std::string& y_title,
                     Value value) {
@@ -74,7 +74,7 @@ html::Chart asked_and_got(const SceneAccuracy& scene) {
     if (!series.points.empty()) chart.series.push_back(std::move(series));
   }
   html::ChartSeries same{"got = asked", {}, false};
-  same.style = 5;  // which is no method's
+  same.style = 5;  // used by no method
   for (const double accuracy : scene.options.accuracies) {
     same.points.push_back({accuracy, accuracy, fmt::format("{:g} m", accuracy), {}, {}});
   }

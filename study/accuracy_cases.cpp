@@ -12,10 +12,10 @@
 namespace drape {
 namespace {
 
-// Of the cases that differ in their step: so small that the error of the solve is not seen beside that of the step.
+// Tolerance of the cases that differ in their step: small enough to make the solve's error negligible.
 constexpr double small_tolerance = 1e-9;
 
-/// A scene as it is asked about, with its own method.
+/// Returns the case of a scene with its own method and the study's overrides.
 StudyCase bare_case(const std::string& file, const AccuracyOptions& options, std::string label) {
   StudyCase what;
   what.label = std::move(label);
@@ -37,7 +37,7 @@ void add_tolerance(StudyCase& what, double tolerance) {
   what.overrides.push_back(fmt::format("integrator.max_iterations={}", most_study_iterations));
 }
 
-/// Whether a method can take steps of this length.
+/// Returns true if a method is stable with this step length.
 bool is_stable(SimulationSettings settings, StepMethod method, double step) {
   settings.integrator.method = method.method;
   settings.integrator.scheme = method.scheme;
@@ -46,7 +46,7 @@ bool is_stable(SimulationSettings settings, StepMethod method, double step) {
   return !stability_problem(settings, make_system(settings));
 }
 
-/// With the default tolerance, whatever the scene says: its table is replaced.
+/// Returns a case with the default tolerance: replaces the scene's [integrator] table.
 StudyCase by_default(const std::string& file, const AccuracyOptions& options, StepMethod method, std::string label) {
   StudyCase what = bare_case(file, options, std::move(label));
   const std::string scheme =
@@ -56,7 +56,7 @@ StudyCase by_default(const std::string& file, const AccuracyOptions& options, St
   return what;
 }
 
-/// Asks for an accuracy, which is reached by schemes of second order, whatever the scheme of the fixed steps beside it.
+/// Adds an accuracy to a case. Accuracy needs a second-order scheme, also beside fixed steps of another scheme.
 void ask(StudyCase& what, StepMethod method, double accuracy) {
   if (!is_explicit(method.method)) what.overrides.push_back("integrator.scheme=" + scheme_name(TimeScheme::sdirk2));
   what.overrides.push_back("time.accuracy=" + plain_number(accuracy));
@@ -111,7 +111,7 @@ void leave_out_methods(const Scene& scene, const std::string& file, AccuracyOpti
   const std::vector<StepMethod> given = options.methods;
   std::erase_if(options.methods, [&](StepMethod method) {
     StudyCase what = by_default(file, options, method, "");
-    ask(what, method, 1);  // so no step is refused for its length
+    ask(what, method, 1);  // so that no step is rejected for its length
     try {
       static_cast<void>(what.load());
       return false;
@@ -121,7 +121,7 @@ void leave_out_methods(const Scene& scene, const std::string& file, AccuracyOpti
       return true;
     }
   });
-  if (options.methods.empty()) options.methods = given;  // which says why it cannot be run
+  if (options.methods.empty()) options.methods = given;  // their error messages explain why none can run
 }
 
 AccuracyCases accuracy_cases(const Scene& scene, const std::string& file, const AccuracyOptions& options,

@@ -9,7 +9,7 @@ struct ToleranceCase {
   double tolerance;
   StudyCase what;
 };
-/// With a time step [s], or an accuracy [m].
+/// A case with a time step [s] or an accuracy [m].
 struct StepCase {
   StepMethod method;
   double setting;
@@ -17,20 +17,20 @@ struct StepCase {
 };
 struct AccuracyCases {
   std::vector<ToleranceCase> tolerances;
-  std::vector<StepCase> steps;  ///< each solved to the end
-  std::vector<StepCase> asked;  ///< with an accuracy
-  std::vector<StepCase> fixed;  ///< with a time step and the default tolerance
+  std::vector<StepCase> steps;  ///< each step solved to the end
+  std::vector<StepCase> asked;  ///< cases with an accuracy
+  std::vector<StepCase> fixed;  ///< cases with a time step and the default tolerance
 };
 
-/// Takes out of the options the methods that cannot compute the scene whatever the step, unless none can.
-/// @param notes gets a sentence about each
+/// Removes methods that cannot compute the scene with any step, unless no method would remain.
+/// @param notes gets a sentence about each removed method
 void leave_out_methods(const Scene& scene, const std::string& file, AccuracyOptions& options,
                        std::vector<std::string>& notes);
 
-/// What is measured in a scene.
-/// @param file    the scene's, as a command names it
-/// @param options complete
-/// @param notes   gets a sentence about everything that cannot be measured
+/// Returns the cases to measure in a scene.
+/// @param file    the scene file as given on the command line
+/// @param options completed by complete()
+/// @param notes   gets a sentence about each case that cannot be measured
 AccuracyCases accuracy_cases(const Scene& scene, const std::string& file, const AccuracyOptions& options,
                              std::vector<std::string>& notes);
 

@@ -18,7 +18,7 @@ std::string list(const std::vector<double>& values) {
   return text;
 }
 
-/// What of a scene's study is to be measured again.
+/// The part of a scene's study that a command repeats.
 struct Again {
   std::string methods, parts;
   std::vector<double> tolerances, steps, accuracies;
@@ -52,7 +52,7 @@ std::string commands(const SceneAccuracy& scene, const StepPoint& point) {
                      point.measured.what.film_command(film(scene, point.method, "step", point.step)));
 }
 
-/// A series for each method, of the error that `error` takes from a point.
+/// Plots error(point) against time per step, one series per method.
 template <class Error>
 html::Chart by_time(const SceneAccuracy& scene, const std::string& title, const std::string& y_title, Error error) {
   html::Chart chart{title,
@@ -118,7 +118,7 @@ html::Chart by_step(const SceneAccuracy& scene, const std::string& title, const 
 
 NamedChart apart_chart(const SceneAccuracy& scene) {
   html::ChartSeries series{"Newton and quasi-Newton", {}, false};
-  series.style = 5;  // which is no method's
+  series.style = 5;  // used by no method
   for (std::size_t i = 0; i < scene.apart_by_step.size(); ++i) {
     const double time = static_cast<double>(i + 1) * scene.step;
     series.points.push_back(

@@ -5,20 +5,20 @@
 
 namespace drape {
 
-/// The work-precision diagrams of a scene: of the solve, of the motion at each time, of the time step, and how the two
-/// references part.
+/// Returns the work-precision diagrams of a scene (solve, motion at each time, time step) and the distance of the two
+/// references over time.
 std::vector<NamedChart> accuracy_charts(const SceneAccuracy& scene);
 
-/// The command of the study of a scene, with all that was asked.
+/// Returns the command of a scene's study with all its options.
 std::string study_command(const SceneAccuracy& scene);
 
-/// The commands that make a motion's point again.
+/// Returns the commands that reproduce a motion's point.
 std::string motion_commands(const SceneAccuracy& scene, const MotionPoint& point);
 
-/// Of the axis of cost().
+/// Axis title for cost().
 inline constexpr const char* cost_title = "CPU time per second of motion [ms], median and 95 % interval";
 
-/// What a diagram draws as a bar; nothing where it is not known.
+/// Returns the ends of a diagram's error bar; nothing if unknown.
 std::optional<std::array<double, 2>> spread_of(const MedianInterval& time);
 
 }  // namespace drape

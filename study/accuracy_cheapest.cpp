@@ -16,17 +16,17 @@ constexpr std::array<double, 4> limits{1e-3, 1e-4, 1e-5, smallest_error};
 constexpr const char* per_step = "µs per step";
 constexpr const char* per_second = "ms per second of motion";
 
-/// A kind of error: what there is for it, and how far it can be told.
+/// A kind of error, the offers for it, and its resolution.
 struct Kind {
   std::string name, unit;
   std::vector<Offer> offers;
-  double unknown = 0;    ///< errors up to this cannot be told [m]
-  std::string why = {};  ///< they cannot
+  double unknown = 0;    ///< errors up to this size cannot be resolved [m]
+  std::string why = {};  ///< the reason
 };
 
 constexpr const char* poor_reference = "unknown: the reference is not accurate enough";
 
-/// From the true motion: by an accuracy that is asked for, and by fixed steps with the default tolerance.
+/// Returns the errors of whole motions, with a given accuracy or with fixed steps and the default tolerance.
 std::vector<Kind> whole_errors(const SceneAccuracy& scene) {
   std::vector<Kind> kinds;
   if (scene.asked.empty() && scene.fixed.empty()) return kinds;
@@ -46,7 +46,7 @@ std::vector<Kind> whole_errors(const SceneAccuracy& scene) {
   return kinds;
 }
 
-/// Of a step, and of the motion with the same step.
+/// Returns the errors of a single step, and of the motion with the same step.
 std::vector<Kind> tolerance_errors(const SceneAccuracy& scene) {
   if (scene.points.empty()) return {};
   std::vector<Kind> kinds{{"solve", per_step, solve_offers(scene)}};
@@ -80,7 +80,7 @@ std::vector<Kind> kinds_of(const SceneAccuracy& scene) {
   return kinds;
 }
 
-/// What cannot be had below a limit, in words; empty where something can.
+/// Returns the reason why no offer is below a limit; empty if one is.
 std::string why_none(const Kind& kind, double limit) {
   if (kind.unknown >= limit) return kind.why;
   return find_cheapest(kind.offers, limit).first == nullptr ? "none of those run" : "";
@@ -94,7 +94,7 @@ Cheapest find_cheapest(const std::vector<Offer>& offers, double limit) {
     const Offer* least = nullptr;
     for (const Offer& offer : offers) {
       if (!(offer.error < limit) || offer.method == but) continue;
-      // The same iterations: what differs is the clock's scatter.
+      // Equal errors of one method mean equal iterations: only clock noise differs.
       if (least != nullptr && offer.method == least->method && offer.error == least->error) continue;
       if (least == nullptr || offer.cost.median < least->cost.median) least = &offer;
     }

@@ -13,9 +13,9 @@ namespace drape {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double rounded_part = 1e-6;  // of a step, that rounding may make
+constexpr double rounded_part = 1e-6;  // rounding tolerance, as a share of a step
 
-/// The scene's step at whose end a time is; nothing if it is within one.
+/// Returns the scene's step that ends at a time; nothing for a time within a step.
 std::optional<std::int64_t> moment_at(double time, double h) {
   const double steps = time / h;
   if (std::abs(steps - std::round(steps)) > rounded_part) return std::nullopt;

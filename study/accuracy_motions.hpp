@@ -9,21 +9,21 @@
 
 namespace drape {
 
-/// Watches motions with an accuracy that was asked for, or with a fixed step, and finds what is wrong with them.
+/// Observer of motions with an accuracy or a fixed step, which computes their errors.
 class MotionWatch {
  public:
-  /// Refers to all of it.
-  /// @param reference needed by watch()
-  /// @param films     null: none are judged
+  /// Keeps references to all arguments.
+  /// @param reference required by watch()
+  /// @param films     null: films are not compared
   MotionWatch(const Scene& scene, const std::vector<double>& times, const StepReference* reference, FilmJudge* films)
       : scene_(scene), times_(times), reference_(reference), films_(films) {}
 
-  /// What watches the motion of a point, and writes to it.
+  /// Returns an observer of a point's motion, which writes to the point.
   std::function<void(const Simulation&, const StepReport&)> watch(MotionPoint& point, const StudyCase& what);
 
-  /// Takes the steps that were watched again, in very small ones.
-  /// @param points those whose local errors are wanted
-  /// @returns false if it was stopped
+  /// Computes the true local errors of the observed steps, by very small steps from the same states.
+  /// @param points to which the local errors are written
+  /// @returns false if stopped
   bool find_local_errors(std::vector<MotionPoint>& points, std::vector<std::string>& notes, const std::stop_token& stop,
                          Progress& progress) const;
 

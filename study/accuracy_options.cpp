@@ -9,8 +9,8 @@
 namespace drape {
 namespace {
 
-constexpr double shortest_part = 1e-9;           // of a step, that rounding may make
-constexpr std::int64_t most_small_steps = 2000;  // of the smallest default step
+constexpr double shortest_part = 1e-9;           // rounding tolerance, as a share of a step
+constexpr std::int64_t most_small_steps = 2000;  // limit for the smallest default step
 constexpr int most_halvings = 6;
 
 std::vector<double> default_steps(double h, double time) {
@@ -22,7 +22,7 @@ std::vector<double> default_steps(double h, double time) {
   return steps;
 }
 
-/// Largest first, none twice.
+/// Sorts in descending order and removes duplicates.
 void tidy(std::vector<double>& values) {
   std::sort(values.rbegin(), values.rend());
   values.erase(std::unique(values.begin(), values.end()), values.end());

@@ -67,7 +67,7 @@ ResultTable step_table(const SceneAccuracy& scene) {
   return table;
 }
 
-/// "semi-implicit 0.99, implicit 0.87 (from h = 0.00125 s to 0.000625 s)"
+/// Returns "semi-implicit 0.99, implicit 0.87 (from h = 0.00125 s to 0.000625 s)".
 std::string describe_orders(const SceneAccuracy& scene) {
   std::string text, unknown;
   for (const StepMethod method : scene.options.methods) {
@@ -126,7 +126,7 @@ std::string headline(const std::vector<SceneAccuracy>& scenes) {
   return fmt::format("A step solved to 1 µm costs {} to {} µs", three_digits(least), three_digits(most));
 }
 
-/// What somebody asks who has a scene to compute: beside pictures of it, a method for each error.
+/// Returns the section for a reader with a scene to compute: the pictures, and a method for each error.
 StudySection answer_section(const AccuracyStudy& study) {
   StudySection answer{
       "What to take",

@@ -5,17 +5,16 @@
 
 namespace drape {
 
-/// The study of some scenes: all that its report is made of.
+/// An accuracy study of several scenes, complete for its report.
 struct AccuracyStudy {
-  std::string command;  ///< that makes it again
+  std::string command;  ///< command to reproduce it
   std::vector<SceneAccuracy> scenes;
-  std::vector<std::vector<StudyPicture>> pictures;  ///< of each scene, its animations; as many as scenes
-  double seconds = 0;                               ///< that it took
-  std::vector<std::pair<std::string, std::string>> provenance =
-      {};  ///< what it was measured on, see study_provenance()
+  std::vector<std::vector<StudyPicture>> pictures;                   ///< animations of each scene; same size as scenes
+  double seconds = 0;                                                ///< duration of the study
+  std::vector<std::pair<std::string, std::string>> provenance = {};  ///< program and machine, see study_provenance()
 };
 
-/// The study as it is printed and written.
+/// Returns the report of a study for all output formats.
 StudyReport accuracy_report(const AccuracyStudy& study);
 
 }  // namespace drape

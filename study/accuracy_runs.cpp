@@ -21,7 +21,7 @@ namespace {
 constexpr int format = 2;
 constexpr std::size_t most_bytes = std::size_t{1} << 31, most_picture_bytes = std::size_t{1} << 28;
 
-// What is kept, described once for both ways: Fields is a RunsWriter, and the rest constant, or a RunsRecord.
+// The fields, described once for both directions: Fields is a RunsWriter (with const data) or a RunsRecord.
 
 template <class Fields, class Case>
 void describe_case(Fields& f, Case& c) {
@@ -39,7 +39,7 @@ void describe_case(Fields& f, Case& c) {
   f("failure", c.failure);
 }
 
-/// Distances as two lists.
+/// Stores distances as two lists.
 void describe_distances(RunsWriter& f, const std::string& name, const std::vector<Distance>& distances) {
   std::vector<double> max, rms;
   for (const Distance& d : distances) {
@@ -165,7 +165,7 @@ void read_point(RunsRecord& record, std::vector<Point>& points) {
   describe(record, p);
 }
 
-/// Reads the records of a file, one after the other.
+/// Reader of the records of a file, in order.
 class StudyReader {
  public:
   explicit StudyReader(const std::filesystem::path& folder) : folder_(folder), file_((folder / runs_name).string()) {}
@@ -249,7 +249,7 @@ class StudyReader {
     record.fail(record.line(), fmt::format("nothing was said yet about a scene '{}'", record.key.scene));
   }
 
-  /// "runs.csv:12", for messages.
+  /// Returns "runs.csv:12", for messages.
   [[nodiscard]] std::string place(const RunsRecord& record) const { return fmt::format("{}:{}", file_, record.line()); }
 
   std::filesystem::path folder_;

@@ -7,15 +7,15 @@
 
 namespace drape {
 
-/// The name of the file of a study's runs, in the folder of its results.
+/// Name of the file with a study's measurements, in its results folder.
 inline constexpr const char* runs_name = "runs.csv";
 
-/// Everything that a study measured, as RunsWriter writes it: what read_runs() makes a study of, from which the same
-/// report follows. docs/study-data.md says what is in it.
+/// Returns all measurements of a study, as RunsWriter writes them. read_runs() restores the study, which gives the same
+/// report. The format is described in docs/study-data.md.
 std::string runs_csv(const AccuracyStudy& study);
 
-/// @param folder of the results, with the animations
-/// @throws UsageError "file:line: message" if the file is missing, cut, or another
+/// Reads a study from the folder of its results, with the animations.
+/// @throws UsageError "file:line: message" if the file is missing, truncated or of another kind
 AccuracyStudy read_runs(const std::filesystem::path& folder);
 
 }  // namespace drape

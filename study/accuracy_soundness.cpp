@@ -12,13 +12,13 @@ bool all_finite(const std::vector<double>& values) {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
-/// A case has times, unless it failed.
+/// Returns true if a case has finite times, or a failure.
 bool is_sound(const CaseRuns& runs) {
   const bool timed = !runs.microseconds.empty() || !runs.failure.empty();
   return timed && all_finite(runs.microseconds) && all_finite(runs.setup);
 }
 
-/// What is known of every step is known of all of them, or of none.
+/// Returns true if the lists of a motion's steps have matching sizes; they may be empty.
 bool is_sound(const MotionPoint& point, std::size_t times) {
   const std::size_t judged = point.local_errors.size();
   return is_sound(point.measured) && point.errors.size() == times && point.local_unknown.size() == judged &&

@@ -6,8 +6,8 @@
 
 namespace drape {
 
-/// Says what keeps a report from being made of a scene that was read from a file: lists that do not go together.
-/// @returns a sentence without a full stop; empty: nothing does
+/// Checks that the lists of a scene read from a file have matching sizes, so that a report can be made.
+/// @returns the first defect as a sentence without a full stop; empty: none
 std::string unsound_in(const SceneAccuracy& scene);
 
 }  // namespace drape

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<double, 3> wanted{1e-2, 1e-3, 1e-4};  // errors of a motion [m]
 constexpr std::array<double, 4> solve_limits{1e-3, 1e-4, 1e-5, smallest_error};
 
-/// Of the accuracies that were asked for.
+/// Returns the offers of motions with an accuracy.
 std::vector<Offer> asked_offers(const SceneAccuracy& scene, bool with_explicit) {
   std::vector<Offer> offers;
   for (const MotionPoint& p : scene.asked) {
@@ -53,7 +53,7 @@ ResultTable take_table(const std::vector<SceneAccuracy>& scenes) {
   return table;
 }
 
-/// "13 mm, 30.9 ms, 1.22": where a motion ends, its cost, and that by the best fixed step's.
+/// Returns "13 mm, 30.9 ms, 1.22": final error, cost, and cost relative to the best fixed step.
 std::string describe_cost(const SceneAccuracy& scene, const MotionPoint& p) {
   if (!p.measured.failure.empty()) return "–";
   const double error = p.errors.front().max, cost = p.measured.cost().median;

@@ -8,16 +8,15 @@
 
 namespace drape {
 
-/// What the cheapest fixed step of a method costs that ends with this error [m] at the first time, the default
-/// tolerance given: between two steps that were run, on the straight line of the logarithms [ms per second of motion].
-/// Nothing where none of them gets there.
+/// Returns the least cost of a method's fixed steps, with the default tolerance, for this error [m] at the first time
+/// [ms per second of motion]. Interpolates linearly between logarithms of two runs. Nothing if no run is so accurate.
 std::optional<double> fixed_step_cost(const SceneAccuracy& scene, StepMethod method, double error);
 
-/// What all scenes together say about accuracies that are asked for: what to take, what it costs beside fixed steps,
-/// and whether the estimates hold. Nothing where none was asked for.
+/// Summarises motions with an accuracy over all scenes: recommended settings, cost relative to fixed steps, quality of
+/// the estimates. Nothing without such motions.
 std::optional<StudySection> asked_summary(const std::vector<SceneAccuracy>& scenes);
 
-/// What a step costs whose solve is so exact, by scene and method. Nothing where no solve was measured.
+/// Summarises the cost of a step by its solve error, scene and method. Nothing without solve errors.
 std::optional<StudySection> solve_summary(const std::vector<SceneAccuracy>& scenes);
 
 }  // namespace drape

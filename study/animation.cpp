@@ -29,20 +29,20 @@
 namespace drape {
 namespace {
 
-constexpr double most_frames_per_second = 10;                        // a GIF that shows differences need not be smooth
+constexpr double most_frames_per_second = 10;                        // enough to show differences
 constexpr int picture_width = 340, gap = 6, band = 42, margin = 10;  // [pixels]
-constexpr int letters = 13;                                          // size of the font [pixels]
-constexpr double smallest = 1e-6, largest = 1;                       // of the colour bar [m]
+constexpr int letters = 13;                                          // font size [pixels]
+constexpr double smallest = 1e-6, largest = 1;                       // range of the colour bar [m]
 constexpr int stills_in_a_row = 2;                                   // more would be too small on paper
 constexpr std::uint8_t paper = 255;
-// The lines of the mesh show triangles that are folded over, on dark colours as on bright ones.
+// Mesh lines show folded triangles, on dark and on bright colours.
 const Rgb mesh_ink{0.05, 0.05, 0.06};
 
 double along_bar(double distance) {
   return distance <= smallest ? 0 : std::log10(distance / smallest) / std::log10(largest / smallest);
 }
 
-/// The frames of a whole motion; those up to where it was stopped.
+/// Returns the frames of a whole motion, or up to the stop.
 std::vector<Frame> frames_of(const SimulationSettings& settings, const Video& video, double duration,
                              const std::stop_token& stop) {
   std::vector<Frame> frames;
@@ -54,7 +54,7 @@ std::vector<Frame> frames_of(const SimulationSettings& settings, const Video& vi
   return frames;
 }
 
-/// The strip below the panels.
+/// Draws the colour bar below the panels.
 Image distance_bar(Pen& pen, int width) {
   const std::vector<Tick> marks{{along_bar(1e-6), "1 µm"}, {along_bar(1e-5), "10 µm"}, {along_bar(1e-4), "0.1 mm"},
                                 {along_bar(1e-3), "1 mm"}, {along_bar(1e-2), "1 cm"},  {along_bar(0.1), "0.1 m"},
@@ -70,7 +70,7 @@ Image beneath(const Image& upper, const Image& lower) {
   return whole;
 }
 
-/// Draws panels of one cloth.
+/// Painter of panels of one cloth.
 class PanelPainter {
  public:
   PanelPainter(const Scene& scene, const View& view, const Eigen::Vector2i& size, GlBackend backend, Pen& pen)
@@ -108,7 +108,7 @@ class PanelPainter {
   Renderer renderer_;
 };
 
-/// The motion whose last frame is furthest from a frame.
+/// Returns the motion whose last frame is furthest from a frame.
 std::size_t furthest(const std::vector<std::vector<Frame>>& motions, const Frame& end) {
   std::size_t worst = 0;
   double most = 0;
@@ -122,7 +122,7 @@ std::size_t furthest(const std::vector<std::vector<Frame>>& motions, const Frame
   return worst;
 }
 
-/// A view that stays, of all motions.
+/// Returns one fixed view that covers all motions.
 View view_of(const Scene& scene, const Eigen::Vector2i& size, const std::vector<std::vector<Frame>>& motions) {
   Camera still = scene.camera;
   still.follow = false;

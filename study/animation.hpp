@@ -12,27 +12,27 @@
 
 namespace drape {
 
-/// A motion in an animation, and what stands above it.
+/// A motion in an animation, with its heading.
 struct AnimationPanel {
   StudyCase what;
   std::string label;  ///< "liu13, tolerance 0.001: 190 µs per step"
 };
 
-/// The bytes of a GIF, and of a PNG that shows some of its moments in rows; and two of its motions to turn.
+/// An animation as GIF, some of its frames in a PNG, and two of its motions for interactive viewing.
 struct Animation {
   std::string gif, stills;
   html::PlayedMotion reference = {}, worst = {};
-  std::size_t worst_panel = 0;  ///< which ends furthest from the reference
+  std::size_t worst_panel = 0;  ///< the panel with the largest error at the end
 };
 
-/// A GIF in which several motions of a scene run side by side, each vertex in the colour of its distance to a reference
-/// motion, with a colour bar. Above each panel stands what it is, and its error and flipped pairs at the moment.
-/// @param scene     what gives the camera, the size and the duration
+/// Makes a GIF with several motions of a scene side by side. Vertex colours show the distance to a reference motion,
+/// with a colour bar. The heading of each panel has its label, current error and number of flipped pairs.
+/// @param scene     gives the camera, the size and the duration
 /// @param reference settings of the reference motion, see to_rounding()
-/// @param panels    cases whose scenes have the same cloth; their steps are not asked
-/// @param file      where it is written; its stills, with the extension .png
-/// @returns the file's bytes and its stills; nothing if it was stopped
-/// @throws OutputError where nothing can be drawn or written, or there is no font; DivergedError
+/// @param panels    cases with the scene's cloth; their step counts are ignored
+/// @param file      path of the GIF; the stills get the extension .png
+/// @returns nothing if stopped
+/// @throws OutputError if drawing or writing fails, or no font is found; DivergedError
 std::optional<Animation> animate_errors(const Scene& scene, const SimulationSettings& reference,
                                         const std::vector<AnimationPanel>& panels, const std::filesystem::path& file,
                                         GlBackend backend, const std::stop_token& stop, Progress& progress);

@@ -10,29 +10,28 @@
 
 namespace drape {
 
-/// A scene with a few values replaced, run for a number of steps: what a study measures.
+/// A scene with a few overrides and a number of steps: the unit of measurement of a study.
 struct StudyCase {
-  std::string label;                   ///< "liu13, ε = 1e-3"
+  std::string label;                   ///< a file, relative to `folder`: "scenes/homework/3.toml"
   std::string scene;                   ///< a file, relative to `folder`: "scenes/homework/3.toml"
-  std::vector<std::string> overrides;  ///< as for --set
+  std::vector<std::string> overrides;  ///< overrides as for --set
   std::int64_t steps = 0;
-  std::int64_t watched_steps = 0;     ///< of a run that is not timed, if they are more than `steps`
+  std::int64_t watched_steps = 0;     ///< steps of the untimed run, if more than `steps`
   std::filesystem::path folder = {};  ///< empty: the data folder
-  /// Computing time of a run of `steps` from which on it is given up [s]; absent: never, and it must not diverge
-  /// either.
+  /// Computing time limit for `steps` [s]; absent: no limit, and a divergence is an error.
   std::optional<double> patience = {};
 
   /// @throws UsageError
   [[nodiscard]] Scene load() const;
 
-  /// The command that runs this case, and no other.
+  /// Returns the command that runs this case.
   [[nodiscard]] std::string command() const;
-  /// The command that makes a film of it.
-  /// @param film its name
+  /// Returns the command that makes a film of this case.
+  /// @param film name of the film
   [[nodiscard]] std::string film_command(const std::string& film) const;
 };
 
-/// A number as it is written on a command line: the shortest that reads back as the same.
+/// Formats a number for a command line: the shortest text that reads back exactly.
 std::string plain_number(double value);
 
 }  // namespace drape

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int elastica_steps = 4000;
 
-/// θ, dθ/dσ, drop and reach, σ = 1 − s counted from the free end.
+/// θ, dθ/dσ, drop and reach, with σ = 1 − s measured from the free end.
 using ElasticaState = std::array<double, 4>;
 
 ElasticaState slope_of(const ElasticaState& y, double sigma, double gamma) {
@@ -22,7 +22,7 @@ ElasticaState moved(const ElasticaState& y, const ElasticaState& slope, double w
   return result;
 }
 
-/// The state at the clamp if the angle at the free end is `tip`.
+/// Returns the state at the clamp for the angle `tip` at the free end.
 ElasticaState shoot(double tip, double gamma) {
   constexpr double h = 1.0 / elastica_steps;
   ElasticaState y{tip, 0, 0, 0};
@@ -36,7 +36,7 @@ ElasticaState shoot(double tip, double gamma) {
   return y;
 }
 
-/// The angle at the free end of the equilibrium that hangs: the largest for which the clamp is level.
+/// Returns the angle at the free end of the hanging equilibrium: the largest angle with a horizontal clamp.
 double tip_angle(double gamma) {
   constexpr int scanned = 200;
   double high = std::numbers::pi / 2, above = shoot(high, gamma)[0], low = high, below = above;

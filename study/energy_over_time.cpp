@@ -14,7 +14,7 @@
 namespace drape {
 namespace {
 
-constexpr double duration = 8, between = 0.1;  // of the points of a curve [s]
+constexpr double duration = 8, between = 0.1;  // [s]; `between` is the spacing of a curve's points
 
 SimulationSettings swinging_cloth(StepMethod method, double step) {
   const Mesh mesh = make_grid(20, 20);
@@ -30,7 +30,7 @@ SimulationSettings swinging_cloth(StepMethod method, double step) {
   return settings;
 }
 
-/// Keeps the energies of every so many steps.
+/// Observer that stores the energy every `every` steps.
 class EnergySamples final : public StepObserver {
  public:
   EnergySamples(std::int64_t every, EnergyCurve& curve) : every_(every), curve_(curve) {}
@@ -41,7 +41,7 @@ class EnergySamples final : public StepObserver {
   }
   void after_step(const Simulation& simulation, const StepReport&, double) override { keep(simulation); }
 
-  /// Relates the curve to what gravity has moved at most.
+  /// Divides the curve by the largest drop of gravity's energy.
   void finish() {
     for (double& energy : curve_.energies) energy /= moved_;
   }
@@ -49,7 +49,7 @@ class EnergySamples final : public StepObserver {
  private:
   void keep(const Simulation& simulation) {
     const Energies now = simulation.energies();
-    moved_ = std::max(moved_, -now.gravity);  // it starts at height 0
+    moved_ = std::max(moved_, -now.gravity);  // it is 0 at the start
     if (simulation.state().step % every_ != 0) return;
     curve_.times.push_back(simulation.time());
     curve_.energies.push_back(now.total() - first_);
@@ -97,7 +97,7 @@ NamedChart energy_chart(const std::vector<EnergyCurve>& curves) {
     html::ChartSeries series = method_series(step_method_name(curve.method));
     series.name = name_of(curve);
     series.markers = false;
-    // The scheme has the colour here, and the long step is dashed.
+    // Colours show the scheme here; the long step is dashed.
     if (curve.method.scheme == TimeScheme::sdirk2) series.style = 5;
     series.other = curve.step > 0.01;
     for (std::size_t i = 0; i < curve.times.size(); ++i) {

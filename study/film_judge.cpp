@@ -21,7 +21,7 @@ double mean(const ErrorMap& map) {
   return std::accumulate(map.values.begin(), map.values.end(), 0.0) / static_cast<double>(map.values.size());
 }
 
-/// What only places are asked of can be made whatever the step.
+/// Allows any step length, since only positions are used.
 SimulationSettings places_only(SimulationSettings settings) {
   settings.integrator.allow_unstable = true;
   return settings;

@@ -11,31 +11,31 @@
 
 namespace drape {
 
-/// The steps after which a film of a scene has its frames: about ten a second, from the start to the last step.
+/// Returns the steps after which a scene's comparison film has a frame: about ten a second, up to the last step.
 std::vector<std::int64_t> film_steps(const Scene& scene, std::int64_t last);
 
-/// How different a motion looks from the reference motion: FLIP errors (see flip_error) of small pictures, drawn as the
-/// scene's film is, by the camera of the reference. Make and use it on one thread.
+/// Visual difference of a motion from the reference motion: FLIP errors (see flip_error) of small pictures, drawn like
+/// the scene's film with the reference's camera. Create and use it on one thread.
 class FilmJudge {
  public:
-  /// @param steps     of the frames, moments of the reference or the start
-  /// @param reference which it refers to
+  /// @param steps     of the frames; moments of the reference
+  /// @param reference the motion to compare with
   /// @throws UsageError, OutputError as Renderer
   FilmJudge(const Scene& scene, const std::vector<std::int64_t>& steps, const StepReference& reference,
             GlBackend backend);
 
-  /// How many frames are compared: all but that of the start.
+  /// Returns the number of compared frames: all but the first.
   [[nodiscard]] std::size_t count() const { return pictures_.size(); }
-  /// The mean over the picture's pixels, 0 (the same) to 1; nothing if there is no frame after that step.
+  /// Returns the mean error over the picture's pixels, 0 (equal) to 1; nothing if no frame follows that step.
   std::optional<double> error(std::int64_t step, const Vertices& x);
-  /// The mean error of the reference's own film before it is extrapolated.
+  /// Returns the mean error of the reference's own film without extrapolation.
   [[nodiscard]] double unknown() const { return unknown_; }
 
  private:
   Image draw(std::size_t frame, const Vertices& x);
 
   double step_;
-  Simulation simulation_;  // for the places of what the cloth can touch
+  Simulation simulation_;  // for the positions of colliders
   Renderer renderer_;
   std::vector<std::int64_t> steps_;
   std::vector<View> views_;

@@ -49,7 +49,7 @@ ResultTable make_table(int table, const std::vector<HomeworkRow>& rows, const st
   return result;
 }
 
-/// The report's log, row by row.
+/// A row of the report's energy log [J].
 struct EnergyRow {
   std::int64_t step;
   double total, kinetic, gravity, elastic;
@@ -105,7 +105,7 @@ html::ChartSeries iterations_of(const Measured& measured, const std::string& nam
   return series;
 }
 
-/// @param every how many steps there is a point
+/// @param every steps per point
 html::ChartSeries height_of(const Measured& measured, const std::string& name, std::size_t every) {
   html::ChartSeries series = method_series(name);
   series.markers = false;
@@ -123,8 +123,8 @@ NamedChart over_time(const char* name, const char* title, const char* y_title, s
   return {name, {title, "time [s]", y_title, linear, linear, std::move(series), {}}};
 }
 
-/// A column of table 3 by tolerance, for every method that has one, and the report's own beside it.
-/// @param ours, reported  the value of a row
+/// Plots a column of table 3 against the tolerance for every method, beside the report's own values.
+/// @param ours, reported  functions that return the value of a row
 template <class Ours, class Reported>
 NamedChart by_tolerance(const char* name, const char* title, const char* y_title, const std::vector<HomeworkRow>& rows,
                         const std::vector<Measured>& measured, Ours ours, Reported reported) {
@@ -170,8 +170,8 @@ void add_charts(HomeworkStudy& study, const std::vector<HomeworkRow>& rows, cons
           [](const Measured& m) { return m.time().median; }, [](const Reported& r) { return r.microseconds; })};
 }
 
-/// Runs each method of tables 1 and 2 once more, for its motion.
-/// @returns false if it was stopped
+/// Runs each method of tables 1 and 2 once more and records its motion.
+/// @returns false if stopped
 bool add_motions(HomeworkStudy& study, const std::vector<HomeworkRow>& rows, const std::stop_token& stop,
                  Progress& progress) {
   progress.begin("running for the motions", "motions",

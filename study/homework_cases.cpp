@@ -5,9 +5,9 @@
 namespace drape {
 namespace {
 
-// The whole timeline, 250/30 s, in the two step lengths.
+// Numbers of steps in the whole timeline, 250/30 s, for both step lengths.
 constexpr std::int64_t steps = 417, small_steps = 8334;
-// The report looks at the first 167 steps of the implicit method with the sphere.
+// The report evaluates the first 167 steps of the implicit method with the sphere.
 constexpr std::int64_t sphere_steps = 167;
 
 constexpr const char* semi = "scenes/homework/1.toml";      // k = 18, damping 0.2

@@ -10,7 +10,7 @@
 
 namespace drape {
 
-/// What the report prints about a case, and what its code gives when it is run again.
+/// The report's values for a case, and the iterations that its code gives in a new run.
 struct Reported {
   std::optional<double> iterations, again;
   double microseconds = 0;
@@ -21,23 +21,23 @@ struct HomeworkRow {
   int table = 0;  ///< 1, 2 or 3
   std::string method;
   double step = 0;        ///< [s]
-  std::string tolerance;  ///< as it is written: "1e-3"; empty where there is none
+  std::string tolerance;  ///< as written: "1e-3"; empty if there is none
   Reported reported;
   StudyCase what;
 };
 
-/// The rows of tables 1, 2 and 3, in their order.
+/// Returns the rows of tables 1, 2 and 3, in order.
 std::vector<HomeworkRow> homework_rows();
 
-/// Further cases that the report's conclusions are about, none of which is in its tables.
+/// Further cases for the report's conclusions, which its tables lack.
 enum class Extra : std::size_t {
-  undamped,   ///< semi-implicit, k = 18, without damping: to be compared with the implicit motion
+  undamped,   ///< semi-implicit, k = 18, undamped, for comparison with the implicit motion
   half_step,  ///< semi-implicit, k = 18, damped, with half the time step
   no_sphere,  ///< semi-implicit, k = 180, damped, without the sphere
 };
 std::vector<StudyCase> homework_extras();
 
-/// The cloth of the report's energy log: semi-implicit, k = 180, without damping, 20 steps.
+/// Returns the case of the report's energy log: semi-implicit, k = 180, undamped, 20 steps.
 StudyCase homework_energy_case();
 
 }  // namespace drape

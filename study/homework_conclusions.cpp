@@ -9,13 +9,13 @@
 namespace drape {
 namespace {
 
-/// More than one pair in two frames can be seen; the report's Liu13 shows about four in each.
+/// Threshold for visible flipped pairs per frame, more than one pair in two frames; the report's Liu13 has about four.
 constexpr double visible_pairs = 0.5;
 
 std::string per_frame(double pairs) { return pairs > 0 ? fmt::format("{:.2g}", pairs) : "none"; }
 
-/// The root mean square of a(t) − b(t) over the first `seconds`, at the steps of the coarser one, as a fraction of how
-/// far `a` moves in that time.
+/// Returns the root mean square of a(t) − b(t) over the first `seconds`, at the coarser steps, relative to the range of
+/// `a` in that time.
 double relative_distance(const Measured& a, const Measured& b, double seconds) {
   const Measured& coarse = a.step > b.step ? a : b;
   const auto at = [](const Measured& m, double time) {
@@ -31,7 +31,7 @@ double relative_distance(const Measured& a, const Measured& b, double seconds) {
   return std::sqrt(sum / count) / (high - low);
 }
 
-/// Mean iterations of the steps whose centre of mass is in the lowest and in the highest quarter of its range.
+/// Returns the mean iterations of steps with the centre of mass in the lowest and in the highest quarter of its range.
 std::pair<double, double> iterations_low_and_high(const Measured& m) {
   const auto [low, high] = std::minmax_element(m.height.begin(), m.height.end());
   const double range = *high - *low;
@@ -43,7 +43,7 @@ std::pair<double, double> iterations_low_and_high(const Measured& m) {
   return {sums.first / counts.first, sums.second / counts.second};
 }
 
-/// What the tables did, by table, method and tolerance.
+/// Measurements by table, method and tolerance.
 class Results {
  public:
   Results(const std::vector<HomeworkRow>& rows, const std::vector<Measured>& tables) : rows_(rows), tables_(tables) {}

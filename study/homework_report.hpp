@@ -5,7 +5,7 @@
 
 namespace drape {
 
-/// The study as it is printed and written.
+/// Returns the report of a study for all output formats.
 StudyReport homework_report(const HomeworkStudy& study);
 
 }  // namespace drape

@@ -7,18 +7,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Kernels are plain functions, so what they write to is global: one clock at a time.
+// Kernels are plain functions, so the times are global: one clock at a time.
 std::array<double, kernel_part_count> part_seconds;
 const Kernels* original = nullptr;
 
-/// Adds the time until its end to a part.
+/// A stopwatch that adds its lifetime to the time of a part.
 struct Stopwatch {
   std::size_t part;
   Clock::time_point begin = Clock::now();
   ~Stopwatch() { part_seconds[part] += std::chrono::duration<double>(Clock::now() - begin).count(); }
 };
 
-/// A kernel of the same type that calls the original one and measures it.
+/// A kernel of the same type that calls and times the original.
 template <auto Member, KernelPart Part>
 struct Timed;
 template <class Result, class... Arguments, Result (*Kernels::*Member)(Arguments...), KernelPart Part>

@@ -6,11 +6,11 @@
 
 namespace drape {
 
-/// What the hot loops are for.
+/// The purpose of a kernel.
 enum class KernelPart { local, assembly, global, product, vectors };
 inline constexpr std::size_t kernel_part_count = 5;
 
-/// Measures the time within the hot loops, from its making to its end, on the only thread that computes. One at a time.
+/// Timer of the kernels during its lifetime, for single-threaded computations. Only one may exist at a time.
 class KernelClock {
  public:
   KernelClock();
@@ -18,7 +18,7 @@ class KernelClock {
   KernelClock& operator=(const KernelClock&) = delete;
   ~KernelClock();
 
-  /// Forgets what it has measured so far.
+  /// Sets all times to zero.
   void reset();
   [[nodiscard]] double seconds(KernelPart part) const;
 

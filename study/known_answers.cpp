@@ -13,27 +13,28 @@ namespace {
 
 using std::numbers::pi;
 
-/// A sheet that falls flat from rest: the way over v∞²/g at the time x, in v∞/g.
+/// Returns the fall of a flat sheet from rest, in units of v∞²/g, at a time in units of v∞/g.
 double fallen(double time) { return std::log(std::cosh(time)); }
 
-/// The acceleration of what lies on a slope of tangent x with friction 0.3, over g.
+/// Returns the acceleration on a slope of tangent x with friction 0.3, relative to g.
 double sliding(double tangent) {
   constexpr double friction = 0.3;
   return std::max(0.0, (tangent - friction) / std::hypot(1, tangent));
 }
 
-/// Pulled by a spring whose end moves steadily over dry ground: the way over that of the end in a cycle, so many cycles
-/// after the spring first exceeds friction.
+/// Returns the way of a sheet that a steadily moving spring pulls over dry ground, relative to the way of the spring's
+/// end in a cycle.
+/// @param cycles since the spring first exceeded friction
 double stick_slip_way(double cycles) { return cycles < 0 ? 0 : cycles - std::sin(2 * pi * cycles) / (2 * pi); }
 
-/// The modulus over E at an angle [degrees] of springs along 0°, 90° and both diagonals, by their weights.
+/// Returns the modulus relative to E at an angle [degrees], from weights of springs along 0° and 90°, 45°, and 135°.
 double modulus_at(double angle, double sides, double rising, double falling) {
   const auto share = [angle](double spring) { return std::pow(std::cos((angle - spring) * pi / 180), 4); };
   return sides * (share(0) + share(90)) + rising * share(45) + falling * share(135);
 }
 
-/// The modulus over E of an isotropic sheet of Poisson's ratio 1/3: strained in one direction, in the other, in both by
-/// the same, and by the opposite.
+/// Returns the modulus relative to E of an isotropic sheet with Poisson's ratio 1/3. The four loads are strain in one
+/// direction, in the other, equal strains in both, and opposite strains.
 double isotropic_modulus(double load) {
   constexpr std::array values{9.0 / 8, 9.0 / 8, 3.0, 1.5};
   return values.at(static_cast<std::size_t>(std::lround(load) - 1));
@@ -82,13 +83,13 @@ double bessel_zero(int k) {
 }
 
 double capstan_limit(double friction, double light, double radius) {
-  // T/(ρgR) = C e^{µθ} + a cos θ + b sin θ, and b has no part at either end.
+  // T/(ρgR) = C e^{µθ} + a cos θ + b sin θ; the b term vanishes at both ends.
   const double a = -2 * friction / (1 + friction * friction);
   return ((light / radius - a) * std::exp(friction * pi) - a) * radius;
 }
 
 double catenary_sag(double span) {
-  // a sinh(x/a) = 1, x half the span: u = x/a has sinh(u)/u = 1/x.
+  // a sinh(x/a) = 1 with x half the span: u = x/a solves sinh(u)/u = 1/x.
   const double half = span / 2;
   double low = 1e-9, high = 50;
   for (int i = 0; i < 200; ++i) {

@@ -7,27 +7,26 @@
 
 namespace drape {
 
-/// What a single step does wrong, of time stepping and solve together: where it leads from a state, against where very
-/// small steps lead from the same. These are Verlet's, the cheapest, where they are stable and everything that acts can
-/// be computed so, or else quasi-Newton's of SDIRK2 to rounding; both are of second order, and what is left of it is
-/// extrapolated away.
+/// True local error of a single step, of time stepping and solve together. Compares the end of the step with that of
+/// very small steps from the same state. Verlet's steps are the cheapest and are used if stable and able to compute all
+/// effects; otherwise quasi-Newton's with SDIRK2, solved to rounding. Extrapolation removes their second-order error.
 class LocalErrors {
  public:
-  /// @throws UsageError if no small steps can be taken
+  /// @throws UsageError if small steps are impossible
   explicit LocalErrors(const SimulationSettings& settings);
 
   struct LocalError {
-    double error = 0;    ///< the largest distance of a vertex [m]
-    double unknown = 0;  ///< how far the small steps end from what is extrapolated from them [m]
+    double error = 0;    ///< largest distance of a vertex [m]
+    double unknown = 0;  ///< distance of the small steps from their extrapolation [m]
   };
 
-  /// @param after where the step from there ended; nothing if the small steps diverge
+  /// Computes the error of the step from `before` to `after`; nothing if the small steps diverge.
   std::optional<LocalError> of_step(const State& before, const Vertices& after);
 
  private:
-  /// @param step that the small ones are parts of [s]
+  /// @param step of the scene, which the small steps divide [s]
   void make(SimulationSettings small, double step);
-  /// Where 2^halvings small steps lead.
+  /// Returns the positions after 2^halvings small steps.
   Vertices small_steps(Simulation& simulation, int halvings, State from);
 
   int halvings_ = 0;

@@ -16,12 +16,12 @@
 namespace drape {
 namespace {
 
-constexpr std::int64_t turns = 24;  // that a run of a case is cut into
+constexpr std::int64_t turns = 24;  // turns per run of a case
 
 /// One run of one case, in turns.
 class CaseRun {
  public:
-  /// @param watch called after every step; a run that is watched is not timed
+  /// @param watch called after every step; a watched run is untimed
   CaseRun(const Scene& scene, Measured& measured, std::function<void(const Simulation&, const StepReport&)> watch)
       : pairs_(scene.simulation.cloth.triangles), measured_(measured), watch_(std::move(watch)) {
     const double begin = thread_seconds();
@@ -68,7 +68,7 @@ class CaseRun {
     }
   }
 
-  /// What comes after what.steps is watched, but nothing that a case has to reach.
+  /// Ends the run. It is a failure only before what.steps; later steps are just watched.
   void give_up(const std::string& why) {
     given_up_ = true;
     if (simulation_->state().step < measured_.what.steps) measured_.failure = why;

@@ -14,30 +14,30 @@
 
 namespace drape {
 
-/// What a case did. The motion is the same in every run; the times are not.
+/// The measurements of a case. The motion is the same in every run; the times differ.
 struct Measured {
   StudyCase what;
-  double step = 0;                   ///< h [s]
-  std::vector<int> iterations;       ///< of every step that is watched
-  std::int64_t capped = 0;           ///< of what.steps, those that ended at the cap
-  std::vector<double> height;        ///< of the centre of mass after every step that is watched [m]
-  double flipped_pairs = 0;          ///< mean over the steps that are watched, see FlippedPairs
-  std::vector<double> microseconds;  ///< mean over the steps, of every timed run, as computing time
-  std::vector<double> setup;         ///< likewise, before the first step: analysing and factoring included
-  /// Why it has not come to the end of what.steps; empty: it has. Only of a case that may fail.
+  double step = 0;                   ///< step length h [s]
+  std::vector<int> iterations;       ///< iterations of every watched step
+  std::int64_t capped = 0;           ///< number of steps within what.steps that reached the iteration limit
+  std::vector<double> height;        ///< height of the centre of mass after every watched step [m]
+  double flipped_pairs = 0;          ///< mean over the watched steps, see FlippedPairs
+  std::vector<double> microseconds;  ///< mean CPU time per step, for every timed run
+  std::vector<double> setup;         ///< CPU time before the first step, with factorisation, for every timed run [µs]
+  /// Reason why the run ended before what.steps; empty: complete. Only for cases with `patience`.
   std::string failure;
 
-  /// Over what.steps.
+  /// Returns the mean over what.steps.
   [[nodiscard]] double mean_iterations() const;
-  /// Over the steps first … last−1.
+  /// Returns the mean over steps first … last−1.
   [[nodiscard]] double mean_iterations(std::size_t first, std::size_t last) const;
   [[nodiscard]] MedianInterval time() const { return median_interval(microseconds); }
 };
 
-/// Sees the motion of a case by its number, after every step of the run that is not timed.
+/// Callback after every step of the untimed run of case `number`.
 using CaseWatch = std::function<void(std::size_t number, const Simulation&, const StepReport&)>;
 
-/// Keeps the calling thread on the processor where it is, until the object's end.
+/// A guard that pins the calling thread to its current processor.
 class PinnedThread {
  public:
   PinnedThread();
@@ -50,18 +50,18 @@ class PinnedThread {
   bool known_ = false;
 };
 
-/// Seconds that this thread has computed: the time in which others had the processor does not count.
+/// Returns the CPU time of this thread [s]; time of other threads does not count.
 double thread_seconds();
 
-/// Runs every case as often as asked after a first time that is not timed, on one thread that stays on one processor.
-/// The cases take turns within each run, a few steps each, so that whatever slows the machine down slows all of them;
-/// one whose median is known well enough takes part no more.
-/// @returns nothing if it was stopped
-/// @throws UsageError; DivergedError, but for a case that may fail
+/// Runs every case once untimed and then `runs` times timed, on one thread pinned to one processor. Within a run the
+/// cases take turns of a few steps, so that a slow phase of the machine affects all of them. A case whose median is
+/// known well enough is not run again.
+/// @returns nothing if stopped
+/// @throws UsageError; DivergedError for a case without `patience`
 std::vector<Measured> measure(const std::vector<StudyCase>& cases, RunCount runs, const std::stop_token& stop,
                               Progress& progress, const CaseWatch& watch = {});
 
-/// How measure() measures, in a sentence or two.
+/// Describes the method of measure() in a sentence or two.
 std::string describe_measuring(RunCount runs);
 
 }  // namespace drape

@@ -21,7 +21,7 @@ bool MedianInterval::narrow() const {
 }
 
 std::size_t first_order_statistic(std::size_t n) {
-  // P(B = 0), P(B ≤ 1), … until one of the two tails is more than what both may be together.
+  // Sum P(B = 0), P(B ≤ 1), … until both tails together exceed 1 − confidence.
   double one = std::exp2(-static_cast<double>(n)), below = one;
   std::size_t l = 0;
   while (2 * below <= 1 - confidence) {

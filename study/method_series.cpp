@@ -7,7 +7,7 @@
 namespace drape {
 
 html::ChartSeries method_series(const std::string& name) {
-  // A source and a scheme of a method have its colour and sign, and are dashed.
+  // Additions to a method's name, such as a source or a scheme, keep its colour and marker, but are dashed.
   const std::string method = name.substr(0, std::min(name.find(','), name.find("-sdirk2")));
   const auto* const place = std::find(method_names.begin(), method_names.end(), method);
   html::ChartSeries series{name, {}};

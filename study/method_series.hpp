@@ -6,8 +6,8 @@
 
 namespace drape {
 
-/// An empty series in its method's colour and sign, which are the same in every diagram. Where the name says more than
-/// the method ("liu13, report"), it is dashed and its signs are open.
+/// Returns an empty series with its method's colour and marker, the same in every diagram. A name with an addition
+/// ("liu13, report") makes it dashed, with open markers.
 html::ChartSeries method_series(const std::string& name);
 
 }  // namespace drape

@@ -17,7 +17,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 std::string percentage(double share) { return fmt::format("{:.0f} %", 100 * share); }
 
-/// The least cost of a method's runs below a target.
+/// Returns the least cost of a method's runs below a target.
 double least_cost(const SceneAccuracy& scene, StepMethod method, double target) {
   double least = never;
   for (const auto* points : {&scene.fixed, &scene.asked}) {
@@ -29,7 +29,7 @@ double least_cost(const SceneAccuracy& scene, StepMethod method, double target) 
   return least;
 }
 
-/// Why the last of a method's runs that failed has not come to its end; empty if none has failed.
+/// Returns the reason of a method's last failed run; empty if none failed.
 std::string failure_of(const SceneAccuracy& scene, StepMethod method) {
   std::string why;
   for (const auto* points : {&scene.fixed, &scene.asked}) {
@@ -50,7 +50,7 @@ NamedChart profile_chart(const std::vector<ProfileCurve>& curves) {
       html::Scale::linear,
       {},
       {}};
-  constexpr double least_last = 2;  // also where all are as fast
+  constexpr double least_last = 2;  // also if all solvers are equally fast
   double last = least_last;
   chart.x_holds = {1, least_last};
   chart.y_holds = {0, 1};

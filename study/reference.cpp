@@ -16,7 +16,7 @@
 namespace drape {
 namespace {
 
-// Where the cloth is about to buckle, Newton's matrix is nearly singular and even Newton's method needs thousands.
+// Close to buckling Newton's matrix is nearly singular, and even Newton's method needs thousands of iterations.
 constexpr int most_iterations = 5000;
 
 constexpr std::array<std::string_view, 4> sudden_effects{Sphere::name, Ground::name, SelfCollision::name,

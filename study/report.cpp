@@ -13,12 +13,12 @@ namespace {
 
 html::Markup to_html(const StudyFinding& finding) {
   std::string claim = finding.claim;
-  // A sign says that something is good; that it is not has to be said in words.
+  // The page's sign marks good findings only; a bad verdict needs the word.
   if (finding.tone == html::Tone::bad && !finding.verdict.empty()) claim += " " + finding.verdict;
   return html::element("strong", claim) + " " + finding.figures;
 }
 
-/// Motions to turn, opened one at a time. Those that a browser cannot hold are left out.
+/// Returns players for motions, which open one at a time. Omits those too large for a browser.
 html::Markup to_html(const std::vector<StudyMotion>& motions, const std::string& id) {
   html::Markup content;
   for (std::size_t i = 0; i < motions.size(); ++i) {
@@ -32,7 +32,7 @@ html::Markup to_html(const std::vector<StudyMotion>& motions, const std::string&
   return content;
 }
 
-/// @param is_answer whether it is what a reader has come for: its tables come first, and can be read in any window
+/// @param is_answer true for the answer section: its tables come first and adapt to any window width
 html::Markup to_html(const StudySection& section, const std::string& id, bool is_answer = false) {
   html::Markup content, tables;
   for (const ResultTable& table : section.tables) tables += to_html(table, is_answer);
@@ -75,19 +75,19 @@ std::string to_markdown(const StudySection& section) {
   return text;
 }
 
-/// All that a report has, as it is read.
+/// Returns all sections in reading order.
 std::vector<StudySection> all_sections(const StudyReport& report) {
   std::vector<StudySection> sections = report.sections;
   if (report.answer) sections.insert(sections.begin(), *report.answer);
   return sections;
 }
 
-/// The text, or what fits of it and "…".
+/// Cuts a text to a width; a cut text ends with "…".
 std::string cut(std::string text, std::size_t width) {
   if (columns_of(text) <= width) return text;
   while (columns_of(text) >= width) {
     std::size_t end = text.size() - 1;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // a character of several bytes
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // a UTF-8 character
     text.resize(end);
   }
   return text + "…";
@@ -128,7 +128,7 @@ std::string to_text(const StudyReport& report, std::size_t width) {
     for (const ResultTable& table : section.tables) text += to_text(table, width) + "\n";
   };
   for (const StudySection& section : report.sections) add_tables(section);
-  if (report.answer) add_tables(*report.answer);  // a terminal shows the end
+  if (report.answer) add_tables(*report.answer);  // the end stays visible in a terminal
   text += wrapped(report.headline, width) + "\n";
   for (const StudyFinding& f : report.findings) {
     text += wrapped(fmt::format("  {}{}{}\n", f.verdict, f.verdict.empty() ? "" : ": ", f.claim), width, 2);
@@ -179,7 +179,7 @@ std::string to_page(const StudyReport& report) {
 }
 
 std::string write_report(const StudyReport& report, const std::filesystem::path& folder) {
-  std::string problem;  // the first
+  std::string problem;  // the first one
   const auto note = [&](const std::string& missing) {
     if (problem.empty()) problem = missing;
   };

@@ -19,10 +19,10 @@ constexpr const char* last_kind = "end";
 
 struct CsvRow {
   std::vector<std::string> cells;
-  std::size_t line = 0;  // in which it begins
+  std::size_t line = 0;  // first line of the row
 };
 
-/// The rows of RFC 4180: cells in quotes may hold commas, line ends, and quotes, which are doubled.
+/// Reader of RFC 4180 rows: quoted cells may contain commas, line ends, and doubled quotes.
 class CsvRows {
  public:
   CsvRows(const std::string& text, std::string file) : text_(text), file_(std::move(file)) {}
@@ -156,7 +156,7 @@ std::vector<RunsRecord> parse_runs(const std::string& text, const std::string& f
       continue;
     }
     ++count;
-    // Rows of one thing are mostly together.
+    // Rows of one subject are usually adjacent.
     auto found = std::find_if(records.rbegin(), records.rend(), [&](const RunsRecord& r) { return r.key == key; });
     if (found == records.rend()) {
       records.emplace_back(file, key, last);

@@ -12,20 +12,20 @@
 
 namespace drape {
 
-/// What a row of a file of runs is about.
+/// The subject of a row in a file of runs.
 struct RunsKey {
   std::string scene, kind, method, scheme, setting;
   bool operator==(const RunsKey&) const = default;
 };
 
-/// Writes what a study measured as one table in long form, a value a row, RFC 4180:
-///   scene,kind,method,scheme,setting,run,quantity,value
-/// `run` counts the values of a quantity that has several, from 1: runs, steps, times. Numbers are the shortest that
-/// read back as the same; what is absent has no row. The last row says how many there are before it.
+/// Writer of a study's measurements as one table in long form, one value per row, RFC 4180:
+///    scene,kind,method,scheme,setting,run,quantity,value
+/// `run` numbers the values of a list from 1: runs, steps, times. Numbers are the shortest that read back exactly.
+/// Absent values have no row. The last row has the number of rows before it.
 class RunsWriter {
  public:
   RunsWriter();
-  /// What follows is about this.
+  /// Sets the subject of the following values.
   void begin(RunsKey key) { key_ = std::move(key); }
 
   template <class T>
@@ -41,7 +41,7 @@ class RunsWriter {
     for (std::size_t i = 0; i < values.size(); ++i) put(quantity, std::to_string(i + 1), text(values[i]));
   }
 
-  /// The whole file.
+  /// Returns the whole file.
   std::string finish();
 
  private:
@@ -63,7 +63,7 @@ struct RunsCell {
   std::size_t line = 0;
 };
 
-/// What a file of runs says about something. Everything is to be asked for once; see done().
+/// The values of one subject in a file of runs. Each must be requested once, see done().
 class RunsRecord {
  public:
   RunsRecord(std::string file, RunsKey key, std::size_t line)
@@ -83,7 +83,7 @@ class RunsRecord {
   }
 
   void add(const std::string& quantity, RunsCell cell) { cells_[quantity].push_back(std::move(cell)); }
-  /// @throws UsageError if there is something that nobody asked for
+  /// Checks that every value was requested. @throws UsageError otherwise
   void done() const;
   /// @throws UsageError "file:line: sentence"
   [[noreturn]] void fail(std::size_t line, const std::string& sentence) const;
@@ -93,7 +93,7 @@ class RunsRecord {
 
  private:
   RunsCell one(const char* quantity);
-  /// In order.
+  /// Returns the values in order.
   std::vector<RunsCell> several(const char* quantity);
   static void read(const RunsCell& cell, std::string& value) { value = cell.value; }
   template <class T>
@@ -117,9 +117,9 @@ class RunsRecord {
   std::vector<std::string> asked_;
 };
 
-/// What a file of runs holds, in the order in which it is first spoken of.
-/// @param file for messages
-/// @throws UsageError "file:line: message" if it is no such file, or does not end as one
+/// Parses a file of runs into records, in the order of first appearance.
+/// @param file name for messages
+/// @throws UsageError "file:line: message" if it is of another kind or truncated
 std::vector<RunsRecord> parse_runs(const std::string& text, const std::string& file);
 
 }  // namespace drape

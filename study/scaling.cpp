@@ -21,8 +21,8 @@ namespace {
 
 constexpr const char* scene_file = "scenes/homework/5.toml";
 constexpr int smallest_grid = 10;
-constexpr std::int64_t warm_up = 25;     // steps of 0.02 s: the cloth lies on the sphere then
-constexpr std::int64_t timed_steps = 5;  // of a run
+constexpr std::int64_t warm_up = 25;     // steps of 0.02 s, until the cloth lies on the sphere
+constexpr std::int64_t timed_steps = 5;  // steps per run
 constexpr double of_safe_step = 0.9;
 
 struct Variant {
@@ -41,13 +41,13 @@ std::vector<Variant> variants() {
 
 std::string grid_override(int cells) { return fmt::format("cloth.mesh={{grid=[{0},{0}]}}", cells); }
 
-/// Bytes that the heap has given out.
+/// Returns the allocated heap memory [bytes].
 double heap() {
   const struct mallinfo2 info = mallinfo2();
   return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
 }
 
-/// One method on one grid, while it is measured.
+/// The measurement of one method on one grid.
 class MethodOnGrid {
  public:
   MethodOnGrid(const Variant& variant, int cells, const State& start, double start_time) {
@@ -63,7 +63,7 @@ class MethodOnGrid {
     start_.step = std::llround(start_time / point_.step);
   }
 
-  /// A run that is not timed: what the method takes, and where its time goes.
+  /// Measures iterations, memory and time shares in an untimed run.
   void look() {
     const double before = heap();
     simulation_ = std::make_unique<Simulation>(settings_);
@@ -83,7 +83,7 @@ class MethodOnGrid {
       factor_.push_back(1e6 * (thread_seconds() - begin));
     }
     simulation_->restore(start_);
-    simulation_->step();  // what is cold is warmed
+    simulation_->step();  // warms the caches
     begin = thread_seconds();
     run(*simulation_);
     time_.push_back(1e6 * (thread_seconds() - begin) / timed_steps);
@@ -100,7 +100,7 @@ class MethodOnGrid {
   }
 
  private:
-  /// The largest step that is stable, with some room; the scene's own is none for semi-implicit Euler.
+  /// Sets the largest stable step, with some margin; semi-implicit Euler is unstable with the scene's own step.
   void choose_safe_step() {
     StudyCase bold = point_.what;
     bold.overrides.emplace_back("integrator.allow_unstable=true");
@@ -148,7 +148,7 @@ class MethodOnGrid {
   std::vector<double> time_, setup_, factor_;
 };
 
-/// Where the cloth touches the sphere, by quasi-Newton.
+/// Returns a state in contact with the sphere, by quasi-Newton.
 State start_on(int cells, double& time) {
   const StudyCase what{"", scene_file, {grid_override(cells), "integrator.method=quasi-newton"}, warm_up};
   Simulation simulation(what.load().simulation);

@@ -16,7 +16,7 @@ std::string exponent(double value) { return std::isfinite(value) ? fmt::format("
 
 double per_iteration(const ScalingPoint& p) { return p.time.median / std::max(1.0, p.iterations); }
 
-/// Methods in the order of their points.
+/// Returns the methods in the order of their points.
 std::vector<std::string> methods_of(const ScalingStudy& study) {
   std::vector<std::string> names;
   for (const ScalingPoint& p : study.points) {
@@ -121,7 +121,7 @@ NamedChart chart_of(const ScalingStudy& study, const std::string& name, const st
   return {name, std::move(chart)};
 }
 
-/// The part of a step that takes the most time.
+/// Returns the most expensive part of a step.
 std::string largest_share(const TimeShares& s) {
   const std::array<std::pair<const char*, double>, 7> parts{{{"the local step", s.local},
                                                              {"the assembly", s.assembly},

@@ -5,7 +5,7 @@
 
 namespace drape {
 
-/// The study as it is printed and written.
+/// Returns the report of a study for all output formats.
 StudyReport scaling_report(const ScalingStudy& study);
 
 }  // namespace drape

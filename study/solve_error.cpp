@@ -9,7 +9,7 @@
 namespace drape {
 namespace {
 
-/// ‖∇g(y)‖ [N] of the step that begins in a state.
+/// Returns ‖∇g(y)‖ [N] of the step that begins in a state.
 double first_gradient(const System& system, StepObjective& objective, const State& state) {
   const double time = static_cast<double>(state.step) * system.step;
   Vertices force = Vertices::Zero(state.x.rows(), 3), gradient = force;

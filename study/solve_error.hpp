@@ -9,27 +9,27 @@
 
 namespace drape {
 
-/// How far a step's result is from the exact minimiser of g, as means over several states that the step begins in.
+/// The error of a step's solve relative to the exact minimiser of g, as means over several start states.
 struct SolveError {
-  double max = 0;       ///< of the vertices' distances [m]
-  double rms = 0;       ///< of the vertices' distances [m]
-  double gradient = 0;  ///< ‖∇g‖ where the step ends by ‖∇g(y)‖, where its minimisation begins
+  double max = 0;       ///< largest distance of a vertex [m]
+  double rms = 0;       ///< root mean square of the distances [m]
+  double gradient = 0;  ///< final ‖∇g‖ relative to ‖∇g(y)‖ at the start of the minimisation
 };
 
-/// Steps from given states, solved by Newton's method to rounding and again by quasi-Newton. A state whose two results
-/// differ by more than `limit` is left out: there the minimiser is so flat that errors cannot be told.
+/// Steps from given states, solved to rounding by Newton's method and by quasi-Newton. A state whose two results differ
+/// by more than `limit` is dropped: there the minimum is too flat to measure errors.
 class ExactSteps {
  public:
   /// @throws DivergedError
   ExactSteps(const SimulationSettings& settings, const std::vector<State>& states, double limit);
 
-  /// How many states there are, and how many were left out.
+  /// Returns the number of remaining states; left_out() returns that of dropped ones.
   [[nodiscard]] std::size_t count() const { return states_.size(); }
   [[nodiscard]] std::size_t left_out() const { return left_out_; }
-  /// How far the two results are apart at most, over all states that are kept [m].
+  /// Returns the largest distance of the two results, over the remaining states [m].
   [[nodiscard]] double apart() const { return apart_; }
 
-  /// The error of an implicit method with its tolerance.
+  /// Returns the error of an implicit method with its tolerance.
   [[nodiscard]] SolveError error(const IntegratorSettings& integrator) const;
 
  private:

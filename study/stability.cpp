@@ -20,23 +20,23 @@ namespace drape {
 namespace {
 
 constexpr int cells = 6;                  // along a side
-constexpr double spring_stiffness = 180;  // where the push is varied [N/m]
-constexpr double depth = 0.01;            // to which it lies in the ground [m]
-constexpr double disturbance = 1e-4;      // how far it swings there [m]
+constexpr double spring_stiffness = 180;  // spring stiffness on the push axis [N/m]
+constexpr double depth = 0.01;            // depth of the cloth in the ground [m]
+constexpr double disturbance = 1e-4;      // amplitude of the oscillation [m]
 
-/// A push like a spring, of this stiffness [1/s²], by a sphere so large that it is a level ground at height 0.
+/// Returns a level ground at height 0, as a huge sphere whose push acts like a spring of this stiffness [1/s²].
 Sphere ground(double stiffness) {
   constexpr double radius = 1e6;
   return {.center = Eigen::Vector3d(0, 0, -radius), .radius = radius, .scale = 1, .stiffness = stiffness};
 }
 
-/// What the ground's push holds, Σ m·stiffness/2·depth² [J].
+/// Returns the potential energy of the ground's push, Σ m·stiffness/2·depth² [J].
 double push_energy(const Cloth& cloth, const Vertices& x, double stiffness) {
   return 0.5 * stiffness * cloth.masses.dot(x.col(2).cwiseMin(0).cwiseAbs2());
 }
 
-/// Lays a cloth into the ground, in motion: the same way down everywhere, which strains no spring, and to and fro along
-/// its plane, which strains them most.
+/// Places a moving cloth into the ground. It moves down evenly, which strains no spring, and alternately within its
+/// plane, which strains the springs most.
 void lay(Cloth& cloth, double stiffness) {
   const double speed = disturbance * std::sqrt(stiffness);
   for (int i = 0; i < cloth.vertex_count(); ++i) {
@@ -68,7 +68,7 @@ StabilityMap empty_map(StepMethod method, StabilityAxis axis, const StabilityDet
   return map;
 }
 
-/// The borders of every map that has one.
+/// Returns the unmeasured limits of every map that has one.
 std::vector<StabilityBorder> empty_borders() {
   std::vector<StabilityBorder> borders;
   for (const double stiffness : {1e-2, 1.0, 1e2, 1e4, 1e6, 1e8}) {
@@ -84,7 +84,7 @@ std::vector<StabilityBorder> empty_borders() {
   return borders;
 }
 
-/// What a step costs, where one of an explicit method on the maps' cloth costs 1.
+/// Returns the cost of a step, relative to an explicit step of the maps' cloth.
 double cost_of_step(StepMethod method) { return is_explicit(method.method) ? 1 : 30; }
 
 void measure_part(StabilityStudy& study, std::size_t part, const std::stop_token& stop) {
@@ -143,7 +143,7 @@ StabilityCell stability_cell(StepMethod method, StabilityAxis axis, double step,
   const SimulationSettings settings = stability_cloth(method, axis, step, stiffness);
   StabilityCell cell{.step = step, .stiffness = stiffness};
   if (!is_explicit(method.method)) cell.outcome = StabilityOutcome::converged;
-  // What gravity and the push hold together.
+  // Potential energy of gravity and push.
   const auto potential = [&](const Energies& energies, const Vertices& x) {
     return energies.gravity + (axis == StabilityAxis::springs ? 0 : push_energy(settings.cloth, x, stiffness));
   };
@@ -204,7 +204,7 @@ StabilityStudy plan_stability(const StabilityDetail& detail) {
 }
 
 std::vector<double> stability_costs(const StabilityStudy& study) {
-  constexpr double border_steps = 9 * 2000, curve_vertices = 441.0 / 49;  // where a map's cloth is 1
+  constexpr double border_steps = 9 * 2000, curve_vertices = 441.0 / 49;  // relative to the cloth of a map
   std::vector<double> costs;
   for (const StabilityMap& map : study.maps) {
     costs.insert(costs.end(), map.cells.size(), study.detail.steps * cost_of_step(map.method));
@@ -220,7 +220,7 @@ bool measure_stability(StabilityStudy& study, const std::vector<std::size_t>& pa
                        Progress& progress) {
   const auto begin = std::chrono::steady_clock::now();
   progress.begin("measuring", "runs", static_cast<std::int64_t>(parts.size()));
-  // The longest come last in a study: with them first, all threads end at about the same time.
+  // The longest parts come last in a study; start with them, so that all threads end at about the same time.
   for_each_in_parallel(std::max(1U, std::thread::hardware_concurrency()), parts.size(), stop,
                        [&](std::size_t, std::size_t i) {
                          measure_part(study, parts[parts.size() - 1 - i], stop);

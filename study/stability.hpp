@@ -11,52 +11,52 @@
 
 namespace drape {
 
-/// What became of a cloth with one step length and one stiffness.
+/// The outcome of a run with one step length and one stiffness.
 enum class StabilityOutcome {
-  stable,         ///< of an explicit method, which has nothing to converge
-  converged,      ///< every step met its stopping rule
-  not_converged,  ///< it kept within its energy, but a step ended at its cap
-  blown_up        ///< more energy than can be explained, or numbers that are not finite
+  stable,         ///< bounded energy, by an explicit method
+  converged,      ///< every step met its stopping criterion
+  not_converged,  ///< bounded energy, but a step reached its iteration limit
+  blown_up        ///< unexplained energy, or non-finite numbers
 };
 const char* outcome_name(StabilityOutcome outcome);
 
-/// A point of a map.
+/// A cell of a stability map.
 struct StabilityCell {
-  double step = 0;       ///< h [s]
-  double stiffness = 0;  ///< of the springs [N/m], or of the push [1/s²]
+  double step = 0;       ///< step length h [s]
+  double stiffness = 0;  ///< spring stiffness [N/m], or push stiffness [1/s²]
   StabilityOutcome outcome = StabilityOutcome::stable;
-  /// The most by which kinetic, gravity, elastic and push energy together differed from what they were, over the most
-  /// that moved among them: 0 for an exact motion, 1 where all of it was lost.
+  /// Largest change of kinetic, gravity, elastic and push energy together, relative to the largest exchanged energy. It
+  /// is 0 for an exact motion, and 1 if all energy was lost.
   double energy_error = 0;
-  int not_converged = 0;  ///< steps
+  int not_converged = 0;  ///< number of steps
 };
 
-/// What is varied beside the step.
+/// The quantity varied beside the step length.
 enum class StabilityAxis { springs, push };
 
-/// A method over step lengths and stiffnesses, ascending; the cells row by row, the steps of a row together.
+/// A method over step lengths and stiffnesses, both ascending; cells in row order, one row per stiffness.
 struct StabilityMap {
   StepMethod method = Method::semi_implicit;
   StabilityAxis axis = StabilityAxis::springs;
   std::vector<double> steps, stiffnesses;
   std::vector<StabilityCell> cells;
-  std::vector<double> limits;  ///< the predicted largest step of each stiffness [s]; infinite where there is none
-  std::string limit_name;      ///< what it is: "safe step"
+  std::vector<double> limits;  ///< predicted largest step for each stiffness [s]; infinite if unlimited
+  std::string limit_name;      ///< name of the prediction: "safe step"
 };
 
-/// Where a method really becomes unstable, beside the step that was predicted.
+/// The measured stability limit of a method, beside the predicted one.
 struct StabilityBorder {
   StepMethod method = Method::semi_implicit;
   StabilityAxis axis = StabilityAxis::springs;
-  double stiffness = 0;  ///< what the axis says
+  double stiffness = 0;  ///< stiffness in the unit of the axis
   double predicted = 0;  ///< stability_limit() [s]
-  double measured = 0;   ///< the longest step without a blow-up in 2000 steps, to 0.2 % [s]
+  double measured = 0;   ///< longest step without a blow-up in 2000 steps, to 0.2 % [s]
 };
 
-/// How finely a study looks.
+/// Resolution of a study.
 struct StabilityDetail {
-  int per_decade = 3;  ///< step lengths and stiffnesses
-  int steps = 100;     ///< of every cell
+  int per_decade = 3;  ///< numbers of step lengths and of stiffnesses
+  int steps = 100;     ///< steps per cell
 };
 
 struct StabilityStudy {
@@ -67,35 +67,33 @@ struct StabilityStudy {
   double seconds = 0;
 };
 
-/// The cloth of the maps: 6×6 cells and 1 kg. Where the stiffness is that of its springs, it hangs from two corners
-/// under gravity. Where it is that of a push, its springs have 180 N/m and it lies in a level ground, 1 cm deep under
-/// an acceleration that the push just carries there, and swings 0.1 mm to and fro: so the push acts on every vertex all
-/// the time, as long as the motion is stable, and step·√stiffness is all that matters.
+/// Returns the cloth of the maps, 6×6 cells and 1 kg. On the springs axis it hangs from two corners under gravity. On
+/// the push axis its springs have 180 N/m and it lies 1 cm deep in a level ground, in equilibrium with gravity. It then
+/// oscillates by 0.1 mm. The push thus acts on every vertex at all times while the motion is stable, and only
+/// step·√stiffness matters.
 SimulationSettings stability_cloth(StepMethod method, StabilityAxis axis, double step, double stiffness);
 
-/// The largest step that is predicted to be possible: safe_step() for the explicit methods, 2/√stiffness for an
-/// push with the other methods, and else what condition_bound() allows [s].
+/// Returns the predicted largest step [s]: safe_step() for explicit methods, 2/√stiffness for a push with other
+/// methods, otherwise the limit of condition_bound().
 double stability_limit(StepMethod method, StabilityAxis axis, double stiffness);
 
-/// Runs that cloth and says what became of it.
+/// Runs that cloth and returns the outcome.
 StabilityCell stability_cell(StepMethod method, StabilityAxis axis, double step, double stiffness, int steps);
 
-/// The largest factor between 0.9 and 1.5 with which there is no blow-up, by bisection to 0.002. If there is none
-/// at 1.5 either, it is that.
+/// Returns the largest factor from 0.9 to 1.5 without a blow-up, by bisection to 0.002; 1.5 if that does not blow up.
 double stability_border(const std::function<bool(double factor)>& blows_up);
-/// The border of a map at a stiffness.
+/// Measures the stability limit of a map at a stiffness.
 StabilityBorder stability_border(StepMethod method, StabilityAxis axis, double stiffness);
 
-/// What there is to measure: a map for every method over h and k, and over h and the stiffness of a ground's push,
-/// explicit and, for the implicit methods, implicit; the border of every map that has one; and what becomes of the
-/// energy over time. Its parts are the cells, map by map, then the borders, then the curves.
+/// Plans the study. Every method gets a map over h and k, and one over h and the stiffness of a ground's push.
+/// Stability limits and the energy over time follow. The order of the parts is: cells, map by map; limits; curves.
 StabilityStudy plan_stability(const StabilityDetail& detail);
 
-/// How long each part takes, in no unit: steps of an explicit method, roughly.
+/// Returns the relative cost of each part, about in steps of an explicit method.
 std::vector<double> stability_costs(const StabilityStudy& study);
 
-/// Measures some of its parts, each of which has the same bits whichever others are measured.
-/// @returns whether it was not stopped
+/// Measures some of the parts. A part's bits do not depend on the other parts measured.
+/// @returns false if stopped
 bool measure_stability(StabilityStudy& study, const std::vector<std::size_t>& parts, const std::stop_token& stop,
                        Progress& progress);
 

@@ -15,7 +15,7 @@ namespace {
 using html::element;
 using html::Markup;
 
-/// The bands of the energy error, each up to a limit. From light to dark, told apart also without colours.
+/// A band of the energy error with its upper limit. Bands go from light to dark, distinguishable without colours.
 struct Band {
   double below;
   const char* color;
@@ -35,15 +35,15 @@ std::size_t band_of(const StabilityCell& cell) {
   return band;
 }
 
-// Of the drawing [pixels].
+// Layout of the drawing [pixels].
 constexpr double left = 62, top = 8, bottom = 46, cell_height = 13, least_width = 320;
 
-/// Wide enough for a label in every decade.
+/// Returns a width with room for a label in every decade [pixels].
 double cell_width(const StabilityMap& map) {
   return std::max(20.0, least_width / static_cast<double>(map.steps.size()));
 }
 
-/// The label of a row or a column, one of `all`: of whole powers of ten.
+/// Returns the label of a row or column, one of `all`: only whole powers of ten have one.
 std::string power(double value, const std::vector<double>& all) {
   const auto whole = [](double number) { return static_cast<int>(std::lround(std::log10(number))); };
   if (std::abs(std::log10(value) - whole(value)) > 1e-6) return "";
@@ -74,12 +74,12 @@ const char* stiffness_title(StabilityAxis axis) {
   return axis == StabilityAxis::springs ? "stiffness of the springs [N/m]" : "stiffness of the push [1/s²]";
 }
 
-/// Whether the predicted limit lies within the map anywhere.
+/// Returns true if the predicted limit of any row lies within the map.
 bool is_limited(const StabilityMap& map) {
   return std::ranges::any_of(map.limits, [&](double limit) { return limit < map.steps.back(); });
 }
 
-/// How far along the steps' axis the predicted limit of a row lies, in cells; not a number beyond the map.
+/// Returns the position of a row's predicted limit along the step axis, in cells; NaN outside the map.
 double limit_place(const StabilityMap& map, std::size_t row) {
   const auto columns = static_cast<double>(map.steps.size());
   const double per_decade = (columns - 1) / std::log10(map.steps.back() / map.steps.front());
@@ -91,7 +91,7 @@ Markup limit_line(const std::string& path) {
   return element("path", {{"class", "limit under"}, {"d", path}}) + element("path", {{"class", "limit"}, {"d", path}});
 }
 
-/// The predicted limit, over a map whose lower edge is at `below`.
+/// Draws the predicted limit; the map's lower edge is at `below`.
 Markup draw_limit(const StabilityMap& map, double below) {
   std::string path;
   for (std::size_t row = 0; row < map.stiffnesses.size(); ++row) {
@@ -129,7 +129,7 @@ Markup draw_axes(const StabilityMap& map, double below) {
                                 "middle", "step [s]");
 }
 
-/// The colours and signs of maps.
+/// Returns the legend entries for colours and signs.
 std::vector<html::LegendEntry> cell_entries() {
   std::vector<html::LegendEntry> entries;
   const auto add = [&](const Band& band, const Markup& mark, const char* label) {

@@ -8,24 +8,24 @@
 
 namespace drape {
 
-/// What a map shows, in a sentence: "liu13: step length and stiffness of the springs".
+/// Returns a map's title: "liu13: step length and stiffness of the springs".
 std::string map_title(const StabilityMap& map);
-/// The name of its files: "liu13-springs".
+/// Returns the base name of its files: "liu13-springs".
 std::string map_name(const StabilityMap& map);
 
-/// A map: a square for every cell, in the colour of its energy error, with a ring where steps did not converge and a
-/// cross where it blew up, and the predicted limit as a line.
+/// Draws a map: one square per cell, coloured by energy error. A ring marks unconverged steps, a cross a blow-up, a
+/// line the predicted limit.
 html::Diagram map_diagram(const StabilityMap& map);
 
-/// The same on a page, where the maps share a legend.
+/// Returns the map for a page on which all maps share a legend.
 html::Markup map_figure(const StabilityMap& map);
-/// The colours and signs of all maps.
+/// Returns the legend of all maps: colours and signs.
 html::Markup map_legend();
 
-/// The same as a table for a text: a row for each stiffness, a column for each step.
+/// Returns the map as a table for print: a row per stiffness, a column per step.
 ResultTable map_table(const StabilityMap& map);
 
-/// step,stiffness,outcome,energy_error,steps_not_converged,predicted_limit
+/// Returns CSV: step,stiffness,outcome,energy_error,steps_not_converged,predicted_limit
 std::string map_csv(const StabilityMap& map);
 
 }  // namespace drape

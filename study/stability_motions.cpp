@@ -8,10 +8,10 @@
 namespace drape {
 namespace {
 
-constexpr double stiffness = 100;  // of the springs [N/m]
+constexpr double stiffness = 100;  // stiffness of the springs [N/m]
 constexpr double below = 0.95, beyond = 1.2;
-constexpr int steps = 99;       // so that every state is a frame
-constexpr double far_away = 3;  // in sizes of the cloth
+constexpr int steps = 99;       // few enough to make every state a frame
+constexpr double far_away = 3;  // in cloth sizes
 
 StudyMotion limit_motion(double factor) {
   const double safe = stability_limit(Method::semi_implicit, StabilityAxis::springs, stiffness);
@@ -31,7 +31,7 @@ StudyMotion limit_motion(double factor) {
       if (!((simulation.state().x - at_first).cwiseAbs().maxCoeff() < far_away * size)) break;
     }
   } catch (const DivergedError&) {
-    if (simulation.state().x.allFinite()) recorder.add(simulation);  // what it has come to
+    if (simulation.state().x.allFinite()) recorder.add(simulation);  // the last finite state
   }
   return {fmt::format("semi-implicit, {} of the safe step", factor), {}, recorder.finish()};
 }

@@ -7,11 +7,11 @@
 
 namespace drape {
 
-/// The cloth of the stability maps by semi-implicit Euler, with 0.95 and with 1.2 times the safe step, for as many
-/// steps at most: the second motion blows up, and ends there.
+/// Returns two motions of the stability maps' cloth by semi-implicit Euler, with 0.95 and 1.2 times the safe step. The
+/// second ends early, with its blow-up.
 std::vector<StudyMotion> limit_motions();
 
-/// Says in a sentence what they are.
+/// Describes them in a sentence.
 std::string describe_limit_motions();
 
 }  // namespace drape

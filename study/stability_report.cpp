@@ -11,7 +11,7 @@
 namespace drape {
 namespace {
 
-/// How many cells of the map ended in which way.
+/// Counts the cells of a map by outcome.
 std::string tally(const StabilityMap& map) {
   std::array<int, 4> counts{};
   for (const StabilityCell& cell : map.cells) ++counts[static_cast<std::size_t>(cell.outcome)];
@@ -24,7 +24,7 @@ std::string tally(const StabilityMap& map) {
   return text + ".";
 }
 
-/// Measured over predicted.
+/// Returns measured over predicted.
 double ratio(const StabilityBorder& border) { return border.measured / border.predicted; }
 
 ResultTable border_table(const std::vector<StabilityBorder>& borders) {

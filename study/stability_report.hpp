@@ -5,7 +5,7 @@
 
 namespace drape {
 
-/// The study as it is printed and written.
+/// Returns the report of a study for all output formats.
 StudyReport stability_report(const StabilityStudy& study);
 
 }  // namespace drape

@@ -15,14 +15,14 @@
 namespace drape {
 namespace {
 
-/// What a shard has measured of a map.
+/// The measurements of a shard in one map.
 struct MapRuns {
-  std::vector<std::int64_t> cells;  // their places in the map
+  std::vector<std::int64_t> cells;  // indices in the map
   std::vector<int> outcomes, not_converged;
   std::vector<double> energy_errors;
 };
 
-// What is kept, described once for both ways: Fields is a RunsWriter, and the rest constant, or a RunsRecord.
+// The fields, described once for both directions: Fields is a RunsWriter (with const data) or a RunsRecord.
 
 template <class Fields, class Runs>
 void describe_map(Fields& f, Runs& runs) {
@@ -44,7 +44,7 @@ void describe_curve(Fields& f, Curve& curve) {
   f("energy", curve.energies);
 }
 
-/// What a file is about.
+/// The heading of a file.
 struct Heading {
   std::string program, shard;
   StabilityDetail detail;
@@ -85,7 +85,7 @@ MapRuns runs_of(const StabilityMap& map, const std::set<std::size_t>& parts, std
   return runs;
 }
 
-/// Puts what a file says of a map into it.
+/// Copies a record's cells into a map.
 void read_map(RunsRecord& record, StabilityMap& map) {
   MapRuns runs;
   describe_map(record, runs);
@@ -107,7 +107,7 @@ void read_map(RunsRecord& record, StabilityMap& map) {
   }
 }
 
-/// Puts what a record is about into a study.
+/// Copies a record into its part of a study.
 void read_part(RunsRecord& record, StabilityStudy& study) {
   for (StabilityMap& map : study.maps) {
     if (record.key == key_of(map)) return read_map(record, map);
@@ -157,7 +157,7 @@ std::string stability_runs(const StabilityStudy& study, const Shard& shard) {
 MergedStability merge_stability(const std::vector<std::filesystem::path>& files) {
   constexpr std::size_t most_bytes = std::size_t{1} << 31;
   MergedStability merged;
-  std::map<std::size_t, std::string> found;  // the shards' numbers, and their files
+  std::map<std::size_t, std::string> found;  // shard numbers and their files
   std::size_t count = 0;
   for (const std::filesystem::path& path : files) {
     std::vector<RunsRecord> records = parse_runs(read_text(path, most_bytes), shown(path));

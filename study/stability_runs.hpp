@@ -10,25 +10,25 @@
 
 namespace drape {
 
-/// The file in which a shard of a study of stability keeps what it has measured.
+/// File name of the measurements of a shard of a stability study.
 inline constexpr const char* stability_runs_name = "stability-runs.csv";
 
-/// Which parts of a study are in a shard, ascending.
+/// Returns the parts of a study in a shard, ascending.
 std::vector<std::size_t> parts_of_shard(const StabilityStudy& study, const Shard& shard);
 
-/// What was measured of a study, as RunsWriter has it.
+/// Returns the measurements of a study, as RunsWriter writes them.
 /// @param shard that was measured
 std::string stability_runs(const StabilityStudy& study, const Shard& shard);
 
-/// Shards of a study put together.
+/// A study merged from shards.
 struct MergedStability {
   StabilityStudy study;
-  std::vector<Shard> missing;  ///< whose parts of it are not measured
+  std::vector<Shard> missing;  ///< shards without measurements
 };
 
-/// Reads what shards have measured.
+/// Reads and merges the measurements of shards.
 /// @param files at least one
-/// @throws UsageError if one of them is damaged, or they are not of one study made by this program
+/// @throws UsageError if a file is damaged, or they belong to different studies or programs
 MergedStability merge_stability(const std::vector<std::filesystem::path>& files);
 
 }  // namespace drape

@@ -11,13 +11,13 @@
 namespace drape {
 namespace {
 
-constexpr std::int64_t refinement = 2, most_refinement = 16;  // of Verlet's steps, which are cheap; to be stable
+constexpr std::int64_t refinement = 2, most_refinement = 16;  // factor for cheap Verlet steps; its limit for stability
 constexpr int most_halvings_of_verlet = 3;
 
-/// What two lengths of step, of which one is twice the other, say of none.
+/// Returns the Richardson extrapolation of two step lengths, `coarse` twice `fine`.
 Vertices extrapolated(const Vertices& fine, const Vertices& coarse) { return (4 * fine - coarse) / 3; }
 
-/// A motion of second order in small steps.
+/// A second-order motion in small steps.
 class SmallSteps {
  public:
   SmallSteps(SimulationSettings settings, const std::vector<std::int64_t>& moments, std::int64_t parts)
@@ -33,13 +33,13 @@ class SmallSteps {
     settings_.integrator.scheme = TimeScheme::sdirk2;
   }
 
-  /// In one of the scene's steps.
+  /// Returns the number of steps per step of the scene.
   [[nodiscard]] std::int64_t parts() const { return parts_; }
-  /// Of the steps with so many parts [s].
+  /// Returns the step length for a number of parts [s].
   [[nodiscard]] double length(std::int64_t parts) const { return whole_ / static_cast<double>(parts); }
   [[nodiscard]] int most_halvings() const { return solved() ? 0 : most_halvings_of_verlet; }
 
-  /// Where it is at the moments; nothing if it was stopped.
+  /// Returns the positions at the moments; nothing if stopped.
   [[nodiscard]] std::optional<std::vector<Vertices>> run(std::int64_t parts, const std::stop_token& stop,
                                                          Progress& progress) const {
     progress.begin("computing the reference in small steps", "steps", parts * moments_.back());

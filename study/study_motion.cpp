@@ -10,15 +10,15 @@ namespace drape {
 namespace {
 
 constexpr std::size_t most_frames = 100, most_positions = 50'000;
-constexpr double most_frames_per_second = 50;  // where steps are shorter, the motion is shown slower than it is
+constexpr double most_frames_per_second = 50;  // with shorter steps, the motion plays slower than real time
 
-/// Frames of a cloth that a page takes, an even number.
+/// Returns the largest number of frames for a page, an even number.
 std::size_t frames_of_page(const Scene& scene) {
   const auto vertices = static_cast<std::size_t>(std::max(1, scene.simulation.cloth.vertex_count()));
   return std::clamp<std::size_t>(most_positions / vertices, 2, most_frames) & ~std::size_t{1};
 }
 
-/// Every second of them.
+/// Keeps every second frame.
 void thin(std::vector<Frame>& frames) {
   for (std::size_t i = 0; 2 * i < frames.size(); ++i) {
     if (i > 0) frames[i] = std::move(frames[2 * i]);

@@ -13,26 +13,26 @@
 
 namespace drape {
 
-/// A motion on the page of a study, to turn and to play.
+/// A motion on a study's page, for interactive viewing.
 struct StudyMotion {
-  std::string label;               ///< "liu13, k = 18 N/m"
+  std::string label;               ///< makes a page of this motion alone; empty: no scene file has it
   std::string command;             ///< makes a page of this motion alone; empty: no scene has it
-  html::PlayedMotion played = {};  ///< without frames if a browser cannot hold it
+  html::PlayedMotion played = {};  ///< without frames if too large for a browser
 };
 
-/// Packs frames that are evenly spaced. Takes every second, fourth … of them where they are more than 100, or more than
-/// 50 000 positions of vertices, so a page grows by some hundred kB for each motion.
+/// Packs evenly spaced frames. Keeps every 2nd, 4th … frame so that at most 100 frames and 50 000 vertex positions
+/// remain. Each motion adds some hundred kB to a page.
 /// @param frames at least one
 html::PlayedMotion pack_for_page(const Scene& scene, const std::vector<Frame>& frames);
 
-/// Keeps states of a run for the page of a study: evenly spaced, and so many as pack_for_page() takes, however long the
-/// run is.
+/// Recorder of a run's states for a study's page: evenly spaced, as many as pack_for_page() takes, for runs of any
+/// length.
 class StudyMotionRecorder {
  public:
-  /// @param scene outlives it
+  /// @param scene outlives the recorder
   explicit StudyMotionRecorder(const Scene& scene);
 
-  /// Takes the state before the first step, and that after each step.
+  /// Adds a state: call before the first step and after each step.
   void add(const Simulation& simulation);
 
   [[nodiscard]] html::PlayedMotion finish() const;
@@ -44,8 +44,8 @@ class StudyMotionRecorder {
   std::vector<Frame> frames_;
 };
 
-/// Runs a case once more and keeps its motion. A motion that diverges ends there.
-/// @returns nothing if it was stopped
+/// Runs a case once more and records its motion, up to a divergence.
+/// @returns nothing if stopped
 std::optional<StudyMotion> record_study_motion(const StudyCase& what, const std::string& label,
                                                const std::stop_token& stop);
 

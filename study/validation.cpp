@@ -58,7 +58,7 @@ void plan_case(const ValidationCase& of, const ValidationOptions& options, std::
   }
 }
 
-/// Runs a simulation and keeps what a measure needs.
+/// A simulation of a case that stores the states for its measure.
 class ValidationMotion {
  public:
   ValidationMotion(const ValidationCase& of, const Scene& scene) : of_(of), simulation_(scene.simulation) {
@@ -66,7 +66,7 @@ class ValidationMotion {
     if (!of.only_end) keep();
   }
 
-  /// Takes a step. @returns whether it is the last, as everything rests
+  /// Takes a step. @returns true after the last step, when the whole cloth is at rest
   bool step(ValidationRun& run) {
     const StepReport report = simulation_.step();
     run.capped += report.converged ? 0 : 1;
@@ -95,7 +95,7 @@ class ValidationMotion {
   const ValidationCase& of_;
   Simulation simulation_;
   ObservedMotion motion_;
-  int slow_ = 0;  // steps in a row
+  int slow_ = 0;  // consecutive steps below the speed limit
 };
 
 double mean_spring_length(const Cloth& cloth) {
@@ -104,12 +104,12 @@ double mean_spring_length(const Cloth& cloth) {
   return cloth.springs.empty() ? 0 : sum / static_cast<double>(cloth.springs.size());
 }
 
-/// Returns true for the run whose motion the report shows: the first problem of --quick, as its scene is.
+/// Returns true for the run whose motion the report shows: the first problem of --quick, with the original scene.
 bool is_shown(const ValidationCase& of, const ValidationRun& run) {
   return run.factor == scene_factor && run.problem == (of.quick.empty() ? of.problems.front().name : of.quick.front());
 }
 
-/// @returns whether it was not stopped
+/// @returns false if stopped
 bool measure_run(const ValidationCase& of, ValidationRun& run, double patience, const std::stop_token& stop) {
   const double begin = thread_seconds();
   try {
@@ -172,7 +172,7 @@ const ValidationRun* ValidationStudy::run(const std::string& name, const std::st
 
 namespace {
 
-/// Keeps the runs of a shard, each with its place among all.
+/// Reduces the runs to those of a shard, each with its position in the full plan.
 void keep_shard(const Shard& shard, std::vector<ValidationRun>& runs) {
   std::vector<double> costs;
   for (const ValidationRun& run : runs) {

@@ -15,31 +15,31 @@
 
 namespace drape {
 
-/// The factor of runs with a scene as it is, and of those without a key about how to compute.
+/// Factors of the runs with the original scene, and without its keys for the numerical method.
 inline constexpr const char* scene_factor = "scene";
 inline constexpr const char* default_factor = "default";
 
-/// One run of one problem, and what became of it.
+/// One run of one problem, with its measurements.
 struct ValidationRun {
-  std::string name;                        ///< of its case
-  std::string problem;                     ///< of the case
+  std::string name;                        ///< name of its case
+  std::string problem;                     ///< name of the problem in its case
   std::string factor;                      ///< scene_factor, default_factor, "cell", "step", "method", "mesh"
-  std::string setting;                     ///< the variant's name; the factor's where it has none
+  std::string setting;                     ///< name of the variant; for a factor without variants, the factor
   StudyCase what;                          ///< the command that runs it
-  std::optional<std::int64_t> place = {};  ///< in the plan of all shards; absent where there is one
+  std::optional<std::int64_t> place = {};  ///< position in the plan of all shards; absent without shards
 
-  // What was measured:
+  // Measurements:
   bool measured = false;
-  std::string failure;  ///< why there are no values; empty: there are
-  double seconds = 0;   ///< computing time, set-up included [s]
-  double step = 0;      ///< h [s]
-  double cell = 0;      ///< mean length of a spring [m]
+  std::string failure;  ///< reason for missing values; empty: none missing
+  double seconds = 0;   ///< CPU time with setup [s]
+  double step = 0;      ///< step length h [s]
+  double cell = 0;      ///< mean spring length [m]
   std::int64_t vertices = 0;
-  std::int64_t capped = 0;         ///< steps that ended at the cap
-  double rest_speed = 0;           ///< of the fastest vertex at the end [m/s]
-  std::vector<std::string> names;  ///< of the quantities
-  std::vector<double> values;      ///< theirs
-  html::PlayedMotion played = {};  ///< of the case's problem that --quick has, as its scene is; not kept in files
+  std::int64_t capped = 0;         ///< number of steps that reached the iteration limit
+  double rest_speed = 0;           ///< speed of the fastest vertex at the end [m/s]
+  std::vector<std::string> names;  ///< names of the quantities
+  std::vector<double> values;      ///< values of the quantities
+  html::PlayedMotion played = {};  ///< only for the first problem of --quick with the original scene; not kept in files
 
   [[nodiscard]] std::optional<double> value(const std::string& quantity) const;
 };
@@ -47,39 +47,39 @@ struct ValidationRun {
 /// The options of a study.
 struct ValidationOptions {
   std::vector<std::string> cases = {};    ///< empty: all
-  std::vector<std::string> methods = {};  ///< of the runs that vary the method; empty: all that a case has
-  bool quick = false;                     ///< a few problems as their scenes are, without defaults and variants
-  int jobs = 1;                           ///< runs at once
-  double patience = 30;                   ///< after so much computing time a run is given up [s]
-  Shard shard = {};                       ///< plan these runs alone
+  std::vector<std::string> methods = {};  ///< methods for the runs that vary the method; empty: all of the case
+  bool quick = false;                     ///< a few problems with their original scenes only
+  int jobs = 1;                           ///< parallel runs
+  double patience = 30;                   ///< computing time limit of a run [s]
+  Shard shard = {};                       ///< plan only these runs
 };
 
-/// All that a study has measured.
+/// All measurements of a study.
 struct ValidationStudy {
   std::vector<ValidationCase> cases;
-  std::vector<ValidationRun> runs;  ///< in the order of the plan
-  std::string command;              ///< that makes it again
+  std::vector<ValidationRun> runs;  ///< runs in the order of the plan
+  std::string command;              ///< command to reproduce it
   std::vector<std::pair<std::string, std::string>> provenance;
   double seconds = 0;
-  Shard shard = {};  ///< whose runs it has
+  Shard shard = {};  ///< the shard of its runs
 
-  /// The run of a problem with its scene as it is, or of another factor; null if there is none.
+  /// Returns the measured run of a problem with a factor; null if there is none.
   [[nodiscard]] const ValidationRun* run(const std::string& name, const std::string& problem,
                                          const std::string& factor = scene_factor) const;
 };
 
-/// Plans the runs: every problem as its scene is and by default, and one factor at a time. Shards take about as long,
-/// as far as steps and vertices tell.
-/// @throws UsageError for an unknown case or method, or a scene that is wrong
+/// Plans the runs: every problem with its original scene and with defaults, and variants of one factor at a time.
+/// Shards have about equal cost, measured in steps times vertices.
+/// @throws UsageError for an unknown case or method, or an invalid scene
 ValidationStudy plan_validation(const ValidationOptions& options);
 
-/// Does what is not measured yet.
+/// Measures the remaining runs.
 /// @param save called after every run, by one thread at a time
-/// @returns whether it came to its end
+/// @returns false if stopped
 bool measure_validation(ValidationStudy& study, const ValidationOptions& options, const std::stop_token& stop,
                         Progress& progress, const std::function<void()>& save);
 
-/// How far a value is from an answer, in tolerances.
+/// Returns the distance of a value from an answer, in tolerances.
 double in_tolerances(const KnownAnswer& answer, double value);
 
 }  // namespace drape

@@ -79,7 +79,7 @@ std::vector<GivenAnswer> answers_of_csv(const ValidationCase& of, const fs::path
   return given;
 }
 
-/// The states in an array of positions or velocities.
+/// Returns the states in an array of positions or velocities.
 std::vector<Vertices> states_in(NpyStream& array, Eigen::Index vertices) {
   const std::vector<std::size_t>& shape = array.shape();
   const auto count = static_cast<std::size_t>(vertices);

@@ -8,7 +8,7 @@
 
 namespace drape {
 
-/// A value that somebody gives for a known answer.
+/// A value from another program for a known answer.
 struct GivenAnswer {
   const ValidationProblem* problem = nullptr;
   const KnownAnswer* known = nullptr;
@@ -17,10 +17,11 @@ struct GivenAnswer {
   [[nodiscard]] bool met() const;
 };
 
-/// Reads answers: a CSV file with the columns problem, quantity and value; or an NPZ file with a motion of one problem,
-/// which is measured as drape's own: `positions` (times × vertices × 3, or vertices × 3 of the last state), `times`,
-/// and `velocities` where the measure needs them, the vertices in the order of the case's mesh.
-/// @param problem that an NPZ file is of; may be empty where the case has one alone
+/// Reads answers from a CSV file with the columns problem, quantity and value, or from an NPZ file. An NPZ file has a
+/// motion of one problem, measured like drape's own; vertices are in the order of the case's mesh. Its arrays are
+/// `times`, `positions` (times × vertices × 3, or vertices × 3 for the last state), and `velocities` if the measure
+/// needs them.
+/// @param problem of the NPZ file; may be empty for a case with one problem
 /// @throws UsageError "file: message"
 std::vector<GivenAnswer> read_answers(const ValidationCase& of, const std::filesystem::path& file,
                                       const std::string& problem);

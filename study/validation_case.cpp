@@ -22,7 +22,7 @@ constexpr const char* case_format = "drape validation case 1";
 constexpr const char* cases_folder = "scenes/validation";
 constexpr std::size_t most_case_bytes = std::size_t{1} << 22;
 
-/// A JSON object whose members are asked for by name.
+/// A JSON object with access to members by name.
 class CaseObject {
  public:
   CaseObject(const Json& json, std::string place) : json_(json), place_(std::move(place)) {

@@ -10,71 +10,71 @@ namespace drape {
 
 /// A known value of a problem.
 struct KnownAnswer {
-  std::string name;      ///< "drop": what a measure finds, and what a file of answers calls it
-  std::string curve;     ///< of the case's curves, that it lies on
-  double x = 0;          ///< its place on the curve
+  std::string name;      ///< "drop": name of the measured quantity, also in a file of answers
+  std::string curve;     ///< curve of the case on which the answer lies
+  double x = 0;          ///< position on the curve
   double value = 0;      ///< the answer
   double tolerance = 0;  ///< largest accepted |measured − value|
 };
 
-/// A problem of a case: the case's scene with a few values replaced.
+/// A problem of a case: the case's scene with a few overrides.
 struct ValidationProblem {
   std::string name;  ///< "gamma-10"
   std::vector<std::string> overrides;
-  std::map<std::string, double> given;  ///< numbers that the measure needs, those of the case included
+  std::map<std::string, double> given;  ///< numbers for the measure, with those of the case
   std::vector<KnownAnswer> answers;
 };
 
-/// A quantity against the case's parameter.
+/// A quantity as a function of the case's parameter.
 struct ValidationCurve {
   std::string name, title;  ///< "drop", "tip drop / L"
-  std::string how;          ///< how it is measured, in a sentence
+  std::string how;          ///< method of measurement, one sentence
 };
 
-/// One way to run a problem otherwise: another cell, step, method or mesh.
+/// A variation of a problem: another cell, step, method or mesh.
 struct ValidationVariant {
   std::string name;    ///< "1/20", "liu13"
-  std::string method;  ///< a step method's name where the factor is the method; empty: the scene's
+  std::string method;  ///< name of a step method if the factor is the method; empty: the scene's
   std::vector<std::string> overrides;
 };
 
-/// Variants in one factor of one problem.
+/// Variants of one problem in one factor.
 struct ValidationFactor {
   std::string factor;   ///< "cell", "step", "method", "mesh"
   std::string problem;  ///< the problem's name
   std::vector<ValidationVariant> variants;
 };
 
-/// A case of scenes/validation: a question whose answer is known.
+/// A case of scenes/validation: a question with a known answer.
 struct ValidationCase {
-  std::string name;                            ///< of its folder: "heavy-cantilever"
+  std::string name;                            ///< folder name: "heavy-cantilever"
   std::string title;                           ///< "Heavy cantilever"
   std::string question, theory, source, mesh;  ///< sentences
   std::string scene;                           ///< relative to the data folder
   std::string measure;                         ///< see measure_motion()
-  std::string x_title;                         ///< of the curves' parameter
-  bool only_end = false;                       ///< the measure needs the last state alone
-  std::optional<double> rest_speed;            ///< a run ends once no vertex is faster [m/s]
-  double rest_after = 0;                       ///< not before this time [s]
-  std::map<std::string, double> given;         ///< numbers that every problem has
+  std::string x_title;                         ///< title of the curves' parameter
+  bool only_end = false;                       ///< the measure needs only the last state
+  std::optional<double> rest_speed;            ///< a run ends once all vertices are slower [m/s]
+  double rest_after = 0;                       ///< earliest end by rest_speed [s]
+  std::map<std::string, double> given;         ///< numbers shared by all problems
   std::vector<ValidationCurve> curves;         ///< at least one
-  std::vector<std::string> default_overrides;  ///< take every key about how to compute out of the scene
+  std::vector<std::string> default_overrides;  ///< remove the keys for the numerical method from the scene
   std::vector<ValidationProblem> problems;     ///< at least one
-  std::vector<std::string> quick;              ///< names of the problems of the quick form
-  std::vector<std::string> quick_overrides;    ///< which it replaces in their scenes, as a rule by a coarser mesh
+  std::vector<std::string> quick;              ///< problems of the quick form
+  std::vector<std::string> quick_overrides;    ///< overrides of the quick form, usually a coarser mesh
   std::vector<ValidationFactor> factors;
 
-  /// @throws UsageError with the nearest name
+  /// Returns a problem by name. @throws UsageError with the nearest name
   [[nodiscard]] const ValidationProblem& problem(const std::string& called) const;
 };
 
 /// Reads a case.json.
-/// @param scene_folder the folder of its scene, relative to the data folder
+/// @param scene_folder folder of its scene, relative to the data folder
 /// @throws UsageError "file: message"
 ValidationCase read_validation_case(const std::filesystem::path& file, const std::string& scene_folder);
 
-/// The cases of the data folder, by name.
-/// @param names of those that are wanted; empty: all
+/// Returns the cases of the data folder, by name.
+/// @param names of the wanted cases; empty: all
 /// @throws UsageError also for an unknown name
 std::vector<ValidationCase> validation_cases(const std::vector<std::string>& names = {});
 

@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 using std::numbers::pi;
 using Quantities = std::map<std::string, double>;
 
-/// A motion with the numbers that its problem gives.
+/// A motion with the numbers of its problem.
 struct MotionOfCase {
   const ObservedMotion& motion;
   const std::map<std::string, double>& given;
@@ -34,7 +34,7 @@ struct MotionOfCase {
   [[nodiscard]] const Vertices& last() const { return motion.positions.back(); }
   [[nodiscard]] const Vertices& rest() const { return motion.cloth.rest; }
 
-  /// The mean place in `x` of the vertices that are as far along an axis of the rest shape as the furthest.
+  /// Returns the mean position in `x` of the rest shape's extreme vertices along an axis.
   [[nodiscard]] Vector3d side(const Vertices& x, int axis, double sign) const {
     const VectorXd along = sign * rest().col(axis);
     const double end = along.maxCoeff();
@@ -58,7 +58,7 @@ struct MotionOfCase {
   }
 };
 
-/// Moments at which a quantity changes its sign, by straight lines between its values.
+/// Returns the times of a quantity's sign changes, by linear interpolation.
 std::vector<double> sign_changes(const std::vector<double>& times, const std::vector<double>& values) {
   std::vector<double> moments;
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -69,14 +69,14 @@ std::vector<double> sign_changes(const std::vector<double>& times, const std::ve
   return moments;
 }
 
-/// The angular frequency of an oscillation about zero, from its first to its last change of sign [1/s].
+/// Returns the angular frequency of an oscillation about zero, from its first to its last sign change [1/s].
 double angular_frequency(const std::vector<double>& times, const std::vector<double>& values) {
   const std::vector<double> moments = sign_changes(times, values);
   if (moments.size() < 3) throw UsageError("the motion is too short: expected a whole oscillation");
   return pi * static_cast<double>(moments.size() - 1) / (moments.back() - moments.front());
 }
 
-/// The part of a shape in every state: Σ m φ u, u the displacement along an axis.
+/// Returns the amplitude of a mode shape in every state: Σ m φ u, with the displacement u along an axis.
 std::vector<double> part_of_shape(const MotionOfCase& m, int axis, const VectorXd& shape) {
   const VectorXd weights = m.motion.cloth.masses.cwiseProduct(shape);
   std::vector<double> parts;
@@ -89,7 +89,7 @@ Quantities measure_sag(const MotionOfCase& m) {
   return {{"sag", m.mean_of_pins(m.last()).z() - m.last().col(2).minCoeff()}};
 }
 
-/// A strip that is clamped at the lower end of its rest shape's x: where its tip is, in its free lengths.
+/// Returns the tip position of a strip clamped at the lower end of its rest shape's x, relative to its free length.
 Quantities measure_clamped_strip(const MotionOfCase& m) {
   double clamp = -HUGE_VAL;
   for (const int pin : m.motion.cloth.pins) clamp = std::max(clamp, m.rest()(pin, 0));
@@ -104,7 +104,7 @@ Quantities measure_clamped_strip(const MotionOfCase& m) {
           {"buckled", sideways > 0.02 ? 1.0 : 0.0}};
 }
 
-/// Twice the time between the first two passages through the lowest point, over 2π √(L/g).
+/// Returns twice the time between the first two passages through the lowest point, relative to 2π √(L/g).
 Quantities measure_pendulum(const MotionOfCase& m) {
   const Vector3d pivot = m.mean_of_pins(m.motion.positions.front());
   std::vector<double> sideways;
@@ -115,7 +115,7 @@ Quantities measure_pendulum(const MotionOfCase& m) {
   return {{"period", 2 * (moments[1] - moments[0]) / (2 * pi * std::sqrt(length / m.number("g")))}};
 }
 
-/// Frequencies of a hanging chain over √(g/L): mode n's part is that of J0(j √(z/L)), z the height above the free end.
+/// Returns frequencies of a hanging chain relative to √(g/L). Mode n has the shape J0(jₙ √(z/L)), z from the free end.
 Quantities measure_hanging_chain(const MotionOfCase& m) {
   const VectorXd along = m.rest().col(0);
   const double length = along.maxCoeff() - along.minCoeff();
@@ -132,12 +132,12 @@ Quantities measure_hanging_chain(const MotionOfCase& m) {
   return found;
 }
 
-/// Frequencies of a stretched square over π c/a, c² its tension over its mass per area; m and n half waves.
+/// Returns frequencies of a stretched square relative to π c/a, c² = tension/(mass per area), for m and n half waves.
 Quantities measure_membrane(const MotionOfCase& m) {
   const double width = m.motion.positions.front().col(0).maxCoeff() - m.motion.positions.front().col(0).minCoeff();
   const double rest_width = m.rest().col(0).maxCoeff() - m.rest().col(0).minCoeff();
   const double stretch = width / rest_width;
-  // Springs of equal stiffness in all directions hold 3/2 E e² for each area of the rest shape.
+  // Springs of equal stiffness in all directions store 3/2 E e² per area of the rest shape.
   const double tension = 1.5 * m.number("E") * (stretch - 1) / stretch;
   const double speed = std::sqrt(tension / (m.number("density") / (stretch * stretch)));
   Quantities found;
@@ -151,7 +151,7 @@ Quantities measure_membrane(const MotionOfCase& m) {
   return found;
 }
 
-/// The first frequency of a clamped unit square over √(D/ρ), its shape taken as cos² πx cos² πy.
+/// Returns the first frequency of a clamped unit square relative to √(D/ρ), assuming the shape cos² πx cos² πy.
 Quantities measure_plate(const MotionOfCase& m) {
   const Vertices& r = m.rest();
   VectorXd shape(r.rows());
@@ -163,7 +163,7 @@ Quantities measure_plate(const MotionOfCase& m) {
   return {{"frequency", omega / std::sqrt(m.number("D") / m.number("density"))}};
 }
 
-/// The fall of the centre of mass over v²/g after given times, v the terminal velocity.
+/// Returns the fall of the centre of mass relative to v²/g after given times, v the terminal velocity.
 Quantities measure_fall(const MotionOfCase& m) {
   const double g = m.number("g");
   const double square = 2 * m.number("density") * g / (m.number("air density") * m.number("drag"));
@@ -186,7 +186,7 @@ Quantities measure_fall(const MotionOfCase& m) {
   return found;
 }
 
-/// The acceleration along x from the way in the first and in the second half of the motion, over g.
+/// Returns the acceleration along x relative to g, from the distances in the first and second half of the motion.
 Quantities measure_sliding(const MotionOfCase& m) {
   const std::size_t last = m.motion.times.size() - 1, middle = last / 2;
   if (middle == 0) throw UsageError("the motion is too short: expected three states");
@@ -196,23 +196,23 @@ Quantities measure_sliding(const MotionOfCase& m) {
   return {{"acceleration", way / (half * half) / m.number("g")}};
 }
 
-/// 1 if the centre of mass ends more than 2 % further from the z axis than it began, otherwise 0.
+/// Returns 1 if the centre of mass ends more than 2 % further from the z axis than it began, otherwise 0.
 Quantities measure_turntable(const MotionOfCase& m) {
   const auto distance = [&](const Vertices& x) { return m.mass_centre(x).head<2>().norm(); };
   const double share = distance(m.last()) / distance(m.motion.positions.front());
   return {{"slipped", share > 1.02 ? 1.0 : 0.0}};
 }
 
-/// 1 if the end that hangs lowest at first has fallen by more than 5 cm, otherwise 0.
+/// Returns 1 if the end that hangs lowest at first falls by more than 5 cm, otherwise 0.
 Quantities measure_capstan(const MotionOfCase& m) {
   Eigen::Index lowest = 0;
   const double start = m.motion.positions.front().col(2).minCoeff(&lowest);
   return {{"slipped", start - m.last()(lowest, 2) > 0.05 ? 1.0 : 0.0}};
 }
 
-/// Pulled over a ground by a spring of given ω, whose end moves with a given speed from x = 0 on: the way over that of
-/// the end in a cycle, so many cycles after the force first exceeds friction. With no speed given, the end stands
-/// still: the last distance from it, over the largest at which friction holds.
+/// Measures a sheet that a spring of frequency ω pulls over a ground. With a given speed of the spring's end: the way
+/// of the sheet after some cycles of slip, relative to the way of the end in a cycle. With no speed: the last distance
+/// from the end, relative to the largest at which friction holds.
 Quantities measure_stick_slip(const MotionOfCase& m) {
   const double omega = m.number("omega"), held = m.number("friction") * m.number("g") / (omega * omega);
   const auto place = [&](std::size_t at) { return m.mass_centre(m.motion.positions[at]).x(); };
@@ -233,7 +233,7 @@ Quantities measure_stick_slip(const MotionOfCase& m) {
   return found;
 }
 
-/// The height of the first rebound over the fall, above what the cloth rests on.
+/// Returns the height of the first rebound relative to the fall, both above the resting height.
 Quantities measure_rebound(const MotionOfCase& m) {
   const double floor = m.number("floor");
   std::vector<double> heights;
@@ -245,7 +245,7 @@ Quantities measure_rebound(const MotionOfCase& m) {
   return {{"rebound", top / heights.front()}};
 }
 
-/// ½ Σ m v² and the springs' energy, from positions and velocities alone.
+/// Returns ½ Σ m v² and the springs' energy, from positions and velocities alone.
 double energy_of(const Cloth& cloth, const Vertices& x, const Vertices& v) {
   double energy = 0.5 * cloth.masses.dot(v.rowwise().squaredNorm());
   for (const Spring& spring : cloth.springs) {
@@ -255,8 +255,8 @@ double energy_of(const Cloth& cloth, const Vertices& x, const Vertices& v) {
   return energy;
 }
 
-/// Without forces: the way of the centre of mass over velocity times duration; the energy at the end over that at the
-/// start; 1 plus the change of the angular momentum over what it would be if all of the mass turned at the given speed.
+/// Measures a flight without forces, by three ratios: distance over velocity times duration; final over initial energy.
+/// The third is 1 plus the change of angular momentum over that of the whole mass at the given speed.
 Quantities measure_free_flight(const MotionOfCase& m) {
   if (m.motion.velocities.empty()) throw UsageError("expected velocities beside the positions");
   const Cloth& cloth = m.motion.cloth;
@@ -279,7 +279,7 @@ Quantities measure_free_flight(const MotionOfCase& m) {
           {"energy", energy_of(cloth, m.last(), m.motion.velocities.back()) / before}};
 }
 
-/// Twice the springs' energy for each area of the rest shape over E e².
+/// Returns twice the springs' energy per area of the rest shape, relative to E e².
 Quantities measure_strain_energy(const MotionOfCase& m) {
   const Cloth& cloth = m.motion.cloth;
   const double energy = energy_of(cloth, m.last(), Vertices::Zero(m.last().rows(), 3));
@@ -292,7 +292,7 @@ Quantities measure_strain_energy(const MotionOfCase& m) {
   return {{"modulus", 2 * energy / (area * m.number("E") * std::pow(m.number("strain"), 2))}};
 }
 
-/// The energy of the first state over ½ D A/R².
+/// Returns the energy of the first state relative to ½ D A/R².
 Quantities measure_rolled_sheet(const MotionOfCase& m) {
   if (m.motion.elastic.empty()) throw UsageError("expected the elastic energy of every state: give the answer as CSV");
   return {{"energy",

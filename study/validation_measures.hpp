@@ -8,23 +8,23 @@
 
 namespace drape {
 
-/// A motion of a case's cloth, of drape's or another simulator's making.
+/// A motion of a case's cloth, by drape or another simulator.
 struct ObservedMotion {
-  Cloth cloth;                       ///< as the case's scene begins
-  std::vector<double> times;         ///< ascending [s]
-  std::vector<Vertices> positions;   ///< at these times, n×3 [m]
-  std::vector<Vertices> velocities;  ///< likewise [m/s]; empty: unknown
-  std::vector<double> elastic;       ///< energy of springs and bending, likewise [J]; empty: unknown
+  Cloth cloth;                       ///< cloth at the start of the case's scene
+  std::vector<double> times;         ///< times of the states, ascending [s]
+  std::vector<Vertices> positions;   ///< vertex positions at these times, n×3 [m]
+  std::vector<Vertices> velocities;  ///< vertex velocities at these times, n×3 [m/s]; empty: unknown
+  std::vector<double> elastic;       ///< energy of springs and bending at these times [J]; empty: unknown
 };
 
-/// The names of all measures.
+/// Returns the names of all measures.
 std::vector<std::string> measure_names();
 
 /// Measures a motion.
 /// @param measure one of measure_names()
-/// @param given   numbers that the measure needs, by name
+/// @param given   numbers for the measure, by name
 /// @returns quantities by name
-/// @throws UsageError if the motion is too short, or something that the measure needs is not there
+/// @throws UsageError if the motion is too short, or lacks data that the measure needs
 std::map<std::string, double> measure_motion(const std::string& measure, const ObservedMotion& motion,
                                              const std::map<std::string, double>& given);
 

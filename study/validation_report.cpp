@@ -11,7 +11,7 @@
 namespace drape {
 namespace {
 
-constexpr double least_shown = 1e-3;  // of an error in tolerances, on a logarithmic axis
+constexpr double least_shown = 1e-3;  // smallest error shown on a logarithmic axis, in tolerances
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 std::string figure(double value) {
@@ -22,7 +22,7 @@ std::string figure(double value) {
 
 std::string seconds_text(double seconds) { return fmt::format("{:.2g}", seconds); }
 
-/// An answer with what a run has found.
+/// An answer with the value found by a run.
 struct FoundAnswer {
   const KnownAnswer* answer;
   double value = not_known;
@@ -41,7 +41,7 @@ std::vector<FoundAnswer> found_answers(const ValidationProblem& problem, const V
   return found;
 }
 
-/// The largest error of a run, in tolerances.
+/// Returns the largest error of a run, in tolerances.
 double worst_of(const ValidationProblem& problem, const ValidationRun& run) {
   double worst = 0;
   for (const FoundAnswer& one : found_answers(problem, run)) worst = std::max(worst, one.tolerances());
@@ -96,7 +96,7 @@ ResultTable factors_table(const ValidationStudy& study, const ValidationCase& of
   return table;
 }
 
-/// Every known answer on a curve, with its problem.
+/// Calls use(problem, answer) for every known answer on a curve.
 template <class Use>
 void for_answers_on(const ValidationCase& of, const ValidationCurve& curve, Use use) {
   for (const ValidationProblem& problem : of.problems) {
@@ -106,7 +106,7 @@ void for_answers_on(const ValidationCase& of, const ValidationCurve& curve, Use 
   }
 }
 
-/// The theory between the first and the last answer of a curve.
+/// Returns the theoretical curve between its first and last answer.
 html::ChartSeries theory_series(const ValidationCase& of, const ValidationCurve& curve) {
   html::ChartSeries theory{"theory", {}};
   theory.markers = false;
@@ -129,7 +129,7 @@ html::ChartSeries theory_series(const ValidationCase& of, const ValidationCurve&
   return theory;
 }
 
-/// The findings of the runs of a factor, as points without a line.
+/// Returns the values found by the runs of a factor, as points without a line.
 html::ChartSeries found_series(const ValidationStudy& study, const ValidationCase& of, const ValidationCurve& curve,
                                const std::string& factor) {
   html::ChartSeries found{factor == scene_factor ? "drape" : "drape by default", {}};
@@ -149,7 +149,7 @@ html::ChartSeries found_series(const ValidationStudy& study, const ValidationCas
   return found;
 }
 
-/// Theory as a line, drape's answers as points.
+/// Plots theory as a line and drape's answers as points.
 NamedChart master_curve(const ValidationStudy& study, const ValidationCase& of, const ValidationCurve& curve) {
   html::Chart chart{of.title + ": " + curve.title + ". Theory is a line, drape's runs are points.",
                     of.x_title,
@@ -165,7 +165,7 @@ NamedChart master_curve(const ValidationStudy& study, const ValidationCase& of, 
   return {fmt::format("{}-{}", of.name, curve.name), std::move(chart)};
 }
 
-/// Error against computing time, a series for each factor.
+/// Plots error against computing time, a series per factor.
 NamedChart cost_chart(const ValidationStudy& study, const ValidationCase& of) {
   html::Chart chart{of.title + ": largest error against computing time, one factor varied at a time.",
                     "computing time [s]",
@@ -239,7 +239,7 @@ ResultTable summary_table(const ValidationStudy& study) {
   return table;
 }
 
-/// Each case's worst error against its computing time.
+/// Plots each case's worst error against its computing time.
 NamedChart summary_chart(const ValidationStudy& study) {
   html::Chart chart{"Every case's largest error against its computing time, as its scene is and by default.",
                     "computing time [s]",

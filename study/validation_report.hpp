@@ -5,23 +5,23 @@
 
 namespace drape {
 
-/// A report that says whether each case's answers are met by its scene, beside the error of the defaults and the
-/// computing time.
+/// Returns a report on whether each case's scene meets its answers, with the errors of the defaults and computing
+/// times.
 StudyReport validation_report(const ValidationStudy& study);
 
 /// The outcome of a case.
 struct ValidationVerdict {
   bool met = false;             ///< every answer is within its tolerance
-  int answers = 0, missed = 0;  ///< that were measured, and of them those beyond their tolerance or without a value
+  int answers = 0, missed = 0;  ///< measured answers; of these, those without a value or beyond their tolerance
   double worst = 0;             ///< largest |measured − value|/tolerance
   std::string worst_problem, worst_answer;
-  double seconds = 0;  ///< computing time of all problems
+  double seconds = 0;  ///< CPU time of all problems
 };
 
-/// @param factor scene_factor or default_factor
+/// Returns the outcome of a case for scene_factor or default_factor.
 ValidationVerdict verdict_of(const ValidationStudy& study, const ValidationCase& of, const std::string& factor);
 
-/// Returns true if every case that was measured is met.
+/// Returns true if every measured case is met.
 bool all_met(const ValidationStudy& study);
 
 }  // namespace drape

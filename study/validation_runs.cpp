@@ -16,7 +16,7 @@ namespace {
 constexpr int validation_format = 1;
 constexpr std::size_t most_validation_bytes = std::size_t{1} << 28;
 
-// What is kept of a run, described once for both ways: Fields is a RunsWriter, and the rest constant, or a RunsRecord.
+// The fields of a run, described once for both directions: Fields is a RunsWriter (with const data) or a RunsRecord.
 template <class Fields, class Run>
 void describe_run(Fields& f, Run& run) {
   f("place", run.place);
@@ -35,7 +35,7 @@ void describe_run(Fields& f, Run& run) {
 
 RunsKey key_of(const ValidationRun& run) { return {run.name, run.factor, run.problem, {}, run.setting}; }
 
-/// The study in a file: its cases, and the runs that it has.
+/// Reader of the study in a file: its cases and runs.
 class ValidationReader {
  public:
   explicit ValidationReader(const std::filesystem::path& file)
@@ -119,7 +119,7 @@ ValidationStudy validation_study(const std::filesystem::path& file) { return Val
 
 MergedValidation merge_validation(const std::vector<std::filesystem::path>& files) {
   MergedValidation merged;
-  std::map<std::size_t, std::string> found;  // the shards' numbers, and their files
+  std::map<std::size_t, std::string> found;  // shard numbers and their files
   std::size_t count = 0;
   for (const std::filesystem::path& file : files) {
     ValidationStudy part = validation_study(file);

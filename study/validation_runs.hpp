@@ -8,33 +8,33 @@
 
 namespace drape {
 
-/// The name of the file that holds all that a study of validation has measured.
+/// File name of all measurements of a validation study.
 inline constexpr const char* validation_runs_name = "runs.csv";
 
-/// The name of the file in which a shard keeps what it has measured.
+/// File name of the measurements of a shard.
 inline constexpr const char* validation_shard_name = "validation-runs.csv";
 
-/// Everything measured so far, as a file of runs; see RunsWriter.
+/// Returns all measurements so far as a file of runs, see RunsWriter.
 std::string validation_runs(const ValidationStudy& study);
 
-/// Puts what files of one study have measured into a plan.
-/// @param study planned; its command must be that of the files
-/// @throws UsageError if a file is damaged or belongs to another study
+/// Copies the measurements of a file into a planned study.
+/// @param study planned with the same command as the file
+/// @throws UsageError if the file is damaged or belongs to another study
 void read_validation_runs(const std::filesystem::path& file, ValidationStudy& study);
 
-/// The study that a file holds, with the runs that it has.
+/// Returns the study in a file, with the runs that it has.
 /// @throws UsageError likewise
 ValidationStudy validation_study(const std::filesystem::path& file);
 
-/// Shards of a study put together.
+/// A study merged from shards.
 struct MergedValidation {
   ValidationStudy study;
-  std::vector<Shard> missing;  ///< whose runs are not measured
+  std::vector<Shard> missing;  ///< shards without measurements
 };
 
-/// Reads what shards have measured.
+/// Reads and merges the measurements of shards.
 /// @param files at least one
-/// @throws UsageError if one is damaged, or they are not of one study
+/// @throws UsageError if a file is damaged, or they belong to different studies
 MergedValidation merge_validation(const std::vector<std::filesystem::path>& files);
 
 }  // namespace drape

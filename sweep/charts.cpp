@@ -17,7 +17,7 @@ namespace drape {
 namespace {
 
 constexpr std::size_t most_lines = 12;
-constexpr double wide = 30;  // a ratio of values from which on an axis is logarithmic
+constexpr double wide = 30;  // ratio of largest to smallest value that makes an axis logarithmic
 
 std::optional<double> number(const std::string& text) {
   double value = 0;
@@ -26,7 +26,7 @@ std::optional<double> number(const std::string& text) {
   return value;
 }
 
-/// The values of an axis as numbers; nothing if one of them is none.
+/// Returns the values of an axis as numbers; empty if any is not a number.
 std::vector<double> numbers_of(const SweepAxis& axis) {
   std::vector<double> values;
   for (const std::string& text : axis.values) {
@@ -46,7 +46,7 @@ html::Scale scale_of(const std::vector<double>& values) {
   return low > 0 && high >= wide * low ? html::Scale::logarithmic : html::Scale::linear;
 }
 
-/// The figures that are numbers, not everywhere the same, in the order in which runs have them.
+/// Returns the numeric figures that vary, in the order of the runs' records.
 std::vector<std::string> changing_figures(const SweepResults& results) {
   std::vector<std::string> names;
   std::map<std::string, std::set<std::string>> values;
@@ -58,7 +58,7 @@ std::vector<std::string> changing_figures(const SweepResults& results) {
     }
   }
   std::erase_if(names, [&](const std::string& name) { return values[name].size() < 2; });
-  // What is asked for first is seen first.
+  // The first figure is shown first.
   const auto preferred = [](const std::string& name) {
     return name == "step_us.median" ? 0 : name == "iterations.mean" ? 1 : 2;
   };
@@ -66,7 +66,7 @@ std::vector<std::string> changing_figures(const SweepResults& results) {
   return names;
 }
 
-/// Which axes tell the lines of a diagram over one axis apart.
+/// Returns the axes that distinguish the lines of a diagram over one axis.
 std::vector<std::size_t> line_axes(const SweepResults& results, std::size_t over) {
   std::vector<std::size_t> others;
   std::size_t lines = 1;
@@ -76,7 +76,7 @@ std::vector<std::size_t> line_axes(const SweepResults& results, std::size_t over
     lines *= results.axes[a].values.size();
   }
   if (lines <= most_lines) return others;
-  std::ranges::reverse(others);  // of several with the fewest, the one that changes fastest
+  std::ranges::reverse(others);  // among equals, prefer the axis that changes fastest
   const std::size_t fewest =
       *std::ranges::min_element(others, std::less(), [&](std::size_t a) { return results.axes[a].values.size(); });
   return {fewest};
@@ -88,7 +88,7 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-/// A name that needs no quotes anywhere.
+/// Returns a file name that needs no quotes in any context.
 std::string file_name(std::string text) {
   const auto strange = [](unsigned char c) { return std::isalnum(c) == 0 && c != '_' && c != '-' && c != '.'; };
   std::ranges::replace_if(text, strange, '-');
@@ -96,7 +96,7 @@ std::string file_name(std::string text) {
 }
 
 NamedChart diagram(const SweepResults& results, const std::string& figure, std::size_t over) {
-  using Line = std::map<double, std::vector<double>>;  // the figure's values by place
+  using Line = std::map<double, std::vector<double>>;  // the figure's values by place on the axis
   const SweepAxis& axis = results.axes[over];
   const std::vector<double> numbers = numbers_of(axis);
   const std::vector<std::size_t> apart = line_axes(results, over);

@@ -9,24 +9,23 @@
 
 namespace drape {
 
-/// Where the files of diagrams are within a sweep's folder.
+/// Subfolder of the diagrams in a sweep's folder.
 inline constexpr const char* diagrams_place = "diagrams";
 
-/// What a figure is called on pages: "µs per step"; its own name where it has no other.
+/// Returns a figure's title for pages: "µs per step"; by default its name.
 std::string figure_title(const std::string& name);
 
 /// Diagrams of figures over axes.
 struct SweepDiagrams {
   std::vector<std::string> figures, axes;
-  std::vector<NamedChart> charts;  ///< of each figure over each axis, the axes of a figure together
+  std::vector<NamedChart> charts;  ///< one chart per figure and axis, grouped by figure
 };
 
-/// A diagram of each figure that is not the same in all runs over each axis. A line for each combination of the other
-/// axes; where that would be too many, one for each value of the axis with the fewest, through the medians over the
-/// rest.
+/// Plots each figure that varies between runs over each axis, with a line per combination of the other axes. With too
+/// many combinations, plots a line per value of the axis with the fewest values, through the medians over the rest.
 SweepDiagrams figure_diagrams(const SweepResults& results);
 
-/// Those of which a page shows one that is chosen.
+/// Returns these diagrams as choices for a page that shows one at a time.
 html::Choices choices_of(const SweepDiagrams& diagrams);
 
 }  // namespace drape

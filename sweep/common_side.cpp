@@ -29,15 +29,15 @@ Camera side_of_films(const SweepPlan& plan, const std::stop_token& stop) {
   try {
     const Scene scene = load_scene(plan.request.scenes[run.scene], overrides_of(plan, run));
     const FilmExtent extent = film_extent(scene, run_options(plan.request, {}));
-    FrameSource motion(scene, nullptr, extent, std::nullopt);  // well_placed() goes through it once
+    FrameSource motion(scene, nullptr, extent, std::nullopt);  // a single pass, by well_placed()
     return well_placed(scene.camera, known_film(scene, scene.video.size, extent.frames.count(), [&](const auto& visit) {
                          motion.pass(visit, stop);
                          if (stop.stop_requested()) throw Stopped();
                        }));
   } catch (const Stopped&) {
-    return usual_side();  // nothing is drawn any more
+    return usual_side();  // no more drawing follows
   } catch (const Error&) {
-    return usual_side();  // that run's own row says why
+    return usual_side();  // that run's own row has the reason
   } catch (const std::bad_alloc&) {
     return usual_side();
   }

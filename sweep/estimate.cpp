@@ -6,11 +6,11 @@
 namespace drape {
 namespace {
 
-// Of the size of what the scenes of scenes/ take.
-constexpr double newton_per_iterated = 6;     // spring, of a step
-constexpr double run = 3e-3;                  // [s] whatever the scene
-constexpr double usual_stiffness = 10;        // how many substeps an explicit step would need: only a run knows better
-constexpr double pixel = 60e-9, film = 0.15;  // [s], of drawing and encoding one, and of beginning
+// Rough coefficients, measured with the scenes in scenes/.
+constexpr double newton_per_iterated = 6;     // cost of a step relative to iterative methods
+constexpr double run = 3e-3;                  // fixed cost of a run [s]
+constexpr double usual_stiffness = 10;        // assumed substeps of an explicit step; only a run knows the number
+constexpr double pixel = 60e-9, film = 0.15;  // drawing and encoding of a pixel, and start of a film [s]
 
 }  // namespace
 

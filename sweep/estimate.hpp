@@ -5,9 +5,8 @@
 
 namespace drape {
 
-/// How long a run of a scene takes on a processor as they were in 2022 [s], within a factor of about three: from its
-/// method, its effects and the numbers of steps, springs, vertices and pixels alone, so that every machine shares out
-/// work alike.
+/// Estimates the time of a run on a processor of 2022, within a factor of about three [s]. Depends only on the method,
+/// the effects and the numbers of steps, springs, vertices and pixels, so every machine assigns shards alike.
 double estimated_cost(const Scene& scene, const RunOptions& options);
 
 }  // namespace drape

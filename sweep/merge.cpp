@@ -23,7 +23,7 @@ bool is_part(const fs::path& folder, const char* mark) {
   return fs::exists(folder / mark, ignored);
 }
 
-/// @throws UsageError that says in what two plans differ
+/// @throws UsageError that names the difference of two plans
 void require_same(const SweepPlan& plan, const fs::path& from, const SweepPlan& first, const fs::path& first_from) {
   if (plan.program != first.program) {
     throw UsageError(fmt::format("{} was made by {}, and {} by {}: one sweep is made by one program", shown(from),
@@ -38,21 +38,21 @@ void require_same(const SweepPlan& plan, const fs::path& from, const SweepPlan& 
   }
 }
 
-/// A file under another name; a second name of the same file where the file system has them.
+/// Makes a hard link to a file, or a copy if that is impossible.
 void copy_or_link(const fs::directory_entry& from, const fs::path& to, std::error_code& error) {
-  const bool is_link = from.is_symlink(error);  // what it leads to may be another file from elsewhere
+  const bool is_link = from.is_symlink(error);  // copy links, whose target may be outside
   if (!is_link) fs::create_hard_link(from.path(), to, error);
   if (is_link || error) fs::copy_file(from.path(), to, error);
 }
 
-/// A complete run's folder in another sweep, under a hidden name until all of it is there.
+/// Copies or links a complete run's folder into another sweep, under a hidden name until it is complete.
 void take_over(const fs::path& from, const fs::path& to) {
   const fs::path hidden = to.parent_path() / ("." + to.filename().string());
   std::error_code error;
   fs::remove_all(hidden, error);
   fs::create_directories(hidden, error);
   for (const auto& entry : fs::directory_iterator(from, error)) {
-    if (!entry.is_regular_file(error)) continue;  // a run writes files alone
+    if (!entry.is_regular_file(error)) continue;  // a run writes only files
     copy_or_link(entry, hidden / entry.path().filename(), error);
     if (error) break;
   }
@@ -89,20 +89,20 @@ std::vector<fs::path> parts_in(const fs::path& folder, const char* mark) {
 
 namespace {
 
-/// State of a run in a folder, from worst to best.
+/// The state of a run in a folder, from worst to best.
 enum class Found { damaged, unsettled, settled };
 
-/// By the keys of runs.
+/// States by the keys of runs.
 using FoundRuns = std::map<std::string, Found>;
 
-/// A part of a sweep as its folder says it, all of which is read before anything is written.
+/// A part of a sweep, read completely before anything is written.
 struct SweepPart {
   fs::path folder;
   SweepFile file;
   FoundRuns runs;
 };
 
-/// Notes what the folder of a sweep has of a run, if anything.
+/// Adds the state of a run in a sweep's folder, if it has one.
 void note_run(const fs::path& sweep, const std::string& key, FoundRuns& runs) {
   const std::optional<RunRecord> record = read_run(sweep, key);
   if (!record) return;
@@ -122,8 +122,8 @@ SweepPart read_part(const fs::path& folder) {
   return part;
 }
 
-/// The runs that the folder of the whole has already.
-/// @throws UsageError if links lead from there elsewhere
+/// Returns the runs that are already in the folder of the whole.
+/// @throws UsageError if links lead out of the folder
 FoundRuns runs_already_in(const fs::path& folder, const SweepPlan& plan) {
   FoundRuns runs;
   for (const PlannedRun& run : plan.runs) {

@@ -9,23 +9,23 @@
 
 namespace drape {
 
-/// Where a shard's runs go within the folder of the whole: "shard-2-of-5".
+/// Returns the folder of a shard's runs in the folder of the whole: "shard-2-of-5".
 std::filesystem::path shard_place(const std::filesystem::path& folder, const Shard& shard);
 
-/// What a shard leaves in its folder: sweep.json, or of a check check.cbor.
+/// Files that mark the folder of a shard, of a sweep and of a check.
 inline constexpr const char *sweep_mark = "sweep.json", *check_mark = "check.cbor";
 
-/// The folders with parts of a sweep, check or study: the shards within a folder, or itself where it has none; perhaps
-/// neither.
-/// @param mark the file that tells which it is
+/// Returns the folders with parts of a sweep, check or study: the shards in a folder, or the folder itself. Empty if
+/// there is neither.
+/// @param mark the file that identifies a part
 /// @throws UsageError if the folder cannot be read
 std::vector<std::filesystem::path> parts_in(const std::filesystem::path& folder, const char* mark);
 
-/// Puts the runs of parts together in one folder, as if one process had run them all; of runs that several have, one
-/// that is settled wins. Files are linked where the file system can, and copied where not.
-/// @param stop asked between two runs: those that are left are not taken over then
+/// Merges the runs of several parts into one folder, as if one process had run them all. If several parts have a run, a
+/// settled one wins. Files are hard links if the file system supports them, otherwise copies.
+/// @param stop checked between runs; the remaining runs are then skipped
 /// @returns the whole sweep
-/// @throws UsageError  if the parts are not of one sweep
+/// @throws UsageError  if the parts belong to different sweeps
 /// @throws OutputError
 SweepFile merge_sweeps(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& folder,
                        const std::stop_token& stop = {});

@@ -22,12 +22,12 @@ namespace {
 using html::Markup;
 
 constexpr std::size_t most_sheet_bytes = std::size_t{1} << 28;
-constexpr double most_sheet_pixels = 1 << 28;        // larger ones come from strangers
-constexpr std::size_t most_film_bytes = 48'000'000;  // of all that a page holds
-constexpr int widest = 240;                          // of a film's picture on the page [pixels]
-constexpr int gap = 6;                               // between the pictures of a contact sheet [pixels]
+constexpr double most_sheet_pixels = 1 << 28;        // larger ones are not drape's
+constexpr std::size_t most_film_bytes = 48'000'000;  // total on a page
+constexpr int widest = 240;                          // width of a film's picture on the page [pixels]
+constexpr int gap = 6;                               // gap between the pictures of a contact sheet [pixels]
 
-/// A run's contact sheet as the page shows it, small and without gaps; nothing if it has none.
+/// Returns a run's contact sheet for the page, scaled down and without gaps; nothing if it has none.
 std::optional<html::Strip> strip_of(const SweepResults& results, const SweepRow& row,
                                     const std::filesystem::path& folder) {
   const std::vector<std::string>& files = row.record.files;
@@ -53,7 +53,7 @@ std::optional<html::Strip> strip_of(const SweepResults& results, const SweepRow&
     cv::Mat to = strip(cv::Rect(column * small.width, line * small.height, small.width, small.height));
     cv::resize(from, to, small, 0, 0, cv::INTER_AREA);
     if (first.empty()) first = to.clone();
-    // Films begin alike, as a rule flat: what differs most from that tells most.
+    // Use the picture that differs most from the first as the poster, since most films begin with a flat cloth.
     const double differs = cv::norm(to, first, cv::NORM_L1);
     if (differs <= most) continue;
     most = differs;
@@ -76,7 +76,7 @@ html::Markup outcome_badge(RunOutcome outcome) {
   return html::badge(name_of(outcome), tone);
 }
 
-/// The grids of films.
+/// The film grids of a page.
 class Films {
  public:
   Films(const SweepResults& results, const std::filesystem::path& folder) : results_(results), folder_(folder) {}
@@ -147,8 +147,8 @@ class Films {
 
   const SweepResults& results_;
   const std::filesystem::path& folder_;
-  std::vector<double> moments_;  // of the longest strip [s]
-  bool same_moments_ = true;     // in all of them, as far as they go
+  std::vector<double> moments_;  // times of the longest strip [s]
+  bool same_moments_ = true;     // true if all strips share their common moments
   std::size_t bytes_ = 0, left_out_ = 0;
 };
 

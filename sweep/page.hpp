@@ -7,9 +7,9 @@
 
 namespace drape {
 
-/// A self-contained page: the films in grids that play in step, diagrams of any figure over any axis, and the figures
-/// of all runs in a table that can be sorted.
-/// @param folder of the sweep, where the contact sheets of films are read
+/// Returns a self-contained page: grids of synchronised films, diagrams of figures over axes, and a sortable table of
+/// all runs with their figures.
+/// @param folder of the sweep, with the contact sheets of films
 std::string sweep_page(const SweepResults& results, const std::filesystem::path& folder);
 
 }  // namespace drape

@@ -27,7 +27,7 @@ namespace drape {
 using Json = nlohmann::ordered_json;
 namespace {
 
-/// What is wrong with runs, each message once.
+/// Problems of runs, each message once.
 class RunProblems {
  public:
   explicit RunProblems(const SweepPlan& plan) : plan_(plan) {}
@@ -61,7 +61,7 @@ class RunProblems {
  private:
   struct Found {
     std::size_t count;
-    std::string first;  // the label of the first run that has it
+    std::string first;  // label of the first affected run
     Found(std::size_t c, std::string f) : count(c), first(std::move(f)) {}
   };
   const SweepPlan& plan_;
@@ -70,7 +70,7 @@ class RunProblems {
   ErrorKind kind_ = ErrorKind::usage;
 };
 
-/// The files' names without their endings; the whole path of those that share one.
+/// Returns the stems of the files' names; for equal stems, the whole paths.
 std::vector<std::string> names_of(const std::vector<std::string>& scenes) {
   std::multiset<std::string> stems;
   for (const std::string& scene : scenes) stems.insert(std::filesystem::path(scene).stem().string());
@@ -104,7 +104,7 @@ void require_sense(const SweepRequest& request) {
   }
 }
 
-/// A folder in which films can be begun, to see whether they can, and which is gone afterwards.
+/// A temporary folder in which films are opened to check that they can be.
 class TrialFolder {
  public:
   TrialFolder() : place_(std::filesystem::temp_directory_path() / fmt::format("drape-sweep-{}", ::getpid())) {}
@@ -121,7 +121,7 @@ class TrialFolder {
   std::filesystem::path place_;
 };
 
-/// What is wrong with what a run would write.
+/// Checks the outputs of a run. @throws Error
 void require_run(const Scene& scene, const RunOptions& options, int largest_texture) {
   film_extent(scene, options);
   if (!needs_drawing(options)) return;
@@ -161,7 +161,7 @@ std::string run_key(const Scene& scene, const SweepRequest& request, const std::
   constexpr std::size_t most_bytes = std::size_t{1} << 31;
   Hash hash;
   hash.add(program + "\n" + scene.portable.text);
-  // A caption may have the scene's name in it.
+  // A caption may contain the scene's name.
   if (!request.films.empty()) hash.add(scene.name);
   for (const PortableScene::File& file : scene.portable.files) {
     if (std::filesystem::is_regular_file(file.place)) hash.add(read_file(file.place, most_bytes));

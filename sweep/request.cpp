@@ -17,7 +17,7 @@
 namespace drape {
 namespace {
 
-/// Reads a table [sweep].
+/// Reader of a [sweep] table.
 class SweepTable {
  public:
   SweepTable(const std::filesystem::path& file, SweepRequest& request) : problems_(file, {}), request_(request) {}
@@ -42,7 +42,7 @@ class SweepTable {
     }
   }
 
-  /// @throws UsageError
+  /// Returns the listed scenes. @throws UsageError
   std::vector<std::string> scenes() const {
     problems_.throw_if_any();
     return scenes_;
@@ -111,7 +111,7 @@ class SweepTable {
     request_.varied = std::move(found);
   }
 
-  /// "integrator.tolerance" may be written as a name in quotes, or as a table in a table.
+  /// Collects varied keys, written as quoted names ("integrator.tolerance") or as nested tables.
   void collect(const TomlValue& value, const std::string& name, std::vector<Variation>& found) {
     if (const TomlTable* table = value.as<TomlTable>()) {
       for (const TomlEntry& entry : in_order(*table)) {
@@ -133,7 +133,7 @@ class SweepTable {
     }
   }
 
-  /// As --set takes it: a word without quotes where that is the same.
+  /// Formats a value for --set: without quotes if that is unambiguous.
   static std::string override_text(const TomlValue& value) {
     const std::string* text = value.as<std::string>();
     const auto of_a_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };

@@ -13,32 +13,32 @@
 
 namespace drape {
 
-/// What a sweep is asked to do.
+/// The user's request for a sweep.
 struct SweepRequest {
-  std::vector<std::string> scenes;     ///< files
-  std::vector<std::string> overrides;  ///< of every run, before its values
+  std::vector<std::string> scenes;     ///< scene files
+  std::vector<std::string> overrides;  ///< overrides of every run, before its varied values
   std::vector<Variation> varied;
-  bool zipped = false;                ///< the values go in pairs, instead of every one with every other
-  std::vector<std::string> films;     ///< extensions of what is made of every run: "gif"
+  bool zipped = false;                ///< combine the i-th values of all keys, not every value with every other
+  std::vector<std::string> films;     ///< file extensions of the films to make of every run: "gif"
   bool motion = false;                ///< keep every run's motion
   std::optional<std::int64_t> steps;  ///< instead of the scenes' durations
   GlBackend backend = GlBackend::automatic;
 };
 
-/// Adds what the table [sweep] of a file says, if it has one; what the request says already stays. A file that names
-/// `scenes` in it is no scene itself: they take its place, from its folder.
+/// Adds the [sweep] table of a file to the request; existing settings take precedence. A file with `scenes` in this
+/// table is no scene itself: the listed scenes, relative to its folder, replace it.
 /// @param file one of the request's scenes
-/// @returns the scenes in its place
-/// @throws UsageError with all that is wrong with the table
+/// @returns the scenes that replace it
+/// @throws UsageError with all errors in the table
 std::vector<std::string> add_sweep_table(const std::string& file, SweepRequest& request);
 
-/// The shell's command that asks for it again, without where it is written to.
+/// Returns the shell command for the request, without its output folder.
 std::string command_of(const SweepRequest& request);
 
-/// What a run of it writes into a folder.
+/// Returns the options of a run that writes into a folder.
 RunOptions run_options(const SweepRequest& request, const std::filesystem::path& folder);
 
-/// How many moments the contact sheets of films have, and how they stand.
+/// Layout of the films' contact sheets.
 inline constexpr SheetGrid sweep_sheet{.columns = 4, .rows = 3, .labelled = false};
 
 }  // namespace drape

@@ -18,10 +18,10 @@ namespace {
 
 constexpr int format_number = 3;
 constexpr const char* sweep_name = "sweep.json";
-constexpr int indent = 1;  // of sweep.json, in spaces
+constexpr int indent = 1;  // spaces per level in sweep.json
 constexpr std::size_t most_sweep_bytes = std::size_t{1} << 30;
 
-/// The keys of runs name their folders. A run that was refused has none.
+/// Checks the keys of runs, which name their folders. Refused runs have none.
 void require_names(const SweepPlan& plan, const std::filesystem::path& file) {
   for (std::size_t i = 0; i < plan.runs.size(); ++i) {
     const PlannedRun& run = plan.runs[i];
@@ -30,7 +30,7 @@ void require_names(const SweepPlan& plan, const std::filesystem::path& file) {
   }
 }
 
-/// The place of a value on an axis, where it is put if it is new.
+/// Returns the index of a value on an axis; appends a new value.
 std::size_t place_on(SweepAxis& axis, const std::string& value) {
   const auto found = std::ranges::find(axis.values, value);
   if (found != axis.values.end()) return static_cast<std::size_t>(found - axis.values.begin());
@@ -38,7 +38,7 @@ std::size_t place_on(SweepAxis& axis, const std::string& value) {
   return axis.values.size() - 1;
 }
 
-/// The value of a run on each axis.
+/// Returns the value of a run on each axis.
 std::vector<std::string> values_on_axes(const SweepPlan& plan, const PlannedRun& run) {
   std::vector<std::string> values{plan.names[run.scene]};
   if (plan.request.zipped) {
@@ -58,7 +58,7 @@ std::vector<SweepAxis> all_axes(const SweepPlan& plan) {
   return axes;
 }
 
-/// Leaves those axes on which there is anything to see.
+/// Removes axes with a single value.
 void drop_single_values(SweepResults& results) {
   for (std::size_t a = results.axes.size(); a-- > 0;) {
     if (results.axes[a].values.size() > 1) continue;
@@ -129,7 +129,7 @@ std::string SweepResults::headline() const {
 
 std::vector<std::string> SweepResults::troubles() const {
   constexpr std::size_t most_told = 20;
-  std::vector<std::pair<const SweepRow*, std::size_t>> found;  // the first run of a reason, and how many have it
+  std::vector<std::pair<const SweepRow*, std::size_t>> found;  // the first run of a reason, and the number of its runs
   for (const SweepRow& row : rows) {
     if (row.record.reason.empty()) continue;
     const auto same = std::ranges::find_if(found, [&](const auto& other) {

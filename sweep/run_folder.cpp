@@ -37,7 +37,7 @@ void flatten(const Json& json, const std::string& name, std::vector<std::pair<st
   }
 }
 
-/// A record, whose nesting is bounded: reading its figures takes a stack frame for each level.
+/// Parses a record with limited nesting, since reading its figures takes a stack frame per level.
 /// @returns nothing if it is damaged
 std::optional<Json> parsed_record(const fs::path& file) {
   constexpr int deepest = 16;
@@ -56,7 +56,7 @@ std::optional<Json> parsed_record(const fs::path& file) {
   }
 }
 
-/// @throws UsageError if the record's key, or a file that it names, is not the name of something in a folder
+/// @throws UsageError if the record's key or one of its files is no plain name within a folder
 void require_names(const Json& record, const fs::path& file) {
   const auto require = [&](const Json& name, const std::string& key) {
     if (name.is_string()) name_in_folder(name.get_ref<const std::string&>(), file, key);
@@ -71,7 +71,7 @@ void require_names(const Json& record, const fs::path& file) {
   throw OutputError(fmt::format("cannot write {}: {}", shown(place), error.message()));
 }
 
-/// @throws OutputError that names the folder of the runs: of many that fail, the message is one
+/// @throws OutputError that names the folder of all runs, so that many failures share one message
 void write_small_file(const fs::path& file, const std::string& text) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   int error = descriptor < 0 ? errno : write_all(descriptor, text);

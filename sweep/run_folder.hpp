@@ -11,38 +11,38 @@ namespace drape {
 
 enum class RunOutcome { completed, diverged, refused, failed, not_run };
 
-/// What they are called in files and on pages, in their order.
+/// Names of the outcomes in files and on pages, in order.
 inline constexpr std::array run_outcome_names{"completed", "diverged", "refused", "failed", "not run"};
 
 inline const char* name_of(RunOutcome outcome) { return run_outcome_names[static_cast<std::size_t>(outcome)]; }
 
-/// What became of a run.
+/// The result of a run.
 struct RunRecord {
   RunOutcome outcome = RunOutcome::not_run;
-  std::string reason;              ///< why it is not complete, a sentence; empty: it is
-  bool damaged = false;            ///< its file cannot be read, so that it counts as not run
-  std::string timed;               ///< what else ran beside it, as far as its sweep knows: "alone", "beside 3 others"
-  double seconds = 0;              ///< that it took, with drawing and encoding
-  std::vector<std::string> files;  ///< in its folder, that it wrote
-  std::vector<double> moments;     ///< of the motion that its contact sheet shows [s]
-  std::vector<std::pair<std::string, std::string>> figures;  ///< of its --stats: "step_us.median", "12.5"
+  std::string reason;              ///< reason why it is incomplete, a sentence; empty: complete
+  bool damaged = false;            ///< its file is unreadable, so it counts as not run
+  std::string timed;               ///< load of the machine as far as known: "alone", "beside 3 others"
+  double seconds = 0;              ///< duration, with drawing and encoding
+  std::vector<std::string> files;  ///< written files, in the run's folder
+  std::vector<double> moments;     ///< times of the pictures in its contact sheet [s]
+  std::vector<std::pair<std::string, std::string>> figures;  ///< figures from --stats: "step_us.median", "12.5"
 
-  /// Whether it need not be run again: it would end in the same way.
+  /// Returns true if the run need not be repeated, as its result would be the same.
   [[nodiscard]] bool settled() const { return outcome == RunOutcome::completed || outcome == RunOutcome::diverged; }
-  /// The figure of this name; empty: it has none.
+  /// Returns the figure of this name; empty if there is none.
   [[nodiscard]] std::string figure(const std::string& name) const;
 };
 
-/// Where a run's folder is.
+/// Returns the folder of a run.
 std::filesystem::path run_place(const std::filesystem::path& sweep, const std::string& key);
 
-/// Reads the record of a run; nothing if there is none. A record that is damaged, or of another run, reads as that of a
-/// run that was not run, with the reason.
-/// @throws UsageError if it names a file that is not in the folder
+/// Reads the record of a run; nothing if there is none. A damaged record, or that of another run, gives
+/// RunOutcome::not_run with the reason.
+/// @throws UsageError if it names a file outside the folder
 std::optional<RunRecord> read_run(const std::filesystem::path& sweep, const std::string& key);
 
-/// The folder of a run, which appears under its name only when the run is complete. Until then it is hidden, and gone
-/// with this object; one of a process that was killed is removed by the next sweep, see remove_unfinished().
+/// The folder of a run, hidden until the run is complete. The destructor removes an incomplete folder; those of killed
+/// processes are removed by the next sweep, see remove_unfinished().
 class RunFolder {
  public:
   /// @throws OutputError
@@ -51,16 +51,15 @@ class RunFolder {
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
 
-  /// Where to write.
+  /// Returns the folder to write into.
   [[nodiscard]] const std::filesystem::path& place() const { return hidden_; }
 
-  /// Removes what was written so far.
+  /// Removes all files written so far.
   void clear();
 
-  /// Adds what became of the run and its stats.json, and gives the folder its name, in place of what has it. These two
-  /// are not forced onto the disk, which would take longer than many a run: one that a power cut has damaged is run
-  /// again.
-  /// @param stats of the run, as JSON; empty: it took no step
+  /// Writes the record and stats.json, and renames the folder to its final name, replacing an older one. The two files
+  /// are not synchronised to disk, which would take longer than many runs. A run damaged by a power cut is repeated.
+  /// @param stats of the run, as JSON; empty: no step was done
   /// @throws OutputError
   void commit(const RunRecord& record, const std::string& stats);
 
@@ -69,7 +68,7 @@ class RunFolder {
   std::filesystem::path place_, hidden_;
 };
 
-/// Removes what killed processes left of runs.
+/// Removes incomplete run folders of killed processes.
 void remove_unfinished(const std::filesystem::path& sweep);
 
 }  // namespace drape

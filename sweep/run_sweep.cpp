@@ -27,7 +27,7 @@ std::string timed_text(const SweepOptions& options) {
   return options.shard.whole() ? "alone" : "in a shard";
 }
 
-/// The names of a run's files, in its folder.
+/// Returns the file names of a run's outputs, in its folder.
 std::vector<std::string> file_names(const RunResult& result) {
   std::vector<std::string> names;
   const auto add = [&](const std::filesystem::path& file) { names.push_back(file.filename().string()); };
@@ -38,7 +38,7 @@ std::vector<std::string> file_names(const RunResult& result) {
   return names;
 }
 
-/// The moments that the contact sheet of a run's film has [s].
+/// Returns the times of the pictures in a film's contact sheet [s].
 std::vector<double> moments_of(const Scene& scene, const RunResult& result) {
   std::vector<double> moments;
   for (int frame = 0; frame < result.frames; ++frame) {
@@ -81,7 +81,7 @@ class Sweep {
 
   std::map<std::size_t, RunRecord> run() {
     std::vector<std::size_t> todo = runs_to_do();
-    // With the longest first, all threads end at about the same time.
+    // Start with the longest, so that all threads end at about the same time.
     if (options_.jobs > 1) {
       std::ranges::stable_sort(todo, std::greater(), [&](std::size_t i) { return plan_.runs[i].cost; });
     }
@@ -94,7 +94,7 @@ class Sweep {
   }
 
  private:
-  /// Runs of the same key are one.
+  /// Returns the runs to do; those with equal keys count as one.
   [[nodiscard]] std::vector<std::size_t> runs_to_do() const {
     std::vector<std::size_t> todo;
     std::set<std::string> keys;
@@ -127,13 +127,13 @@ class Sweep {
     }
   }
 
-  /// Threads that need it wait for the one that finds it.
+  /// Returns the common viewing direction; the first thread computes it while others wait.
   const Camera& side() {
     std::call_once(side_is_found_, [&] { side_ = side_of_films(plan_, stop_); });
     return side_;
   }
 
-  /// @returns nothing if it was stopped: then nothing is written of it
+  /// @returns nothing if stopped; then nothing is written
   [[nodiscard]] std::optional<RunRecord> compute(const PlannedRun& run, const std::filesystem::path& folder,
                                                  std::string& stats) {
     try {

@@ -11,20 +11,20 @@
 
 namespace drape {
 
-/// How a sweep is run.
+/// Options for running a sweep.
 struct SweepOptions {
-  std::filesystem::path folder;  ///< with runs/, see run_place()
-  std::size_t jobs = 1;          ///< runs at once
-  int threads = 1;               ///< that share a step of a large cloth in each of them
-  bool resume = false;           ///< leave out the runs that are settled
-  Shard shard;                   ///< which of the runs
+  std::filesystem::path folder;  ///< parent of runs/, see run_place()
+  std::size_t jobs = 1;          ///< parallel runs
+  int threads = 1;               ///< threads per run, for steps of a large cloth
+  bool resume = false;           ///< skip settled runs
+  Shard shard;                   ///< the runs to do
 };
 
-/// A folder in which only one process at a time runs a sweep. The lock goes with the object, or with the process.
+/// A lock on a sweep's folder against other processes. Released by the destructor or the end of the process.
 class SweepLock {
  public:
-  /// @throws UsageError  if another process has it
-  /// @throws OutputError if it cannot be written
+  /// @throws UsageError  if another process holds it
+  /// @throws OutputError if the lock file cannot be written
   explicit SweepLock(const std::filesystem::path& folder);
   ~SweepLock();
   SweepLock(const SweepLock&) = delete;
@@ -34,9 +34,9 @@ class SweepLock {
   int descriptor_ = -1;
 };
 
-/// Runs those of a plan's runs that are in the shard, each into a folder of its own. One that fails does not keep the
-/// others from being run. A stop loses the runs that are under way.
-/// @returns what became of runs whose folder could not be written, by their place in the plan
+/// Runs the plan's runs in the shard, each into a folder of its own. A failed run does not stop the others. A stop
+/// discards the runs in progress.
+/// @returns records of runs whose folder could not be written, by index in the plan
 std::map<std::size_t, RunRecord> run_sweep(const SweepPlan& plan, const SweepOptions& options,
                                            const std::stop_token& stop, Progress& progress);
 

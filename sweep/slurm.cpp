@@ -12,8 +12,8 @@
 namespace drape {
 namespace {
 
-/// A word as sbatch reads it in its own lines of a script: between quotes, where a backslash keeps what comes after it,
-/// also a # (Slurm's _get_argument).
+/// Quotes a word for an #SBATCH line: within double quotes a backslash escapes the next character, also # (Slurm's
+/// _get_argument).
 /// @throws UsageError
 std::string slurm_word(const std::string& word) {
   if (word.find_first_of("\r\n") != std::string::npos) {
@@ -28,14 +28,14 @@ std::string slurm_word(const std::string& word) {
   return quoted + "\"";
 }
 
-/// A folder in the name of a log, in which Slurm replaces %.
+/// Returns a folder for the name of a log, with % doubled because Slurm replaces it.
 std::filesystem::path log_folder(const std::filesystem::path& folder) {
   std::string text;
   for (const char c : folder.string()) text += c == '%' ? std::string("%%") : std::string(1, c);
   return text;
 }
 
-/// The lines with which a script says what it asks of Slurm.
+/// Returns the head of a script with its #SBATCH lines.
 std::string head(const SlurmJobs& jobs, const std::string& name, const std::string& log) {
   std::string text = fmt::format(
       "#!/bin/sh\n"

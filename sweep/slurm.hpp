@@ -7,21 +7,18 @@
 
 namespace drape {
 
-/// A sweep as jobs of Slurm: an array of tasks, each a shard of the runs, and one that merges them when they have
-/// ended.
+/// A sweep as Slurm jobs: an array of tasks, one per shard, and a final job that merges the shards.
 struct SlurmJobs {
-  std::string sweep;                 ///< the shell's command of the whole sweep, with its folder
-  std::string program;               ///< this drape, as the nodes find it
-  std::filesystem::path folder;      ///< of the sweep, which the nodes share
-  std::size_t tasks = 1;             ///< of the array
-  std::vector<std::string> options;  ///< of sbatch, for both: "--partition=short"
+  std::string sweep;                 ///< shell command of the whole sweep, with its folder
+  std::string program;               ///< path of this drape on the nodes
+  std::filesystem::path folder;      ///< folder of the sweep, shared by the nodes
+  std::size_t tasks = 1;             ///< size of the array
+  std::vector<std::string> options;  ///< sbatch options of both jobs: "--partition=short"
 };
 
-/// Writes sweep.sbatch, merge.sbatch and submit.sh, which submits both, into the folder. A task that is run again goes
-/// on where it was.
+/// Writes sweep.sbatch, merge.sbatch and submit.sh, which submits both, into the folder. A requeued task resumes.
 /// @returns submit.sh
-/// @throws UsageError if this folder or that of the sweep has a line feed in its name, where sbatch would look for
-/// options
+/// @throws UsageError if this folder or the sweep's has a line feed in its name, where sbatch would look for options
 /// @throws OutputError
 std::filesystem::path write_slurm_jobs(const SlurmJobs& jobs);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* nothing = "–";
 
-/// The names of all figures, in the order in which runs have them first.
+/// Returns the names of all figures, in order of first appearance.
 std::vector<std::string> figure_names(const SweepResults& results) {
   std::vector<std::string> names;
   for (const SweepRow& row : results.rows) {
@@ -28,7 +28,7 @@ std::vector<std::string> figure_names(const SweepResults& results) {
   return names;
 }
 
-/// Whether Markdown can show a file as a picture.
+/// Returns true if Markdown can show a file as a picture.
 bool is_picture(const std::string& file) {
   constexpr std::array<const char*, 4> endings{".gif", ".webp", ".png", ".apng"};
   return std::ranges::any_of(endings, [&](const char* ending) { return file.ends_with(ending); });
@@ -42,7 +42,7 @@ std::string link_path(const std::string& path) {
   return target;
 }
 
-/// What a cell of a grid shows of a run: its film, or why there is none.
+/// Returns a grid cell for a run: its film, or the reason why there is none.
 std::string film_cell(const SweepResults& results, const SweepRow* row) {
   if (row == nullptr) return nothing;
   const std::string film = film_of(results, *row);

@@ -45,10 +45,10 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-/// A number with the digits that mean something: rounded by no more than a thousandth of what it is apart from the
-/// next, but in no less than 4 digits.
+/// Formats a number with at least 4 significant digits, rounded by at most a thousandth of its distance `apart` to the
+/// next value.
 std::string rounded(double value, double apart) {
-  constexpr int least = 4, most = 12;  // of 1e-3 not what rounding has left
+  constexpr int least = 4, most = 12;  // shows 1e-3 without rounding noise
   if (std::abs(value) <= 1e-9 * apart) return "0";
   std::string text;
   for (int digits = least; digits <= most; ++digits) {
@@ -58,7 +58,7 @@ std::string rounded(double value, double apart) {
   return text;
 }
 
-/// The values of a range; nothing if the text does not begin as one.
+/// Returns the values of a range; nothing if the text does not start like one.
 std::optional<std::vector<std::string>> range_values(std::string_view text) {
   const std::size_t dots = text.find("..");
   if (dots == std::string_view::npos || !number(text.substr(0, dots))) return std::nullopt;
@@ -79,7 +79,7 @@ std::optional<std::vector<std::string>> range_values(std::string_view text) {
   for (double i = 0; i < *count; ++i) {
     const double part = i / (*count - 1);
     const double value = logarithmic ? std::exp(std::lerp(std::log(*from), std::log(*to), part))
-                                     : *from * (1 - part) + *to * part;  // which does not overflow
+                                     : *from * (1 - part) + *to * part;  // cannot overflow
     const double apart = logarithmic ? value * std::abs(std::log(*to) - std::log(*from)) / (*count - 1)
                                      : std::abs(*to / (*count - 1) - *from / (*count - 1));
     const bool end = i == 0 || i == *count - 1;
@@ -158,7 +158,7 @@ std::string as_varied(std::string_view message, const std::vector<std::string>& 
     std::string line(message.substr(begin, end - begin));
     for (const std::string& override : overrides) {
       if (line.starts_with("--set " + override + ": ")) line.replace(0, 5, "--vary");
-      // Of a motion, which is only read.
+      // Message about a motion, which is only read.
       const std::string key = override.substr(0, override.find('='));
       if (line.starts_with(key + ": ") && line.ends_with(" in --set")) line.replace(line.size() - 5, 5, "--vary");
     }

@@ -6,31 +6,30 @@
 
 namespace drape {
 
-/// A key of a scene, and the values that it takes in turn.
+/// A key of a scene and its values in a sweep.
 struct Variation {
   std::string key;                  ///< "integrator.tolerance"
-  std::vector<std::string> values;  ///< as --set takes them
+  std::vector<std::string> values;  ///< values as for --set
 };
 
-/// Splits a list at its commas, but for those within brackets, braces or quotes, and puts in place of a range its
-/// values: FROM..TO/COUNT, evenly spread, both ends among them, or FROM..TO/COUNTlog, of equal ratios.
-/// @throws UsageError if what looks like a range is none
+/// Splits a list at commas outside of brackets, braces and quotes, and expands ranges. FROM..TO/COUNT is evenly spaced
+/// with both ends, FROM..TO/COUNTlog has equal ratios.
+/// @throws UsageError for a malformed range
 std::vector<std::string> parse_values(const std::string& text);
 
-/// Reads what --vary says: "key.path=value,value…".
+/// Parses a --vary argument: "key.path=value,value…".
 /// @throws UsageError
 Variation parse_variation(const std::string& text);
 
-/// The values of every key, in each combination: the product, in which the last key changes fastest, or, zipped, the
-/// first values of all, the second, and so on. One combination, of nothing, where nothing varies.
-/// @throws UsageError if keys have different numbers of values and are zipped, or there are more than a hundred
-/// thousand
+/// Returns the combinations of all keys' values. The default is their product, the last key changing fastest; `zipped`
+/// combines the i-th values of all keys. Without varied keys there is one empty combination.
+/// @throws UsageError if zipped keys have different numbers of values, or for more than a hundred thousand combinations
 std::vector<std::vector<std::string>> combinations(const std::vector<Variation>& varied, bool zipped = false);
 
-/// A combination as overrides of a scene: "integrator.tolerance=0.01".
+/// Returns a combination as overrides of a scene: "integrator.tolerance=0.01".
 std::vector<std::string> overrides_of(const std::vector<Variation>& varied, const std::vector<std::string>& values);
 
-/// A message about a scene or motion with such overrides, in which the lines about them name --vary and not --set.
+/// Replaces --set by --vary in the lines of a message that concern these overrides of a scene or motion.
 std::string as_varied(std::string_view message, const std::vector<std::string>& overrides);
 
 }  // namespace drape

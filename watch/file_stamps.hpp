@@ -7,14 +7,14 @@
 
 namespace drape {
 
-/// When each of some files was last written, and how large it is. Two are equal if no file has changed in between; a
-/// file that is not there counts as one that differs from every other.
+/// Modification times and sizes of some files. Two are equal if no file changed in between. A missing file differs from
+/// every existing one.
 class FileStamps {
  public:
   FileStamps() = default;
   explicit FileStamps(const std::vector<std::filesystem::path>& files);
 
-  /// Goes on with other files: those that it has keep their stamps, and the others get those of now.
+  /// Changes the set of files: known files keep their stamps, new ones get current stamps.
   void follow(const std::vector<std::filesystem::path>& files);
 
   bool operator==(const FileStamps&) const = default;

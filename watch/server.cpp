@@ -16,17 +16,17 @@ namespace drape {
 namespace {
 
 constexpr const char* host = "127.0.0.1";
-constexpr int workers = 32;  // more than the connections that a few browsers open and leave silent
-constexpr int patience = 1;  // for a request that has begun or not [s]
+constexpr int workers = 32;  // more than a few browsers' idle connections
+constexpr int patience = 1;  // time limit for receiving a request [s]
 
-/// Lets a port be used again at once after its server has ended, but by one server at a time: the library's own options
-/// let several share it.
+/// Lets a port be reused at once after its server has ended, but by one server at a time. The library's own options let
+/// several servers share it.
 void take_port_alone(int socket) {
   const int yes = 1;
   setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
-/// The session's state as JSON, which the page polls.
+/// Returns the session's state as JSON, which the page polls.
 std::string state_text(const WatchSession& session) {
   const WatchedFilm film = session.film();
   const Progress& progress = session.progress();
@@ -81,7 +81,7 @@ WatchServer::WatchServer(const WatchSession& session, int port) : parts_(std::ma
     response.set_content(session.film().film, "image/gif");
   });
   server.set_socket_options(take_port_alone);
-  server.new_task_queue = [] { return new httplib::ThreadPool(workers); };  // it deletes that
+  server.new_task_queue = [] { return new httplib::ThreadPool(workers); };  // the server deletes it
   server.set_keep_alive_max_count(1);
   server.set_keep_alive_timeout(patience);
   server.set_read_timeout(patience);
@@ -91,7 +91,7 @@ WatchServer::WatchServer(const WatchSession& session, int port) : parts_(std::ma
     parts_->server.listen_after_bind();
     parts_->ended = true;
   });
-  // Only a server that listens can be stopped.
+  // Wait until the server listens: only then can it be stopped.
   while (!server.is_running() && !parts_->ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 

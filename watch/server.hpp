@@ -6,19 +6,19 @@
 
 namespace drape {
 
-/// Shows what a session draws as a page on 127.0.0.1, until it is destroyed. Nobody else's machine can ask for it, nor
-/// can another site's page in the same browser: a request must name this address.
+/// HTTP server on 127.0.0.1 for a session's page, until destroyed. Other machines cannot reach it. A request must name
+/// this address, which excludes pages of other sites in the same browser.
 class WatchServer {
  public:
-  /// @param session must outlive it
-  /// @param port    0: any that is free
-  /// @throws OutputError if the port cannot be used
+  /// @param session outlives the server
+  /// @param port    0: any free port
+  /// @throws OutputError if the port is not available
   WatchServer(const WatchSession& session, int port);
   ~WatchServer();
   WatchServer(const WatchServer&) = delete;
   WatchServer& operator=(const WatchServer&) = delete;
 
-  /// "http://127.0.0.1:8000/"
+  /// Returns "http://127.0.0.1:8000/".
   [[nodiscard]] std::string address() const;
 
  private:
