@@ -76,8 +76,7 @@ class SurfaceContacts final : public ContactSource {
   ContactTerms terms_;
   const Vertices* x_ = nullptr;
   double duration_ = 0;
-  double near_ =
-      0;  // search radius at the end of a step; contacts within may bear a force after the next iteration [m]
+  double near_ = 0;  // search radius at the end of a step; these contacts may bear a force soon [m]
   typename Surface::Placed from_, to_;
 };
 
