@@ -14,8 +14,9 @@ namespace {
 // still stops after two iterations.
 constexpr double tolerated_share = 0.1;
 constexpr double least_kept = 1e-10;
-constexpr double noticed =
-    1e-9;  // of the kinetic energy, in steps with contact, as velocities are differences of rounded positions
+// Fraction of the kinetic energy that is noticed in steps with contact: velocities are differences of rounded
+// positions.
+constexpr double noticed = 1e-9;
 
 /// Returns Σ m a·b over the rows of n×3 expressions.
 double inner(const Threads& threads, const Eigen::VectorXd& m, const auto& a, const auto& b) {
