@@ -10,7 +10,8 @@
 
 namespace drape {
 
-/// Detects a motion with more energy than the explained energy: the initial one plus the work of the forces, Σ|f·Δx|.
+/// Detector of motions with more energy than the explained energy, which is the initial one plus the work of the
+/// forces, Σ|f·Δx|.
 class BlowUpWatch {
  public:
   static constexpr double limit_of_unstable_steps = 1e4;

@@ -50,8 +50,8 @@ class Simulation::Motion {
   std::unique_ptr<StabilityGuard> guard;
   std::unique_ptr<Scheme> scheme;
   SpringNetwork springs;
-  Eigen::VectorXd per_vertex;        // scratch for energies(), to avoid allocations…
-  Vertices ignored;                  // …and an unused gradient of the energy
+  Eigen::VectorXd per_vertex;        // scratch for energies(), to avoid allocations
+  Vertices ignored;                  // scratch for energies(): an unused gradient
   StabilityGuard::EnergyNow energy;  // K + E
 
   Motion(SimulationSettings given, Timing timing, const Stop& asked)

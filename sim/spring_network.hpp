@@ -57,7 +57,7 @@ class SpringNetwork {
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
 
  private:
-  // Vectors aligned to cache lines are read twice as fast.
+  // Vector aligned to cache lines, which is read twice as fast.
   using AlignedVector = std::vector<double, Eigen::aligned_allocator<double>>;
 
   struct Band {

@@ -148,8 +148,8 @@ struct ColliderMotion {
 struct System {
   const Cloth& cloth;
   double step;                                        ///< h [s]
-  double whole_step;                                  ///< duration of a whole step [s]…
-  std::int64_t substeps = 1;                          ///< …and number of h in it
+  double whole_step;                                  ///< duration of an undivided step [s]
+  std::int64_t substeps = 1;                          ///< number of h in an undivided step
   Stop stop = {};                                     ///< for all computations with this system
   const Threads& threads;                             ///< for passes worth dividing
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< for the gravity column of the log only [m/s²]

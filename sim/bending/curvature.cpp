@@ -11,7 +11,7 @@ namespace {
 
 // Largest curvature of a rest shape that counts as flat, as a fraction of a complete fold.
 constexpr double flat = 1e-9;
-// Largest weight that counts as rounding, as a fraction of the largest.
+// Relative size of weights that are zero up to rounding.
 constexpr double rounding = 1e-12;
 
 using Plane = Eigen::Vector2d;

@@ -25,7 +25,7 @@ struct BodyStep {
   const PlacedMesh &start, &end;
 };
 
-/// Finds the pairs of features of a cloth and a body that may come near each other in a step.
+/// Search for the pairs of features of a cloth and a body that may come near each other in a step.
 ///
 /// The cloth is searched in groups of triangles. Each group caches the body's triangles in a region around it, and a
 /// plane that has all of these on one side. While the group stays in the region and beyond the plane, none of its

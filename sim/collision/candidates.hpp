@@ -27,8 +27,8 @@ inline FourPoints gather(const std::vector<Point>& points, const std::array<int,
 /// Returns false only if two features stay further apart than `reach` [m] while their points move on straight lines.
 bool may_come_near(Feature feature, const FourPoints& from, FourPoints to, double reach);
 
-/// Finds the pairs of features of a cloth that may come near each other while its vertices move on straight lines. The
-/// mean motion of the cloth is subtracted, as it changes no distance.
+/// Search for the pairs of features of a cloth that may come near each other while its vertices move on straight lines.
+/// The mean motion of the cloth is subtracted, as it changes no distance.
 ///
 /// Uses a neighbour list with a skin (Verlet 1967). A search keeps all pairs whose enlarged boxes overlap; these boxes
 /// cover several further steps at the same velocities, plus a margin. While the boxes of a step stay inside them, only

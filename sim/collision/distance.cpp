@@ -6,7 +6,7 @@
 namespace drape {
 namespace {
 
-/// Sums differences of points, which is more accurate far from the origin than a sum of points.
+/// Returns the weights with the squared distance. Sums differences of points, which are accurate far from the origin.
 Nearest with_distance(const FourPoints& p, const std::array<double, 4>& w) {
   const Point d = w[0] * (p[0] - p[2]) + w[1] * (p[1] - p[2]) + w[3] * (p[3] - p[2]);
   return {d.squaredNorm(), w};

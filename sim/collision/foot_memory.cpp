@@ -9,9 +9,10 @@ namespace {
 
 using Index = std::size_t;
 
-// Distance that a point may move before its triangles are searched again, in reaches, if there are few.
+// Distance that a point may move before its triangles are searched again, as a multiple of the reach. It is shorter if
+// there are many triangles.
 constexpr double walk = 0.5;
-// Distances that differ by less, in reaches, count as equal: far more than rounding.
+// Difference of distances that count as equal, as a multiple of the reach: far above rounding.
 constexpr double nearly_equal = 1e-6;
 // Number of queries before the cached triangles are measured again.
 constexpr int patience = 16;

@@ -8,9 +8,9 @@
 
 namespace drape {
 
-/// Finds the closest points of a mesh to given points, and caches the triangles that were near each point. While a
-/// point and the mesh move little, only these are tested. The cache changes no result. Points and mesh are in the
-/// mesh's coordinates. Data are separate for each point, so threads may query different points concurrently.
+/// Closest-point search on a mesh, with a cache of the triangles that were near each point. While a point and the mesh
+/// move little, only these are tested. The cache changes no result. Points and mesh are in the mesh's coordinates. Data
+/// are separate for each point, so threads may query different points concurrently.
 class FootMemory {
  public:
   /// @param reach search radius [m]
@@ -19,7 +19,7 @@ class FootMemory {
   /// Finds a point's closest point like PlacedMesh::find. Returns true if it is within the search radius.
   bool find(const PlacedMesh& mesh, std::size_t k, const Point& point, Foot& foot) {
     const Known& known = known_[k];
-    // Uses scalars, as the point was just computed so and a vector would go through memory.
+    // Scalars, as the point has just been computed and a vector would go through memory.
     const double x = point[0] - known.point[0], y = point[1] - known.point[1], z = point[2] - known.point[2];
     const double squared = x * x + y * y + z * z;
     if (mesh.travel() == known.travel && squared < known.clear_squared) return false;

@@ -10,7 +10,7 @@
 
 namespace drape {
 
-/// Identifies a contact within a step by its source and the features that meet. Contacts are sorted by it.
+/// Identifier of a contact within a step: its source and the features that meet. It defines the order of contacts.
 struct ContactKey {
   int source = 0;  ///< number of the ContactSource
   int kind = 0;    ///< kind of features, numbered by the source

@@ -10,7 +10,7 @@
 
 namespace drape {
 
-/// Minimises g(x) under the contacts of a step: n·d(x) ≥ distance with Coulomb friction on the slip d(x) − d(start).
+/// Minimiser of g(x) under the contacts of a step: n·d(x) ≥ distance with Coulomb friction on the slip d(x) − d(start).
 ///
 /// Uses the method of multipliers (Hestenes 1969; Powell 1969) in the form for friction of Alart and Curnier 1991. A
 /// contact has the multiplier r, and t = r − κ·(gap along n, slip across it). Its force is
@@ -44,8 +44,9 @@ class ContactSolver {
   /// along its straight path until none do. It then counts as not converged.
   StepReport solve(ContactProblem& problem, const Accuracy& accuracy, int most_iterations, Iterate& point);
 
-  /// Moves the starting point to where constant velocities lead, or to the start of the step, if the augmented function
-  /// is lower there. Vertices stopped one by one would compress springs; these points stop all at once.
+  /// Moves the starting point to the positions reached at constant velocities, or to the start of the step, if the
+  /// augmented function is lower there. At the given point, stopped vertices may have compressed the springs to all
+  /// others.
   /// @param steady positions reached at constant velocities, n×3 [m]
   void choose_start(ContactProblem& problem, const Vertices& steady, Iterate& point);
 

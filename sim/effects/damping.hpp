@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// Reduces all velocities at the same rate: v *= factor^h at the end of a step of h seconds.
+/// Damping of all velocities at the same rate: v *= factor^h at the end of a step of h seconds.
 struct Damping {
   static constexpr std::string_view name = "damping";
 

@@ -21,7 +21,7 @@ class Keys;
 struct SimulationSettings;
 struct System;
 
-/// Receives the problems of an effect, one per call: the key at fault (empty: the whole table) and a sentence.
+/// Receiver of the problems of an effect, one per call: the key at fault (empty: the whole table) and a sentence.
 using ProblemSink = std::function<void(std::string_view key, const std::string& sentence)>;
 
 /// Estimated time for an effect per vertex and step on a processor of 2022 [s]. Includes the iterations that it adds to

@@ -17,8 +17,8 @@ namespace drape {
 struct Cloth;
 struct PinMotion;
 
-/// Moves pins together on keyframes or with a mesh, releases them, or both. They start at their position in the cloth
-/// at 0 s and stay at the last keyframe.
+/// Pins that move together on keyframes or with a mesh, are released, or both. They start at their position in the
+/// cloth at 0 s and stay at the last keyframe.
 struct MovingPins {
   static constexpr std::string_view name = "moving_pins";
   static constexpr bool repeatable = true;

@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// Keeps the cloth from passing through itself, see SelfContacts.
+/// Contact of the cloth with itself, so that it does not pass through itself, see SelfContacts.
 struct SelfCollision {
   static constexpr std::string_view name = "self_collision";
   static constexpr EffectCost cost{.evaluated = 0.6e-6, .solved = 4.0e-6};

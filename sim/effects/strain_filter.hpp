@@ -8,16 +8,16 @@
 
 namespace drape {
 
-/// Changes velocities by impulses along the springs until no spring ends the step outside its limits (Provot 1995,
-/// "Deformation constraints in a mass-spring model", applied to velocities as in Bridson, Fedkiw and Anderson 2002,
-/// section 4.2). End positions within all upper limits form a convex set, which contains a cloth at rest. The filter
-/// finds its closest point in the mass norm, by Dykstra's method (Boyle and Dykstra 1986). This lowers, spring by
-/// spring,
+/// Filter that changes velocities by impulses along the springs until no spring ends the step outside its limits. It
+/// follows Provot 1995, "Deformation constraints in a mass-spring model", applied to velocities as in Bridson, Fedkiw
+/// and Anderson 2002, section 4.2. End positions within all upper limits form a convex set, which contains the unmoved
+/// cloth. The filter finds its closest point in the mass norm, by Dykstra's method (Boyle and Dykstra 1986). This
+/// lowers, spring by spring,
 ///   φ(p) = ½ ‖δ‖²_M + Σ pₖ·dₖ + Σ Lₖ ‖pₖ‖,   M δ the sum of the springs' impulses pₖ at each vertex, times h,
 /// where dₖ joins the ends of a spring at the end of the step and Lₖ is its limit. Later changes of its neighbours can
 /// reduce an impulse again. A sweep updates each spring, then solves each string of pulling springs together, which
 /// carries a load across the cloth at once. Between sweeps, impulses are extrapolated along their last change (Nesterov
-/// 1983); the extrapolation is undone if φ has risen (O'Donoghue and Candès 2015).
+/// 1983). The extrapolation is undone if φ has risen (O'Donoghue and Candès 2015).
 ///
 /// The closest point has impulses along the springs' final directions, which change the angular momentum Σ m x × v.
 /// Early sweeps therefore use the directions at the start of the step, which conserves both momenta to rounding. A
@@ -25,12 +25,12 @@ namespace drape {
 /// would make it swing up, or other springs have not settled after the early sweeps.
 ///
 /// The impulses of the last step, in State::restraint, are the initial guess. φ is convex in them with its minimum at
-/// the closest point, so any guess works. To avoid holding more than needed, sweeps end only when every pulling spring
-/// is at its upper limit and every pushing one at its lower, within the tolerance.
+/// the closest point, so any guess works. Sweeps end only when every pulling spring is at its upper limit and every
+/// pushing one at its lower, within the tolerance. So the filter holds no more than needed.
 ///
 /// Sweeps cover only springs that have had an impulse. Springs that share a vertex with these are checked after every
-/// second sweep and before the filter converges; no other spring has moved. If few springs are beyond the limits, as at
-/// a pin under a large load, a sweep ends with several passes over these and their neighbours only.
+/// second sweep and before the filter converges; no other spring has moved. Few springs may be beyond the limits, as at
+/// a pin under a large load. Then a sweep ends with several passes over these and their neighbours only.
 class StrainFilter final : public MotionFilter {
  public:
   StrainFilter(const StrainLimit& limits, const Cloth& cloth);

@@ -10,7 +10,7 @@
 
 namespace drape {
 
-/// Limits the length of the cloth's edges to multiples of their rest length.
+/// Limits on the length of the cloth's edges, in multiples of their rest length.
 struct StrainLimit {
   static constexpr std::string_view name = "strain_limit";
   static constexpr EffectCost cost{.evaluated = 0.5e-6, .solved = 0.8e-6};

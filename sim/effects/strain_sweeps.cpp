@@ -9,8 +9,7 @@ namespace drape {
 namespace {
 
 constexpr int rings = 3, most_passes = 8;  // for settle()
-// A spring whose direction changes by more than 25° in a step, by the cosine of this, is pulled along its final
-// direction.
+// Cosine of 25°, the largest turn of a spring in a step. Beyond it the spring is pulled along its final direction.
 constexpr double least_cosine = 0.9;
 // With pins, the same holds for a spring that its impulse alone would shorten by more than this fraction of its length.
 // Consider crossing strings of vertices of mass m, l apart, each pulling with p/h². Vertices swing across them at up to

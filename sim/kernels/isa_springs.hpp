@@ -53,7 +53,7 @@ struct ValueGradientLaw {
   }
 };
 
-/// Stores the Hessian block K = k(1 − s)·I + k·s·x̂x̂ᵀ, with s as in share_across(L/‖d‖, concavity).
+/// Law that stores the Hessian block K = k(1 − s)·I + k·s·x̂x̂ᵀ, with s as in share_across(L/‖d‖, concavity).
 struct BlockLaw {
   const double* stiffness;
   const double* rest_length;
@@ -98,7 +98,7 @@ inline void for_range(int first, int end, Body&& body) {
   for (; t < end; ++t) body(t, double{});
 }
 
-/// Applies a law to gathered differences of springs; the forces replace the differences.
+/// Gathered differences of springs, which a law replaces by forces.
 struct Gathered {
   alignas(64) double x[kernel_size];
   alignas(64) double y[kernel_size];

@@ -7,9 +7,9 @@
 
 namespace drape {
 
-/// Solves Newton's equations by conjugate gradients while these take less work than a factor of H. Work is counted in
-/// operations, so the choice is the same on every machine. Each minimisation begins with conjugate gradients. It keeps
-/// to them if the factor is rejected, for lack of memory or because the mesh is unlike a surface.
+/// Solver of Newton's equations by conjugate gradients while these take less work than a factor of H. Work is counted
+/// in operations, so the choice is the same on every machine. Each minimisation begins with conjugate gradients. It
+/// keeps to them if the factor is rejected, for lack of memory or because the mesh is unlike a surface.
 class CheaperNewton final : public NewtonSolver {
  public:
   CheaperNewton(const System& system, const StepObjective& objective);

@@ -11,13 +11,13 @@
 
 namespace drape {
 
-/// Solves Newton's equations by conjugate gradients, preconditioned with Liu13's factored matrix A. H never exceeds A,
-/// and is smaller by at most 1 + h²λ_max(M⁻¹L). So the iterations are few unless Newton's method is extremely stiff. H
-/// is never assembled: the blocks of its springs are kept as vectors, and a product is one pass over them.
+/// Solver of Newton's equations by conjugate gradients, preconditioned with Liu13's factored matrix A. H never exceeds
+/// A, and is smaller by at most 1 + h²λ_max(M⁻¹L). So the iterations are few unless Newton's method is extremely stiff.
+/// H is never assembled: the blocks of its springs are kept as vectors, and a product is one pass over them.
 ///
 /// The preconditioner of a fine cloth is A⁻¹ + D⁻¹, with the HessianDiagonal D. H is far below A for motions out of the
 /// cloth's plane, which only inertia resists if the cloth is not stretched. Such motions of single vertices are less
-/// far below D. As neither A nor D is below any Hessian, the sum never exceeds 2 H⁻¹.
+/// far below D. Both A and D bound every Hessian, so the sum never exceeds 2 H⁻¹.
 class ConjugateGradients final : public NewtonSolver {
  public:
   /// Far above the needs of the worst scenes. The result after this many is still a descent direction.

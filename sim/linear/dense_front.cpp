@@ -19,7 +19,7 @@ int strips_of(int rows) { return (rows + strip_rows - 1) / strip_rows; }
 /// Returns the offset of a column in a strip, or of a row in a triangle of eight.
 Index eights(int number) { return Index{strip_rows} * static_cast<Index>(number); }
 
-/// Returns the offset of a column of blocks in the remaining triangle, as if the blocks above the diagonal were stored.
+/// Returns the offset of a column of blocks in the update matrix, as if the blocks above the diagonal were stored.
 Index left_start(int strips, int column_of_blocks) {
   const auto n = static_cast<Index>(strips), c = static_cast<Index>(column_of_blocks);
   return block_size * (c * (n - 1) - c * (c - 1) / 2);

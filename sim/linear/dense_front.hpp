@@ -27,13 +27,13 @@ class Pacer {
 };
 
 /// The dense lower triangle of a group of columns to eliminate and the rows below. It is stored in strips of eight
-/// rows: the rows of its own columns, then, from a new strip on, those below. The remaining triangle of the rows below
-/// consists of 8×8 blocks, by columns of blocks.
+/// rows: the rows of its own columns, then, from a new strip on, those below. The rest, the update matrix, is a
+/// triangle of 8×8 blocks, by columns of blocks.
 class DenseFront {
  public:
   /// Returns the number of values in the strips of a front.
   static std::size_t own_size(int width, int below);
-  /// Returns the number of values in the remaining triangle.
+  /// Returns the number of values in the update matrix.
   static std::size_t left_size(int below);
 
   /// @param largest largest own_size() of all fronts to come
@@ -41,7 +41,7 @@ class DenseFront {
   DenseFront(std::size_t largest, int most_below);
 
   /// Begins a front of zeros.
-  /// @param left receives the remaining triangle, left_size(below) numbers
+  /// @param left receives the update matrix, left_size(below) numbers
   void begin(int width, int below, double* left);
   /// Returns the row in strips of the t-th row below.
   [[nodiscard]] int row_below(int t) const { return strip_rows * own_strips_ + t; }
@@ -49,7 +49,7 @@ class DenseFront {
   double& own(int row, int column) {
     return own_[offset(row, stride_) + strip_rows * static_cast<std::size_t>(column)];
   }
-  /// Adds the remaining triangle of another front.
+  /// Adds the update matrix of another front.
   /// @param rows its rows in strips of this front, ascending
   /// @param left see begin()
   void add(const std::vector<int>& rows, const double* left);

@@ -19,9 +19,9 @@ struct ContactBlock {
   Eigen::Matrix3d stiffness;  ///< symmetric and positive semi-definite [N/m]
 };
 
-/// Solves Newton's equations by a Cholesky factor of H = M/h² + Σ Kₛ. There is one symmetric 3×3 block per spring and
-/// per pair of vertices coupled by an energy; energies of single vertices add to the diagonal. The sparsity is analysed
-/// once, on the n×n graph of vertices; each assembly writes the values in place.
+/// Solver of Newton's equations by a Cholesky factor of H = M/h² + Σ Kₛ. There is one symmetric 3×3 block per spring
+/// and per pair of vertices coupled by an energy; energies of single vertices add to the diagonal. The sparsity is
+/// analysed once, on the n×n graph of vertices; each assembly writes the values in place.
 class NewtonCholesky final : public NewtonSolver {
  public:
   NewtonCholesky(const System& system, const StepObjective& objective);

@@ -4,7 +4,7 @@
 
 namespace drape {
 
-/// Solves Newton's equations H(x) p = ∇g(x) over the free vertices. H is the Hessian of g with a fraction of its
+/// Solver of Newton's equations H(x) p = ∇g(x) over the free vertices. H is the Hessian of g with a fraction of its
 /// negative eigenvalues (sim/concavity.hpp).
 class NewtonSolver {
  public:

@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// Lists the items (such as springs or triangles) at each vertex, in their order. Threads first compute each item's
+/// Lists of the items (such as springs or triangles) at each vertex, in their order. Threads first compute each item's
 /// contributions; these are then summed vertex by vertex in the order of a single thread.
 class Incidence {
  public:

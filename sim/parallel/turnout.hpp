@@ -4,9 +4,9 @@
 
 namespace drape {
 
-/// Detects threads that are kept waiting. On a busy machine the system sometimes takes one of them off its processor in
-/// the middle of a part, and all others wait. If waiting has cost so much of some loops that little was gained, the
-/// dividing thread computes alone for many times as long. So only a small part of the total time is lost.
+/// Detector of threads that are kept waiting. On a busy machine the system sometimes takes one of them off its
+/// processor in the middle of a part, and all others wait. If waiting has cost so much of some loops that little was
+/// gained, the dividing thread computes alone for many times as long. So only a small part of the total time is lost.
 class Turnout {
  public:
   using Time = std::chrono::nanoseconds;

@@ -70,8 +70,8 @@ void EnergyBooks::begin(const State& state, const Vertices& last_end) {
   start_.value = objective_.inertial_value(state.x);
   start_exact_ = false;
   if (!steady_) return;
-  // The energy at the end of the last step is known if the step was completed, and is never negative. Filters move
-  // vertices that they leave alone by rounding only.
+  // The energy at the end of the last step is known if the step was completed, and is never negative. Filters change
+  // unaffected positions by rounding only.
   const double known = std::exchange(end_energy_, 0);
   const auto bytes = static_cast<std::size_t>(state.x.size()) * sizeof(double);
   if (std::memcmp(state.x.data(), last_end.data(), bytes) == 0) {

@@ -54,12 +54,12 @@ class EnergyBooks {
   const StepObjective& objective_;
   const Minimiser& minimiser_;
   const State* state_ = nullptr;  // at the start of the step
-  Iterate start_;                 // x with the pins' final positions, and g there…
-  bool start_exact_ = false;      // …or false: start_ holds only a lower bound of g
+  Iterate start_;                 // x with the pins' final positions, with the value and gradient of g
+  bool start_exact_ = false;      // false while start_ holds only a lower bound of g
   double start_kinetic_ = 0;      // ½‖v‖²_M [J]
   double end_energy_ = 0;         // lower bound of E at the end of the last step [J]
-  bool steady_;                   // E at the start of a step equals E at the end of the last one…
-  bool springs_;                  // …and consists only of springs
+  bool steady_;                   // E at the start of a step equals E at the end of the last one
+  bool springs_;                  // E consists only of springs
 };
 
 /// Returns the mass-weighted mean of n×3 numbers.

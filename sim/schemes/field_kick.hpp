@@ -4,7 +4,7 @@
 
 namespace drape {
 
-/// Solves for the effect of velocity fields in an explicit step of h seconds. The fields act on single vertices, so
+/// Solver for the effect of velocity fields in an explicit step of h seconds. The fields act on single vertices, so
 /// their velocities w require only a system of three equations per vertex,
 ///   w = v + h a(x, (v₀ + w)/2),
 /// with velocities v₀ before the step and v after all other forces. This implicit midpoint rule has second order. A

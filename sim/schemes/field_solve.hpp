@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// Solves for the effect of velocity fields at the end of an implicit step of τ seconds. g contains FieldDrag, and m c
+/// Solver for the effect of velocity fields at the end of an implicit step of τ seconds. g contains FieldDrag, and m c
 /// for the rest of their force, so the step ends at x(c) = argmin g. There the fields' acceleration is a(x, (x −
 /// x₀)/τ), and c is the solution of
 ///   c = T(c) = a + Q (x(c) − x₀).
@@ -46,9 +46,9 @@ class FieldSolve {
   State state_;                                // at the end of the step
   Vertices start_, c_, acceleration_, force_;  // x₀; [m/s²], [m/s²], [N]
   Vertices residual_, before_;                 // T(c) − c, and the previous c [m/s²]
-  Vertices best_c_, best_x_;                   // with the least error so far…
+  Vertices best_c_, best_x_;                   // iterate with the least error so far
   double time_ = 0;
-  double error_ = 0, least_error_ = 0;  // …of this size [m], or [N] with the gradient rule
+  double error_ = 0, least_error_ = 0;  // current and least error [m], or [N] with the gradient rule
   int rounds_ = 0;
   bool over_ = false, converged_ = false;
 };

@@ -9,8 +9,8 @@
 
 namespace drape {
 
-/// Rejects motions that a scheme cannot compute: beforehand if that is known, otherwise by detecting a blow-up after a
-/// step. Its limits hold for the whole motion, including the release of pins.
+/// Guard against motions that a scheme cannot compute. It rejects them beforehand if that is known, otherwise by
+/// detecting a blow-up after a step. Its limits hold for the whole motion, including the release of pins.
 class StabilityGuard {
  public:
   virtual ~StabilityGuard() = default;
@@ -21,7 +21,7 @@ class StabilityGuard {
   /// Returns the longest step that the scheme itself may take [s].
   [[nodiscard]] virtual double longest_step() const = 0;
 
-  /// Returns K + E of the present state [J]; called only if needed.
+  /// Function that returns K + E of the present state [J]; called only if needed.
   using EnergyNow = std::function<double()>;
 
   /// Begins to watch a motion, or restarts from another state of it.

@@ -11,7 +11,7 @@
 
 namespace drape {
 
-/// Divides each step into equal substeps of a second-order scheme. Uses the smallest number it finds for which no
+/// A second-order scheme that divides each step into equal substeps. It uses the smallest number it finds for which no
 /// vertex ends further than the accuracy from the solution without time-stepping and solver errors. The scheme is
 /// velocity Verlet for explicit methods, and SDIRK2 for implicit ones.
 ///
@@ -38,7 +38,7 @@ namespace drape {
 /// vertices is constant during a step.
 class SubstepScheme final : public Scheme {
  public:
-  /// Makes the system with another step length [s].
+  /// Function that makes the system with another step length [s].
   using MakeSystem = std::function<System(double step)>;
 
   /// Maximum number of substeps per step, unless stability requires more.

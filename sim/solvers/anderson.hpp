@@ -9,8 +9,8 @@ namespace drape {
 
 /// Anderson acceleration of a fixed-point iteration c = T(c) (Walker and Ni 2011), n×3. Keeps the last few differences
 /// of the residuals T(c) − c in orthonormal form, together with the matching differences of c. Inner products with
-/// these give the combination of least residual (for linear T this is the GCR method). If the residual grows, it
-/// returns to the best point.
+/// these give the combination of least residual (for linear T this is the GCR method). If the residual grows, the
+/// iteration returns to the best point.
 class AndersonHistory {
  public:
   /// @param unknowns n
@@ -32,8 +32,8 @@ class AndersonHistory {
 
   std::array<Pair, most_pairs> pairs_;
   std::size_t count_ = 0, oldest_ = 0;
-  Vertices last_residual_, last_c_;  // of the last point, and of the one with the least residual…
-  Vertices best_residual_, best_c_;  // …if begun_
+  Vertices last_residual_, last_c_;  // of the last point, if begun_
+  Vertices best_residual_, best_c_;  // of the point with the least residual, if begun_
   double best_ = 0;                  // norm of its residual
   double length_ = 1;                // step length from the best point after a return
   bool begun_ = false;

@@ -21,7 +21,7 @@ struct Iterate {
 /// Model of the Hessian of g in a step with contact: Newton's, or Liu13's constant matrix A.
 enum class ImplicitHessian { newton, constant };
 
-/// Minimises the g of a step, StepObjective, over the free vertices. Solvers differ in the direction of an iteration
+/// Minimiser of the g of a step, StepObjective, over the free vertices. Solvers differ in the direction of an iteration
 /// and share the stopping rule and the line search. No data carries over between steps, so the result depends only on g
 /// and the starting point.
 class Minimiser {
@@ -91,8 +91,8 @@ class Minimiser {
   double tolerance_;                                              // for the last point checked
   int max_iterations_;
   Iterate trial_;
-  double least_error_ = 0;   // least error of this minimisation, with the error rule…
-  int in_vain_ = 0;          // …and number of points since then
+  double least_error_ = 0;   // least error of this minimisation, with the error rule [m]
+  int in_vain_ = 0;          // number of points since the least error
   double newton_error_ = 0;  // by the last Newton step of an iteration
 };
 

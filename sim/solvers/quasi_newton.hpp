@@ -30,13 +30,13 @@ class QuasiNewton final : public FactoredMinimiser {
   LbfgsHistory history_;
   Vertices preconditioned_;  // A⁻¹∇g at the point
   Vertices direction_;
-  bool looks_ = false;   // true if some iterations are Newton steps…
-  int before_look_ = 0;  // …number of others before the first…
-  int until_look_ = 0;   // …and before the next…
-  int gap_ = 0;          // …and before the one after that
+  bool looks_ = false;   // true if some iterations are Newton steps
+  int before_look_ = 0;  // number of other iterations before the first Newton step
+  int until_look_ = 0;   // number of other iterations before the next Newton step
+  int gap_ = 0;          // number of other iterations between the next two Newton steps
   std::optional<PatchNewton> patches_;
-  int wait_ = 0;   // iterations until the next patch iteration…
-  int round_ = 0;  // …and number of consecutive ones so far
+  int wait_ = 0;   // number of iterations until the next patch iteration
+  int round_ = 0;  // number of consecutive patch iterations so far
 };
 
 }  // namespace drape
