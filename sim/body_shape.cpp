@@ -52,7 +52,8 @@ void add_arc(double radius, double z, double from, double to, int parts, std::ve
   }
 }
 
-/// Appends rings along a straight part, excluding its ends, spaced by about four times the vertices' distance in a ring.
+/// Appends rings along a straight part, excluding its ends, spaced by about four times the vertices' distance in a
+/// ring.
 void add_straight(const Ring& from, const Ring& to, int segments, std::vector<Ring>& rings) {
   const double length = std::hypot(to.radius - from.radius, to.z - from.z);
   const double apart = 2 * std::numbers::pi * std::max(from.radius, to.radius) / segments;

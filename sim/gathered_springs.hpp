@@ -25,7 +25,7 @@ class GatheredSprings {
 
   [[nodiscard]] std::size_t size() const { return i_.size(); }
 
-  /// Add ∇E(x) to the gradient, n×3 [N]; the second also returns E(x) [J].
+  /// Adds ∇E(x) to the gradient, n×3 [N]; the second function also returns E(x) [J].
   void add_gradient(const Vertices& x, Vertices& gradient) const;
   double add_value_gradient(const Vertices& x, Vertices& gradient) const;
 

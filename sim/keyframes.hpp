@@ -22,9 +22,9 @@ std::vector<Keyframe> starting_at(std::vector<Keyframe> keyframes, const Eigen::
 
 /// A value over time that passes exactly through keyframes.
 ///
-/// The smooth form is a cubic Hermite curve per coordinate. Its slope at a keyframe is 0 at the ends and at extrema,
-/// and otherwise the weighted harmonic mean of the slopes on both sides (Fritsch and Butland 1984). So it never leaves
-/// the range of two neighbouring keyframes, and rests between two equal ones.
+/// The smooth form is a cubic Hermite curve per coordinate. Its slope is 0 at the ends and at extrema. At other
+/// keyframes it is the weighted harmonic mean of the slopes on both sides (Fritsch and Butland 1984). So it never
+/// leaves the range of two neighbouring keyframes, and rests between two equal ones.
 class Keyframes {
  public:
   /// @param keyframes at least one, at ascending times

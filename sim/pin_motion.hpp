@@ -31,7 +31,7 @@ struct PinMotion {
   void drive(double at, Vertices& v) const;
 
  private:
-  /// Return position and velocity of the k-th pin, for motions with turns or anchors.
+  /// Returns the position, or the velocity, of the k-th pin for motions with turns or anchors.
   [[nodiscard]] Eigen::Vector3d position(std::size_t k, double time) const;
   [[nodiscard]] Eigen::Vector3d velocity(std::size_t k, double time) const;
   [[nodiscard]] bool only_shifts() const { return !turn && !anchors; }

@@ -25,7 +25,7 @@ struct Pose {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< rotation
   Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< position of the body's origin [m]
 
-  /// Convert from the body's coordinates to the world's, and back.
+  /// Converts from the body's coordinates to the world's; in() converts back.
   [[nodiscard]] Eigen::Vector3d out(const Eigen::Vector3d& p) const { return turn * p + place; }
   [[nodiscard]] Eigen::Vector3d in(const Eigen::Vector3d& p) const { return turn.transpose() * (p - place); }
 };

@@ -10,8 +10,8 @@ namespace drape {
 
 /// Curvature of a cloth at each vertex [1/m]: (|κ₁| + |κ₂|)/2 of the principal curvatures. It is 1/(2R) on a cylinder
 /// and 1/R on a sphere of radius R, and 0 in flat parts and at borders. An edge whose triangles meet at the angle θ
-/// contributes ½θ times its length, shared by its two vertices (integral of the mean curvature of a rounded edge,
-/// Cohen-Steiner and Morvan 2003). A vertex has the area of a third of its triangles.
+/// contributes ½θ times its length, shared by its two vertices. This is the integral of the mean curvature over a
+/// rounded edge (Cohen-Steiner and Morvan 2003). A vertex has the area of a third of its triangles.
 class VertexCurvature {
  public:
   /// @param vertex_count of the cloth

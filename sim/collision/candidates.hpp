@@ -39,7 +39,7 @@ class CollisionCandidates {
   explicit CollisionCandidates(const Cloth& cloth, const Threads& threads = one_thread());
 
   /// Finds every pair that comes nearer than `reach` [m] while the vertices move from `from` to `to`, and some more.
-  /// Omits pairs of pins only.
+  /// Omits pairs whose vertices are all pinned.
   void find(const std::vector<Point>& from, const std::vector<Point>& to, double reach);
 
   /// Returns the pairs found last, sorted: vertex-triangle pairs, then edge-edge pairs.

@@ -9,8 +9,8 @@
 
 namespace drape {
 
-/// A triangle with those of its vertices and edges that no earlier triangle owns, so that a search by triangles finds
-/// each feature once (Curtis, Tamstorf and Manocha 2008, "Fast collision detection for deformable models using
+/// A triangle with those of its vertices and edges that no earlier triangle owns. So a search by triangles finds each
+/// feature once (Curtis, Tamstorf and Manocha 2008, "Fast collision detection for deformable models using
 /// representative-triangles").
 struct Patch {
   Triangle corners;

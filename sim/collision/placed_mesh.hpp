@@ -32,9 +32,9 @@ struct Foot {
 };
 
 /// A mesh at one position. A closed mesh is solid in either orientation; an open one is a shell with two equal sides.
-/// The normal of the nearest feature tells inside from outside. It is the triangle's, the sum of both at an edge, or an
-/// angle-weighted sum around a vertex (Bærentzen and Aanæs 2005, "Signed distance computation using the angle weighted
-/// pseudonormal").
+/// The normal of the nearest feature tells inside from outside. It is the triangle's normal, the sum of both at an
+/// edge, or an angle-weighted sum around a vertex (Bærentzen and Aanæs 2005, "Signed distance computation using the
+/// angle weighted pseudonormal").
 class PlacedMesh {
  public:
   /// @param travel see travel()

@@ -21,7 +21,7 @@ namespace drape {
 ///
 /// The closest point has impulses along the springs' final directions, which change the angular momentum Σ m x × v.
 /// Early sweeps therefore use the directions at the start of the step, which conserves both momenta to rounding. A
-/// spring drops this restriction for the rest of the step in three cases: it turns by more than 25°, its load on pins
+/// spring drops this restriction for the rest of the step in three cases. It turns by more than 25°, its load on pins
 /// would make it swing up, or other springs have not settled after the early sweeps.
 ///
 /// The impulses of the last step, in State::restraint, are the initial guess. φ is convex in them with its minimum at

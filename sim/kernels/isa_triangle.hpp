@@ -27,7 +27,7 @@ struct PairOf<FourDoubles> {
   using Type = EightDoubles;
 };
 
-/// Join two rows, and split them.
+/// Joins two rows; low_of() and high_of() split the pair.
 template <class Row>
 inline typename PairOf<Row>::Type join(Row low, Row high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);

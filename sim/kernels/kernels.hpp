@@ -123,7 +123,7 @@ struct Kernels {
   std::string_view name;  ///< "sse2", "avx2" or "avx512"
   int (*supported)();     ///< returns nonzero if this processor can run them
 
-  /// Add ∇E of the springs to the gradient, E = Σ k/2 (‖x_i − x_j‖ − L)² [N]. The `value` versions return E [J].
+  /// Adds ∇E of the springs to the gradient, E = Σ k/2 (‖x_i − x_j‖ − L)² [N]. The `value` versions return E [J].
   void (*add_list_gradient)(const SpringList&, Columns<const double> positions, Columns<double> gradient);
   double (*add_list_value_gradient)(const SpringList&, Columns<const double> positions, Columns<double> gradient);
   double (*add_band_value_gradient)(const SpringStretch&, Columns<const double> positions, Columns<double> gradient);
@@ -132,10 +132,10 @@ struct Kernels {
   /// Moves the vertices of a stretch by an explicit step. Stretches must be passed in order.
   void (*kick_bands)(const SpringStretch&, const SpringKick&);
 
-  /// Compute the springs' Hessian blocks at some positions, see SpringNetwork and share_across().
+  /// Computes the springs' Hessian blocks at some positions, see SpringNetwork and share_across().
   void (*band_blocks)(const SpringBand&, int springs, double concavity, Columns<const double> positions, SpringBlocks);
   void (*list_blocks)(const SpringList&, double concavity, Columns<const double> positions, SpringBlocks);
-  /// Add the springs' Hessian times `vector` to the product; `blocks` has one entry per band.
+  /// Adds the springs' Hessian times `vector` to the product; `blocks` has one entry per band.
   void (*add_band_product)(const SpringStretch&, const ConstSpringBlocks* blocks, Columns<const double> vector,
                            Columns<double> product);
   void (*add_list_product)(const SpringList&, ConstSpringBlocks, Columns<const double> vector, Columns<double> product);
@@ -149,20 +149,21 @@ struct Kernels {
   /// Adds Σ factors[k]·vectors[k] to `to` for k < many, count numbers each.
   void (*add_multiples)(std::size_t count, int many, const double* const* vectors, const double* factors, double* to);
 
-  /// Set packed[4·row[v] + axis] = from[axis][v] for v < count, and the fourth number of each row to zero.
+  /// Sets packed[4·row[v] + axis] = from[axis][v] for v < count, and the fourth number of each row to zero.
   void (*pack_single)(int count, Columns<const double> from, const int* row, float* packed);
   void (*pack_double)(int count, Columns<const double> from, const int* row, double* packed);
-  /// Set to[axis][v] = packed[4·row[v] + axis] for v < count.
+  /// Sets to[axis][v] = packed[4·row[v] + axis] for v < count.
   void (*unpack_single)(int count, const float* packed, const int* row, Columns<double> to);
   void (*unpack_double)(int count, const double* packed, const int* row, Columns<double> to);
-  /// Subtract packed[4·row[v] + axis] from from[axis][v] for v < count; return the sum of the squares of these numbers.
+  /// Subtracts packed[4·row[v] + axis] from from[axis][v] for v < count; returns the sum of the squares of these
+  /// numbers.
   double (*subtract_packed_single)(int count, const float* packed, const int* row, Columns<double> from);
   double (*subtract_packed_double)(int count, const double* packed, const int* row, Columns<double> from);
 
-  /// Compute x = L⁻ᵀ L⁻¹ x for four right-hand sides, side by side in each row of x (4n numbers).
+  /// Computes x = L⁻ᵀ L⁻¹ x for four right-hand sides, side by side in each row of x (4n numbers).
   void (*solve_single)(const PackedTriangle<float>&, float* x);
   void (*solve_double)(const PackedTriangle<double>&, double* x);
-  /// Compute x = L⁻¹ x alone, or x = L⁻ᵀ x.
+  /// Computes x = L⁻¹ x alone, or x = L⁻ᵀ x.
   void (*forward_single)(const PackedTriangle<float>&, float* x);
   void (*forward_double)(const PackedTriangle<double>&, double* x);
   void (*backward_single)(const PackedTriangle<float>&, float* x);

@@ -48,7 +48,7 @@ class ConstantFactor {
     std::vector<T> scratch;  // x, y, z and a zero for each place
   };
 
-  // Compute a factor in double precision, in two ways. Return true if the matrix is positive definite.
+  // Computes a factor in double precision, in one of two ways. Returns true if the matrix is positive definite.
   [[nodiscard]] bool factor_columns(const LowerPattern& pattern, const std::vector<double>& values, const Stop& stop,
                                     const FreeVertices& free);
   [[nodiscard]] bool factor_fronts(const LowerPattern& pattern, const std::vector<double>& values, const System& system,

@@ -50,7 +50,7 @@ class Threads {
   class Crew;
   friend class Wait;
   void divide(int parts, void* given, void (*call)(void* given, int part)) const;
-  /// True while running on one thread.
+  /// Returns true while running on one thread.
   [[nodiscard]] bool alone() const;
 
   int count_;

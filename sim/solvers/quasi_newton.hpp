@@ -23,7 +23,7 @@ class QuasiNewton final : public FactoredMinimiser {
  private:
   void start() override;
   double iterate(Iterate& point) override;
-  // Run an iteration of another kind if one is due; return the length of the point's move [m].
+  // Runs an iteration of another kind if one is due; returns the length of the point's move [m].
   double settle_patches(Iterate& point);
   double take_newton_step(Iterate& point);
 
