@@ -6,13 +6,14 @@
 
 namespace drape {
 
-/// Between which two of some samples a time is.
+/// Position of a time between two samples.
 struct Between {
-  std::size_t before, after;  ///< the same at a sample and beyond the first and the last
-  double share;               ///< of the way from one to the other: 0 to 1, exactly 0 where they are the same
+  std::size_t before, after;  ///< indices of the two samples; equal at a sample, before the first and after the last
+  double share;               ///< fraction of the way from one to the other, 0 to 1; exactly 0 if they are equal
 };
 
-/// @param times of the samples: at least one, increasing
+/// Returns the position of a time between samples.
+/// @param times of the samples: at least one, ascending
 inline Between between(const std::vector<double>& times, double time) {
   const auto next = static_cast<std::size_t>(std::ranges::upper_bound(times, time) - times.begin());
   if (next == 0) return {0, 0, 0};

@@ -27,7 +27,7 @@ double BlowUpWatch::limit(double ratio) {
 
 BlowUpWatch::BlowUpWatch(const System& system, double limit, int interval)
     : step_(system.whole_step), limit_(limit), interval_(interval) {
-  // Where every spring has its rest length, rounding lengths by ε leaves Σ k (εL)²/2.
+  // With every spring at its rest length, a relative rounding error ε of lengths leaves Σ k (εL)²/2.
   double scale = std::numeric_limits<double>::min();
   for (const Spring& s : system.springs) scale += s.stiffness * s.rest_length * s.rest_length;
   rounding_ = std::numeric_limits<double>::epsilon() * scale;

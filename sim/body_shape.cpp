@@ -10,12 +10,12 @@
 namespace drape {
 namespace {
 
-/// A ring of a surface of revolution about z; without a radius a point.
+/// A ring of a surface of revolution about z; a point if the radius is zero.
 struct Ring {
   double radius, z;
 };
 
-/// The surface that rings make, from the lowest to the highest. The first and the last are points.
+/// Returns the surface through rings, from the lowest to the highest. The first and the last are points.
 Mesh revolve(const std::vector<Ring>& rings, int segments) {
   const auto count = static_cast<int>(rings.size());
   Mesh mesh;
@@ -43,7 +43,7 @@ Mesh revolve(const std::vector<Ring>& rings, int segments) {
   return mesh;
 }
 
-/// Rings of a sphere's part between two polar angles from its lower pole, both included.
+/// Appends the rings of a sphere between two polar angles, inclusive, measured from its lower pole.
 /// @param z of the sphere's centre
 void add_arc(double radius, double z, double from, double to, int parts, std::vector<Ring>& rings) {
   for (int i = 0; i <= parts; ++i) {
@@ -52,7 +52,8 @@ void add_arc(double radius, double z, double from, double to, int parts, std::ve
   }
 }
 
-/// Rings along a straight part, without its ends, about as far apart as the vertices of a ring.
+/// Appends rings along a straight part, excluding its ends, spaced by about four times the vertices' distance in a
+/// ring.
 void add_straight(const Ring& from, const Ring& to, int segments, std::vector<Ring>& rings) {
   const double length = std::hypot(to.radius - from.radius, to.z - from.z);
   const double apart = 2 * std::numbers::pi * std::max(from.radius, to.radius) / segments;

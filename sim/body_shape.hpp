@@ -14,13 +14,13 @@ namespace drape {
 
 class Keys;
 
-/// A shape around the origin with its axis along z. All lengths in m.
+/// A shape around the origin with its axis along z. All lengths are in m.
 struct BodyShape {
   enum class Kind { cylinder, capsule, cone, plane, sphere };
 
   Kind kind = Kind::sphere;
-  double radius = 0.5;  ///< of all but a plane; of a cone at its foot
-  double height = 1;    ///< of a cylinder, a cone, and a capsule with its caps
+  double radius = 0.5;  ///< of all kinds except the plane; of a cone at its base
+  double height = 1;    ///< of a cylinder, a cone, and a capsule including its caps
   double top = 0;       ///< radius of a cone's upper end
   double width = 1;     ///< of a plane along x
   double depth = 1;     ///< of a plane along y
@@ -35,17 +35,17 @@ struct BodyShapeKey {
   std::optional<BodyShape>* shape;
 };
 
-/// The names of the kinds, in their order: "cylinder" and so on.
+/// Returns the names of the kinds, in the order of Kind: "cylinder" and so on.
 const std::vector<std::string>& body_shape_names();
 
-/// The keys of the table that describes a shape of its kind.
+/// Returns the keys of the table for a shape of its kind.
 /// @param shape must outlive the keys
 Keys body_shape_keys(BodyShape& shape);
 
-/// Why there is no such shape; nothing if there is.
+/// Returns the reason if the shape is invalid; otherwise nothing.
 std::optional<std::string> body_shape_problem(const BodyShape& shape);
 
-/// A mesh of the shape, counterclockwise seen from outside. All are closed but a plane, which faces up.
+/// Returns a mesh of the shape, counterclockwise seen from outside. It is closed except for a plane, which faces up.
 Mesh make_body_shape(const BodyShape& shape);
 
 }  // namespace drape

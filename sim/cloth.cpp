@@ -73,7 +73,7 @@ void share_mass_by_area(double density, Cloth& cloth) {
 }
 
 void stiffen_by_area(double modulus, Cloth& cloth) {
-  std::map<Edge, double> areas;  // of the triangles at an edge
+  std::map<Edge, double> areas;  // of the triangles at each edge
   for (const Triangle& t : cloth.triangles) {
     const double area = area_of(t, cloth.rest);
     for (std::size_t k = 0; k < 3; ++k) {

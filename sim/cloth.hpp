@@ -21,44 +21,44 @@ struct Spring {
   double stiffness = 0;    ///< [N/m]
 };
 
-/// A cloth as it is before the first step. Nothing in here changes while it is simulated.
+/// The initial state of a cloth, constant during a simulation.
 struct Cloth {
   Vertices positions;   ///< n×3 [m]
   Vertices velocities;  ///< n×3 [m/s]
-  Vertices rest;        ///< n×3, the shape without strain [m]
+  Vertices rest;        ///< n×3, unstrained shape [m]
   std::vector<Triangle> triangles;
   std::vector<Spring> springs;
   Eigen::VectorXd masses;  ///< n, all positive [kg]
-  std::vector<int> pins;   ///< vertices that do not move, ascending, each once
+  std::vector<int> pins;   ///< fixed vertices, ascending, without duplicates
 
   [[nodiscard]] int vertex_count() const { return static_cast<int>(positions.rows()); }
 };
 
-/// The diagonal of the box around the cloth as it starts, or the rest length of its longest spring if larger [m].
+/// Returns the diagonal of the cloth's initial bounding box, or the largest rest length if longer [m].
 double size_of(const Cloth& cloth);
 
-/// The homework's cloth: one spring per edge of `rest`, with the edge's length and the same stiffness everywhere, and
-/// the total mass shared equally among all vertices.
-/// @param start    the mesh whose positions the cloth starts from, at rest
-/// @param rest     the same triangles in the shape whose edge lengths are the rest lengths
+/// Returns the homework's cloth: one spring per edge of `rest`, with the edge's length as rest length. All springs have
+/// the same stiffness, and all vertices the same mass.
+/// @param start    mesh with the initial positions; the cloth starts at rest
+/// @param rest     the same triangles in the unstrained shape
 /// @param mass     of the whole cloth, positive [kg]
 /// @param stiffness of every spring, positive [N/m]
-/// @param pins     vertices that do not move, in any order
+/// @param pins     fixed vertices, in any order
 /// @throws std::invalid_argument if start and rest do not match, or a triangle's corner or a pin is not a vertex
 Cloth make_cloth(const Mesh& start, const Mesh& rest, double mass, double stiffness, std::vector<int> pins);
 
-/// Gives every vertex the mass of a third of each rest triangle at it, so that the mesh does not matter: fine and
-/// coarse parts of a sheet have the same mass per area.
+/// Gives every vertex a third of the mass of each rest triangle at it. So fine and coarse parts of a sheet have the
+/// same mass per area.
 /// @param density of the cloth, positive [kg/m²]
 /// @throws std::invalid_argument if a vertex has no triangle with an area
 void share_mass_by_area(double density, Cloth& cloth);
 
-/// Gives every spring the stiffness E·A/l², l its rest length and A the area of the rest triangles at it (Van Gelder
-/// 1998, "Approximate simulation of elastic membranes by triangulated spring meshes"), so that a force stretches a
-/// sheet by the same amount however fine its mesh is. What E means depends on the mesh. Per area the springs at angles
-/// θ hold ½E·3⟨ε(θ)²⟩ where edges have all directions alike: that is the uniaxial stiffness E with a Poisson's ratio of
-/// 1/3. On a grid with one diagonal it is E along the edges while shear is free to follow, with no contraction, and 1.2
-/// E where shear is held (docs/scene-format.md).
+/// Gives every spring the stiffness E·A/l², with rest length l and area A of the rest triangles at it (Van Gelder 1998,
+/// "Approximate simulation of elastic membranes by triangulated spring meshes"). So a force stretches a sheet by the
+/// same amount on fine and coarse meshes. The meaning of E depends on the mesh. Springs at angles θ store ½E·3⟨ε(θ)²⟩
+/// per area if edges have all directions equally. That is the uniaxial stiffness E with a Poisson's ratio of 1/3. On a
+/// grid with one diagonal it is E along the edges, without contraction, if shear is free, and 1.2 E if shear is held
+/// (docs/scene-format.md).
 /// @param modulus E, force per width and strain, positive [N/m]
 /// @throws std::invalid_argument if a spring has no triangle with an area
 void stiffen_by_area(double modulus, Cloth& cloth);

@@ -16,25 +16,25 @@ namespace drape {
 /// A sphere at one moment.
 struct SphereShape {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m]
-  double radius = 1;                                 ///< as it is drawn [m]
-  double reach = 0;                                  ///< where it pushes: within this distance of its centre [m]
+  double radius = 1;                                 ///< drawn radius [m]
+  double reach = 0;                                  ///< distance from the centre within which it pushes [m]
 };
 
-/// A half-space: everything with normal·x ≤ height is inside it.
+/// A half-space: all points with normal·x ≤ height.
 struct GroundShape {
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit vector out of it
-  double height = 0;                                  ///< of its surface above the origin, along the normal [m]
-  double thickness = 0;                               ///< of the layer above it in which it pushes [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< outward unit normal
+  double height = 0;                                  ///< of the surface above the origin, along the normal [m]
+  double thickness = 0;                               ///< of the layer above the surface in which it pushes [m]
 };
 
 /// A triangle mesh at one moment.
 struct MeshShape {
-  std::shared_ptr<const std::vector<Triangle>> triangles;  ///< the same ones at every moment
+  std::shared_ptr<const std::vector<Triangle>> triangles;  ///< the same object at every moment
   Vertices positions;                                      ///< n×3 [m]
-  double thickness = 0;                                    ///< of the layer around it in which it pushes [m]
+  double thickness = 0;                                    ///< of the layer around the mesh in which it pushes [m]
 };
 
-/// The shape of something the cloth can touch, at one moment: what a drawing shows of it.
+/// Shape of something that the cloth can touch, at one moment, as drawn.
 using Collider = std::variant<SphereShape, GroundShape, MeshShape>;
 
 }  // namespace drape

@@ -4,15 +4,14 @@
 
 namespace drape {
 
-// A spring of the stiffness k and the rest length L that is now ‖d‖ long has the Hessian K = k(1 − s)I + k s x̂x̂ᵀ, s =
-// L/‖d‖: negative across it where it is compressed. Curved bending has the same form. Of what is negative a
-// minimisation takes a share, the concavity: 0 leaves a positive semi-definite matrix everywhere, 1 is the exact
-// Hessian.
+// A spring of stiffness k, rest length L and length ‖d‖ has the Hessian K = k(1 − s)I + k s x̂x̂ᵀ with s = L/‖d‖. It is
+// negative across the spring under compression. Curved bending has the same form. A minimisation keeps a fraction of
+// the negative part, the concavity: 0 gives a positive semi-definite matrix, 1 the exact Hessian.
 
-/// Of s: springs that are compressed to less say nothing about anywhere else.
+/// Upper limit of s; the Hessian of a more compressed spring holds nowhere else.
 inline constexpr double most_compressed = 1000;
 
-/// The s in whose place K has that share of what is negative.
+/// Returns the s for which K has this fraction of its negative part.
 inline double share_across(double s, double concavity) {
   const double positive = std::min(s, 1.0);
   return positive + concavity * (std::min(s, most_compressed) - positive);

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// The product of a block as in HessianBlocks and a vector.
+/// Returns the product of a block, as in HessianBlocks, and a vector.
 auto product(const auto& b, const auto& v) {
   return Eigen::RowVector3d(b[0] * v[0] + b[1] * v[1] + b[2] * v[2], b[1] * v[0] + b[3] * v[1] + b[4] * v[2],
                             b[2] * v[0] + b[4] * v[1] + b[5] * v[2]);
@@ -19,7 +19,7 @@ auto product(const auto& b, const auto& v) {
 
 }  // namespace
 
-/// Refers to the blocks of the energy, which are those of the step.
+/// Hessian that refers to the energy's blocks of the current step.
 class FieldDrag::Hessian final : public EnergyHessian {
  public:
   explicit Hessian(const FieldDrag& drag) : drag_(drag) {}
@@ -56,7 +56,7 @@ Matrix3d FieldDrag::drag(std::size_t vertex, double most) const {
   const Matrix3d against = -(g + g.transpose()) / 2;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> parts(against);
   const double square = duration_ * duration_;
-  const double turn = square * (g - g.transpose()).norm() / std::sqrt(8.0);  // the 2-norm of half of it
+  const double turn = square * (g - g.transpose()).norm() / std::sqrt(8.0);  // 2-norm of half the difference
   const double held = turn * turn / (1 + turn) / square;
   const Eigen::Vector3d kept = (parts.eigenvalues().cwiseMax(0).array() + held).cwiseMin(most);
   return parts.eigenvectors() * kept.asDiagonal() * parts.eigenvectors().transpose();

@@ -29,7 +29,7 @@ void FieldSlopes::find(const State& state, double time) {
 }
 
 void FieldSlopes::differentiate(Vertices State::*part, double time, std::vector<Eigen::Matrix3d>& slopes) {
-  constexpr double relative = 1e-5;  // about ε^(1/3), where the errors of rounding and of the difference are alike
+  constexpr double relative = 1e-5;  // about ε^(1/3), where rounding and truncation errors balance
   Vertices& moved = moved_.*part;
   const auto step = [](double from) { return relative * std::max(1.0, std::abs(from)); };
   for (int axis = 0; axis < 3; ++axis) {

@@ -6,12 +6,12 @@
 
 namespace drape {
 
-/// The velocity fields of a system, which may be moved.
+/// Velocity fields of a system, which may be moved in memory.
 class VelocityFields {
  public:
   explicit VelocityFields(const System& system);
 
-  /// sum = what they give the vertices in a state at a time [s], n×3, zero on pins [m/s²].
+  /// Sets sum = the fields' acceleration of the vertices at a state and a time [s], n×3, zero on pins [m/s²].
   void find(const State& state, double time, Vertices& sum) const;
 
  private:
@@ -19,20 +19,20 @@ class VelocityFields {
   std::vector<const Force*> fields_;
 };
 
-/// How the fields' acceleration of every vertex changes with its place and its velocity, by central differences: exact
-/// but for rounding where a field is quadratic.
+/// Derivatives of the fields' acceleration by a vertex's position and velocity, by central differences. They are exact
+/// up to rounding for quadratic fields.
 class FieldSlopes {
  public:
   explicit FieldSlopes(const System& system);
 
-  /// Takes those of a state at a time [s].
+  /// Computes the derivatives at a state and a time [s].
   void find(const State& state, double time);
 
   [[nodiscard]] const std::vector<Eigen::Matrix3d>& of_place() const { return of_place_; }        ///< ∂a/∂x [1/s²]
   [[nodiscard]] const std::vector<Eigen::Matrix3d>& of_velocity() const { return of_velocity_; }  ///< ∂a/∂v [1/s]
 
  private:
-  /// The derivatives by one of the two parts of a state.
+  /// Computes the derivatives by one part of a state.
   void differentiate(Vertices State::*part, double time, std::vector<Eigen::Matrix3d>& slopes);
 
   VelocityFields fields_;

@@ -12,7 +12,7 @@ constexpr double cosine_of_150_degrees = -0.86602540378443865;
 
 Eigen::Vector3d unit_normal(const Triangle& t, const Vertices& x) {
   const Eigen::Vector3d a = x.row(t[0]), b = x.row(t[1]), c = x.row(t[2]);
-  return (b - a).cross(c - a).normalized();  // stays zero without an area
+  return (b - a).cross(c - a).normalized();  // stays zero without area
 }
 
 }  // namespace

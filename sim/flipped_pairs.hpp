@@ -6,13 +6,13 @@
 
 namespace drape {
 
-/// Pairs of triangles that share an edge: what folds over when a step is solved too loosely.
+/// Pairs of triangles that share an edge, to count those that fold over when steps are solved too loosely.
 class FlippedPairs {
  public:
   explicit FlippedPairs(const std::vector<Triangle>& triangles);
 
-  /// How many neighbouring triangles have normals more than 150° apart: folded back onto each other. Triangles without
-  /// an area count as not flipped.
+  /// Returns the number of neighbours whose normals are more than 150° apart, folded back onto each other. Triangles
+  /// without an area do not count.
   [[nodiscard]] int count(const Vertices& x) const;
 
  private:

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<std::string_view, 3> places{"x", "y", "z"}, speeds{"vx", "vy", "vz"};
 constexpr std::array<std::string_view, 1> times{"t"};
 
-/// A parser of formulas whose names stand for the members of `point`, which must outlive it.
+/// Returns a parser whose variables are the members of `point`, which must outlive it.
 mu::Parser parser_at(FieldPoint& point) {
   mu::Parser parser;
   const std::pair<const char*, double*> variables[] = {{"x", &point.x},  {"y", &point.y},   {"z", &point.z},
@@ -28,7 +28,7 @@ mu::Parser parser_at(FieldPoint& point) {
   return parser;
 }
 
-/// Every name that a formula may use.
+/// Returns every name that a formula may use.
 std::vector<std::string> known_names(const mu::Parser& parser) {
   std::vector<std::string> names;
   for (const auto& [name, value] : parser.GetVar()) names.push_back(name);
@@ -61,7 +61,7 @@ std::string sentence(const mu::Parser& parser, const mu::ParserError& error) {
   }
 }
 
-/// muParser lets a formula assign to its variables, and be several.
+/// Returns an error if a formula assigns to its variables or has several values, which muParser allows.
 std::optional<std::string> beyond_one_value(const std::string& formula, mu::Parser& parser) {
   for (std::size_t i = formula.find('='); i != std::string::npos; i = formula.find('=', i + 1)) {
     if (i + 1 < formula.size() && formula[i + 1] == '=') {

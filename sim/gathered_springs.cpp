@@ -61,7 +61,7 @@ void GatheredSprings::add_forces(Vertices& to, Add&& add) const {
   for_ranges(threads_, to.rows(), [&](Eigen::Index begin, Eigen::Index count) {
     for (Eigen::Index vertex = begin; vertex < begin + count; ++vertex) {
       double x = to(vertex, 0), y = to(vertex, 1), z = to(vertex, 2);
-      // Those whose j it is have a smaller i than those whose i it is, so they come first.
+      // Springs with the vertex as j come first, as their i is smaller.
       for (const int spring : last_.of(vertex)) {
         x -= force_(spring, 0);
         y -= force_(spring, 1);

@@ -14,9 +14,9 @@ Eigen::Vector2d size_of(const Grid& grid) {
   return {2, grid.pattern == GridPattern::equilateral ? std::sqrt(3.0) * grid.rows / grid.columns : 2};
 }
 
-/// The vertices and triangles of rows of equilateral triangles in the square [-1,1]².
+/// Returns the vertices and triangles of rows of equilateral triangles in the square [-1,1]².
 Mesh rows_of_triangles(int columns, int rows) {
-  const auto row_begin = [&](int j) { return j * (columns + 1) + j / 2; };  // a moved row has one vertex more
+  const auto row_begin = [&](int j) { return j * (columns + 1) + j / 2; };  // a shifted row has one more vertex
   Mesh mesh;
   mesh.positions.resize(row_begin(rows + 1), 3);
   for (int j = 0, vertex = 0; j <= rows; ++j) {
@@ -27,7 +27,7 @@ Mesh rows_of_triangles(int columns, int rows) {
     }
   }
   for (int j = 0; j < rows; ++j) {
-    const bool even = j % 2 == 0;  // the moved row is the upper one
+    const bool even = j % 2 == 0;  // the shifted row is the upper one
     const int straight = row_begin(even ? j : j + 1), moved = row_begin(even ? j + 1 : j);
     const auto add = [&](int a, int b, int c) {
       mesh.triangles.push_back(even ? Triangle{a, b, c} : Triangle{b, a, c});
@@ -40,7 +40,7 @@ Mesh rows_of_triangles(int columns, int rows) {
   return mesh;
 }
 
-/// Divides the cells of a grid with one diagonal otherwise.
+/// Divides the cells of a grid with one diagonal by another pattern.
 void divide(GridPattern pattern, int columns, int rows, Mesh& mesh) {
   const bool crossed = pattern == GridPattern::x;
   const int corners = static_cast<int>(mesh.positions.rows());

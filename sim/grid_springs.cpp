@@ -8,7 +8,7 @@ namespace drape {
 
 void stiffen_evenly(double modulus, Cloth& cloth) {
   stiffen_by_area(modulus, cloth);
-  // Springs along x, along y and aslant, each with Σ k l² over the cloth.
+  // Springs along x, along y and diagonal, each with Σ k l² over the cloth.
   std::array<double, 3> sums{};
   double aslant_x = 0, aslant_y = 0;
   const auto kind = [&](const Eigen::RowVector3d& along) {
@@ -23,8 +23,8 @@ void stiffen_evenly(double modulus, Cloth& cloth) {
     aslant_x += along.x() * along.x();
     aslant_y += along.y() * along.y();
   }
-  // With c = cos² and s = sin² of the diagonals' angle, Σ k l² n⊗n⊗n⊗n per area is that of all directions alike where
-  // the shares are these, of which there are three as every triangle has as many sides.
+  // With c = cos² and s = sin² of the diagonals' angle, these shares make Σ k l² n⊗n⊗n⊗n per area isotropic. There are
+  // three, as every triangle has three sides.
   const double c = aslant_x / (aslant_x + aslant_y), s = 1 - c;
   const std::array shares{9.0 / 8 - 3.0 / 8 * c / s, 9.0 / 8 - 3.0 / 8 * s / c, 3.0 / 8 / (c * s)};
   if (!(std::ranges::min(shares) > 0)) return;

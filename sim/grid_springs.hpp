@@ -6,10 +6,10 @@
 
 namespace drape {
 
-/// Gives the springs of a grid whose cells have both diagonals, alternating or crossed, the stiffnesses of a cloth that
-/// is the same in all directions: E along any, with a Poisson's ratio of 1/3. Those along x, those along y and the
-/// diagonals have the shares that make it so, where stiffen_by_area gives each the area at it. Cells longer than √3
-/// times their width would need springs that push; they get those of stiffen_by_area.
+/// Gives the springs of a grid with alternating or crossed diagonals the stiffnesses of an isotropic cloth, with
+/// modulus E and a Poisson's ratio of 1/3. The springs along x, along y and the diagonals get the shares that achieve
+/// this; stiffen_by_area uses the areas instead. Cells longer than √3 times their width would need pushing springs and
+/// use stiffen_by_area.
 /// @param modulus E, force per width and strain, positive [N/m]
 /// @param cloth   whose rest shape is such a grid along x and y
 void stiffen_evenly(double modulus, Cloth& cloth);
@@ -21,7 +21,7 @@ struct GridSprings {
   double bend;        ///< between every other vertex of a row or column
 };
 
-/// The springs of a course's cloth, sorted by vertices.
+/// Returns the springs of a course's cloth, sorted by vertices.
 /// @param columns of the grid's cells
 /// @param rest    its (columns + 1)·(rows + 1) vertices in row-major order, at least two rows
 std::vector<Spring> springs_of_grid(int columns, const Vertices& rest, const GridSprings& stiffnesses);

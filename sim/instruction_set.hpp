@@ -10,15 +10,15 @@
 
 namespace drape {
 
-/// The instruction sets that the hot loops are compiled for, slowest first; some may not run here.
+/// Returns the instruction sets that the hot loops are compiled for, slowest first; some may not run here.
 std::vector<std::string> instruction_sets();
 
-/// The one that is used: the fastest that this processor runs, unless it is limited.
+/// Returns the one in use: the fastest that this processor supports, within the limit.
 std::string instruction_set();
 
-/// Limits every simulation of the process to at most this one: the bits are the same with all. Not while
-/// another thread computes.
-/// @throws UsageError if there is none of that name
+/// Limits every simulation of the process to this instruction set; all give the same bits. Do not call while another
+/// thread computes.
+/// @throws UsageError if the name is unknown
 void limit_instruction_set(std::string_view name);
 
 }  // namespace drape

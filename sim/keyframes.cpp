@@ -9,7 +9,7 @@
 namespace drape {
 namespace {
 
-/// The slope at a keyframe between the slopes on both sides of it, over `before` and `after` seconds.
+/// Returns the slope at a keyframe from the slopes on both sides, over `before` and `after` seconds.
 double slope_between(double left, double right, double before, double after) {
   if (left * right <= 0) return 0;
   const double a = 2 * after + before, b = after + 2 * before;
@@ -27,7 +27,7 @@ std::vector<Eigen::Vector3d> find_slopes(const std::vector<Keyframe>& keys) {
   return slopes;
 }
 
-/// Whether two times are the same but for the rounding of step·h.
+/// Returns true if two times are equal up to the rounding of step·h.
 bool same(double a, double b) {
   return std::abs(a - b) <= 4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
 }

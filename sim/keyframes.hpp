@@ -11,30 +11,30 @@
 
 namespace drape {
 
-/// How a value moves from one keyframe to the next.
+/// Interpolation of a value between keyframes.
 enum class Interpolation {
-  linear,  ///< at a steady speed
-  smooth   ///< with a continuous speed
+  linear,  ///< at constant speed
+  smooth   ///< at continuous speed
 };
 
-/// Keyframes from 0 s on: with one of this value then, unless there is one.
+/// Returns keyframes from 0 s on; inserts one at 0 s with this value if there is none.
 std::vector<Keyframe> starting_at(std::vector<Keyframe> keyframes, const Eigen::Vector3d& value);
 
-/// A value over time that passes through keyframes, and equals them to the bit there.
+/// A value over time that passes exactly through keyframes.
 ///
-/// Smooth is a cubic Hermite curve in each coordinate, whose slope at a keyframe is 0 at the ends and where the value
-/// turns round, and otherwise the weighted harmonic mean of the slopes on both sides (Fritsch and Butland 1984): it
-/// never leaves the range of two neighbouring keyframes, and rests between two equal ones.
+/// The smooth form is a cubic Hermite curve per coordinate. Its slope is 0 at the ends and at extrema. At other
+/// keyframes it is the weighted harmonic mean of the slopes on both sides (Fritsch and Butland 1984). So it never
+/// leaves the range of two neighbouring keyframes, and rests between two equal ones.
 class Keyframes {
  public:
-  /// @param keyframes at least one, at increasing times
+  /// @param keyframes at least one, at ascending times
   /// @throws std::invalid_argument otherwise
   Keyframes(std::vector<Keyframe> keyframes, Interpolation interpolation);
 
-  /// The value at a time [s]; before the first keyframe and after the last it is constant.
+  /// Returns the value at a time [s]; constant before the first keyframe and after the last.
   [[nodiscard]] Eigen::Vector3d at(double time) const;
 
-  /// Its rate of change [1/s]; where that jumps, at a keyframe, the rate just before it.
+  /// Returns its rate of change [1/s]; at a jump, the rate just before.
   [[nodiscard]] Eigen::Vector3d velocity(double time) const;
 
  private:

@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-/// Adds the energy that stands for velocity fields in the steps of an implicit method.
+/// Adds the energy for velocity fields in implicit steps.
 void add_drag(const IntegratorSettings& integrator, System& system) {
   if (system.fields.empty() || is_explicit(integrator.method)) return;
   const double solved = integrator.scheme == TimeScheme::sdirk2 ? Sdirk2::gamma * system.step : system.step;
@@ -31,7 +31,7 @@ void install_effects(const SimulationSettings& settings, std::vector<double>* ef
   }
   add_drag(settings.integrator, system);
   if (system.contacts.empty()) return;
-  // Explicit steps have no other contact. What an implicit step has solved for is kept where filters change it.
+  // Explicit steps have no other contact. Implicit steps need this filter to keep their contacts after other filters.
   const bool explicitly = is_explicit(settings.integrator.method);
   if (!explicitly && system.filters.empty()) return;
   system.filters.push_back(std::make_unique<ImpulseContact>(system.contacts, system.cloth, system.gravity));

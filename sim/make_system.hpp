@@ -7,11 +7,12 @@
 
 namespace drape {
 
-/// What acts on the cloth with the settings' effects. Refers to the settings and the threads, which must outlive it.
-/// @param effect_seconds if given, one number for each effect, to which the time that it takes is added from then on
+/// Returns the system of all that acts on the cloth with these settings. It refers to the settings and the threads,
+/// which must outlive it.
+/// @param effect_seconds if given, one number per effect, to which its computing time is added
 System make_system(const SimulationSettings& settings, std::vector<double>* effect_seconds = nullptr,
                    const Stop& stop = {}, const Threads& threads = one_thread());
-/// The same in steps of another length [s].
+/// Returns the same system with another step length [s].
 System make_system(const SimulationSettings& settings, double step, std::vector<double>* effect_seconds = nullptr,
                    const Stop& stop = {}, const Threads& threads = one_thread());
 

@@ -50,7 +50,7 @@ std::vector<Edge> unique_edges(const std::vector<Triangle>& triangles) {
       }
     }
   };
-  // By the smaller vertex first, after which there are few to sort.
+  // Bucket by the smaller vertex, so that few need sorting.
   std::size_t vertex_count = 0;
   each([&](std::size_t, int high) { vertex_count = std::max(vertex_count, static_cast<std::size_t>(high) + 1); });
   std::vector<std::size_t> next(vertex_count + 1, 0);

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A value and how fast it changes.
+/// A value and its rate of change.
 struct Moving {
   Vector3d value, rate;
 };
@@ -26,7 +26,7 @@ Moving cross(const Moving& a, const Moving& b) {
   return {a.value.cross(b.value), a.rate.cross(b.value) + a.value.cross(b.rate)};
 }
 
-/// The axes of a triangle's frame; zero where it has no area.
+/// Returns the axes of a triangle's frame; zero without area.
 std::array<Moving, 3> frame(const std::array<Moving, 3>& corners) {
   const auto edge = [&](std::size_t to) {
     return Moving{corners[to].value - corners[0].value, corners[to].rate - corners[0].rate};
@@ -35,7 +35,7 @@ std::array<Moving, 3> frame(const std::array<Moving, 3>& corners) {
   return {along, cross(normal, along), normal};
 }
 
-/// The barycentric coordinates of the point of a triangle that is nearest to p (Ericson, Real-Time Collision Detection,
+/// Returns the barycentric coordinates of a triangle's closest point to p (Ericson, Real-Time Collision Detection,
 /// 5.1.5).
 Vector3d nearest_weights(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {
   const Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
@@ -61,7 +61,7 @@ MeshAnchors::MeshAnchors(const MeshMotion& motion, const Vertices& points, doubl
   motion.place(time, at_first);
   attach(at_first, motion.mesh.triangles, points);
 
-  // Of a body of many vertices hands hold a few.
+  // Keep only the vertices with an anchor: hands hold few vertices of a body.
   std::vector<int> held;
   for (const Anchor& anchor : anchors_) held.insert(held.end(), anchor.corners.begin(), anchor.corners.end());
   std::ranges::sort(held);
@@ -101,7 +101,7 @@ void MeshAnchors::attach(const Vertices& at_first, const std::vector<Triangle>& 
 
 MeshAnchors::Place MeshAnchors::at(std::size_t k, double time) const {
   const Anchor& anchor = anchors_[k];
-  // At a sample the part before it counts: that is the velocity with which it is reached.
+  // At a sample use the interval before it, so that the velocity is the one of arrival.
   const auto after = static_cast<std::size_t>(std::ranges::lower_bound(times_, time) - times_.begin());
   const bool moves = after > 0 && after < times_.size();
   const Vertices& from = samples_[after > 0 ? after - 1 : 0];

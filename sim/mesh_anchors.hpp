@@ -16,37 +16,37 @@
 
 namespace drape {
 
-/// Points that hold on to a moving mesh: each to the point of its surface that was nearest at first, and to its place
-/// beside it, which turns with the triangle. The triangle's frame has its first axis along the edge from its first to
-/// its second corner and its third along the normal; the axes are orthonormal, so a triangle that is stretched takes
-/// its point along, but not farther away.
+/// Points attached to a moving mesh. Each keeps its offset from the point of the surface that was closest at first, and
+/// the offset turns with the triangle. The triangle's frame is orthonormal: the first axis is along the edge from its
+/// first to its second corner, the third along the normal. So a stretched triangle moves its point but does not change
+/// the distance.
 class MeshAnchors {
  public:
   /// @param points n×3 [m]
-  /// @param time   at which they are attached [s]
-  /// @throws std::invalid_argument if the mesh has no triangle with an area then
+  /// @param time   of attachment [s]
+  /// @throws std::invalid_argument if no triangle of the mesh has an area then
   MeshAnchors(const MeshMotion& motion, const Vertices& points, double time);
 
-  /// Where a point is and how it moves.
+  /// Position and velocity of a point.
   struct Place {
     Eigen::Vector3d position;  ///< [m]
-    Eigen::Vector3d velocity;  ///< where it jumps, as it was before [m/s]
+    Eigen::Vector3d velocity;  ///< at a jump, the one before [m/s]
   };
 
-  /// The `k`-th point at a time [s].
+  /// Returns the `k`-th point at a time [s].
   [[nodiscard]] Place at(std::size_t k, double time) const;
 
  private:
   struct Anchor {
-    Triangle corners;         // rows of the samples here
-    Eigen::Vector3d weights;  // of the corners: barycentric coordinates of the surface's point
-    Eigen::Vector3d offset;   // from there, in the triangle's frame [m]
+    Triangle corners;         // rows of samples_
+    Eigen::Vector3d weights;  // barycentric coordinates of the surface point
+    Eigen::Vector3d offset;   // offset from the surface point, in the triangle's frame [m]
   };
   void attach(const Vertices& at_first, const std::vector<Triangle>& triangles, const Vertices& points);
 
   std::vector<Anchor> anchors_;
   std::vector<double> times_;      // at least one
-  std::vector<Vertices> samples_;  // of the vertices of the triangles that hold something
+  std::vector<Vertices> samples_;  // positions of the vertices of triangles with an anchor
 };
 
 }  // namespace drape

@@ -10,7 +10,7 @@ void MeshMotion::place(double time, Vertices& x) const {
     return;
   }
   const auto [before, after, share] = between(times, time);
-  // At a sample itself its very bits.
+  // Exactly the sample at its own time.
   x = samples[before];
   if (before != after) x += share * (samples[after] - samples[before]);
 }

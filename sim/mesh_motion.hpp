@@ -13,15 +13,14 @@
 
 namespace drape {
 
-/// A triangle mesh whose vertices move: where they are is a function of time alone. A mesh that keeps its place has no
-/// samples.
+/// A triangle mesh whose vertices move as a function of time. A fixed mesh has no samples.
 struct MeshMotion {
-  Mesh mesh;                       ///< its triangles hold at every time; its positions are those of the first sample
-  std::vector<double> times = {};  ///< of the samples, increasing [s]
+  Mesh mesh;                           ///< triangles for all times, and positions of the first sample
+  std::vector<double> times = {};      ///< times of the samples, ascending [s]
   std::vector<Vertices> samples = {};  ///< one per time: n×3 [m]
 
-  /// Writes the positions at a time [s], n×3 [m]: linear between two samples, which is how USD interpolates points and
-  /// matrices; before the first and after the last sample those of that sample.
+  /// Writes the positions at a time [s], n×3 [m]. Interpolates linearly between two samples, as USD does for points and
+  /// matrices; constant before the first and after the last sample.
   void place(double time, Vertices& x) const;
 };
 

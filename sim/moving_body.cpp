@@ -21,7 +21,7 @@ std::shared_ptr<const PlacedMesh> MovingBody::mesh_at(double time) const {
   shape_->place(time, scratch_);
   if (last_.rows() == scratch_.rows()) travel_ += std::sqrt((scratch_ - last_).rowwise().squaredNorm().maxCoeff());
   last_.swap(scratch_);
-  // A step looks at its start and its end: those of two times stay, and others that nobody holds are used again.
+  // Keep the shapes of two times, as a step uses its start and end; reuse others that are not referenced.
   const auto last = shapes_.end() - std::min<std::ptrdiff_t>(2, std::ssize(shapes_));
   const auto idle = std::find_if(shapes_.begin(), last, [](const Shape& s) { return s.mesh.use_count() == 1; });
   if (idle == last) {

@@ -58,7 +58,7 @@ Eigen::Vector3d PinMotion::position(std::size_t k, double time) const {
 Eigen::Vector3d PinMotion::velocity(std::size_t k, double time) const {
   if (anchors) return anchors->at(k, time).velocity;
   const auto about = turns_about_axes(turn->at(time));
-  // The turns about x, y and z one after the other: each turns what those before have made, and carries their rates.
+  // Turns about x, y and z in this order: each rotates the result and the rates of the previous ones.
   const Eigen::Vector3d rates = turn->velocity(time) * radians;
   Eigen::Vector3d arm = base.row(static_cast<Eigen::Index>(k)).transpose() - middle, rate = Eigen::Vector3d::Zero();
   for (int axis = 0; axis < 3; ++axis) {

@@ -31,7 +31,7 @@ Pose RigidMotion::at(double time) const {
   Pose pose{turn_, path_->at(time).center};
   if (turns_) pose.turn = turn_about_axes(turns_->at(time)) * turn_;
   if (!orbit_) return pose;
-  // As the path does: a whole number of periods leads back to the very start.
+  // As for the path, a whole number of periods returns exactly to the start.
   const double turns = std::remainder(time / orbit_->period, 1.0);
   if (turns != 0) pose.turn = Eigen::AngleAxisd(2 * std::numbers::pi * turns, orbit_->axis) * pose.turn;
   return pose;

@@ -15,28 +15,28 @@
 
 namespace drape {
 
-/// Turns about the fixed x, y and z axes, which follow one another.
+/// Returns the rotations about the fixed x, y and z axes, to be applied in this order.
 std::array<Eigen::Matrix3d, 3> turns_about_axes(const Eigen::Vector3d& degrees);
-/// All three.
+/// Returns the product of all three.
 Eigen::Matrix3d turn_about_axes(const Eigen::Vector3d& degrees);
 
-/// Where a body is: its own coordinates turned, then moved.
+/// Position and orientation of a body: its coordinates are rotated, then translated.
 struct Pose {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< a rotation
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< of the body's origin [m]
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< rotation
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< position of the body's origin [m]
 
-  /// From the body's coordinates to the world's, and back.
+  /// Converts from the body's coordinates to the world's; in() converts back.
   [[nodiscard]] Eigen::Vector3d out(const Eigen::Vector3d& p) const { return turn * p + place; }
   [[nodiscard]] Eigen::Vector3d in(const Eigen::Vector3d& p) const { return turn.transpose() * (p - place); }
 };
 
-/// How a body moves as a whole, as a function of time alone.
+/// Rigid motion of a body as a function of time.
 class RigidMotion {
  public:
-  /// @param path  of the body's origin; its radius does not matter
-  /// @param turn  of the body at 0 s
-  /// @param orbit if given, the body turns with it: what faces its axis goes on facing it
-  /// @param turns if given, about the axes beside its place, on top of `turn` [degrees]
+  /// @param path  of the body's origin; its radius is ignored
+  /// @param turn  orientation at 0 s
+  /// @param orbit if given, the body turns with it and keeps facing its axis
+  /// @param turns if given, rotations about axes through its origin, after `turn` [degrees]
   RigidMotion(std::shared_ptr<const SphereTrack> path, const Eigen::Matrix3d& turn,
               std::optional<Orbit> orbit = std::nullopt, std::optional<Keyframes> turns = std::nullopt);
 

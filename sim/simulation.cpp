@@ -34,24 +34,24 @@ State initial_state(const Cloth& cloth) {
 
 }  // namespace
 
-/// What a simulation is made of. Its parts refer to each other, so it stays where it is.
+/// Parts of a simulation. They refer to each other, so the object does not move in memory.
 class Simulation::Motion {
  public:
   SimulationSettings settings;
   Stop stop;
   Threads threads;
   std::vector<double> effect_seconds;
-  std::optional<System> system;  // always there, and made anew for every phase
-  std::vector<PinPhase> phases;  // by step, the first from 0 on
+  std::optional<System> system;  // always set; replaced in every phase
+  std::vector<PinPhase> phases;  // sorted by step, from 0 on
   std::size_t phase = 0;
   State state;
-  Simulation::Checkpoint before;  // the last step, where that may be needed
+  Simulation::Checkpoint before;  // state before the last step, if it may be needed
   StepForces forces;
   std::unique_ptr<StabilityGuard> guard;
   std::unique_ptr<Scheme> scheme;
   SpringNetwork springs;
-  Eigen::VectorXd per_vertex;        // for energies(), which takes nothing from the heap…
-  Vertices ignored;                  // …and this is a gradient that comes with an energy
+  Eigen::VectorXd per_vertex;        // scratch for energies(), to avoid allocations
+  Vertices ignored;                  // scratch for energies(): an unused gradient
   StabilityGuard::EnergyNow energy;  // K + E
 
   Motion(SimulationSettings given, Timing timing, const Stop& asked)
@@ -79,21 +79,21 @@ class Simulation::Motion {
   void restore(const Simulation::Checkpoint& checkpoint);
   Energies energies();
   [[nodiscard]] double time() const { return static_cast<double>(state.step) * settings.step; }
-  /// Whether a step asks anywhere but at its start.
+  /// Returns true if a step checks for a stop after its start.
   [[nodiscard]] bool may_be_interrupted() const {
     const bool long_steps = !is_explicit(settings.integrator.method) || settings.accuracy || !system->filters.empty();
     return stop.possible() && long_steps;
   }
-  /// Makes the system and the scheme for the pins of the next step, unless they are those.
+  /// Replaces the system and the scheme if the pins of the next step differ.
   void enter_phase();
-  /// Of the system, for the settings.
+  /// Returns the scheme for the system and the settings.
   std::unique_ptr<Scheme> make_scheme();
-  /// What the scheme says, or nothing where making it was interrupted.
+  /// Returns a value from the scheme, or an empty one if its creation was interrupted.
   template <class Said>
   auto said(const Said& of) const -> decltype(of(*scheme)) {
     return scheme ? of(*scheme) : decltype(of(*scheme)){};
   }
-  /// Where to add what the effects take, if that is measured.
+  /// Returns the sink for the effects' computing times, or null if they are not measured.
   std::vector<double>* measured() { return effect_seconds.empty() ? nullptr : &effect_seconds; }
   /// @param growth of the energy, see BlowUpWatch; absent: the numbers are no longer finite
   [[nodiscard]] DivergedError diverged_by(std::optional<double> growth) const {
@@ -105,11 +105,11 @@ void Simulation::Motion::enter_phase() {
   std::size_t now = phases.size() - 1;
   while (phases[now].first_step > state.step) --now;
   if (now == phase && scheme) return;
-  scheme.reset();  // it refers to the system
+  scheme.reset();  // refers to the system
   phase = now;
   settings.cloth.pins = phases[now].pins;
   system.emplace(make_system(settings, measured(), stop, threads));
-  scheme = make_scheme();  // unless interrupted
+  scheme = make_scheme();  // remains null if interrupted
 }
 
 std::unique_ptr<Scheme> Simulation::Motion::make_scheme() {
@@ -133,7 +133,7 @@ StepReport Simulation::Motion::step() {
   }
   for (const auto& filter : system->filters) report.converged = report.converged && filter->converged();
   ++state.step;
-  // What is not finite makes the sum of its squares so, and any velocity that is not moves its vertex there.
+  // Any non-finite position makes this norm non-finite, and any such velocity its vertex's position.
   if (!std::isfinite(norm(threads, state.x))) throw diverged_by(std::nullopt);
   if (const auto growth = guard->look(state, forces.push(), forces.constant(), energy)) throw diverged_by(growth);
   return report;
@@ -153,7 +153,7 @@ Energies Simulation::Motion::energies() {
   const double kinetic = 0.5 * m.dot(per_vertex);
   per_vertex.noalias() = state.x * system->gravity;
   return {.kinetic = kinetic,
-          .gravity = 0 - m.dot(per_vertex),  // and not −0
+          .gravity = 0 - m.dot(per_vertex),  // avoids −0
           .elastic = elastic};
 }
 

@@ -26,18 +26,18 @@
 
 namespace drape {
 
-/// Whether a simulation measures the computing time of its effects.
+/// Option to measure the computing time of effects.
 enum class Timing { none, effects };
 
-/// A cloth in motion: owns its state, what acts on it, and the scheme by which it advances. No files, and no threads
-/// but those that the settings ask for. The same settings give the same bits, with any number of threads. It can be
-/// moved; one that has been moved from can only be assigned to.
+/// A cloth in motion: owns its state, all that acts on it, and the scheme. It uses no files, and only the threads
+/// requested in the settings. The same settings give the same bits, with any number of threads. It can be moved; a
+/// moved-from simulation can only be assigned to.
 class Simulation {
  public:
-  /// @param settings as a scene has them: a positive step, at least one thread, and effects whose check() finds nothing
-  ///                 wrong, which is not called again
-  /// @param stop asked for as long as it lives
-  /// @throws UsageError if the settings are not valid, see require_valid(), or the motion cannot be computed, see
+  /// @param settings as from a scene: a positive step, at least one thread, and effects that pass check(), which is not
+  ///                 called again
+  /// @param stop checked during its lifetime
+  /// @throws UsageError if the settings are invalid, see require_valid(), or the motion cannot be computed, see
   ///         stability_problem() and MethodType::make
   /// @throws Interrupted
   explicit Simulation(SimulationSettings settings, Timing timing = Timing::none, const Stop& stop = {});
@@ -46,57 +46,57 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
 
   /// Advances the cloth by one step.
-  /// @throws DivergedError if a position or velocity is no longer finite, or the cloth gains energy out of
-  ///         nothing, see StabilityGuard
-  /// @throws Interrupted between any two pieces of its work. Everything that the motion depends on is then as it was
-  ///         before the step; what is said of the last step below is not.
+  /// @throws DivergedError if a position or velocity is no longer finite, or the cloth gains unexplained energy, see
+  ///         StabilityGuard
+  /// @throws Interrupted between any two pieces of its work. The state of the motion is then as before the step, but
+  ///         the data about the last step below are not.
   StepReport step();
 
-  /// Takes the last step back, where a stop is possible; once, and not if anything was restored since. For an
-  /// interruption that comes while a finished step is being examined.
+  /// Undoes the last step if a stop is possible; only once, and not after a restore. For an interruption while a
+  /// finished step is examined.
   void take_back();
 
   /// Continues from another state of the same cloth, at any step.
   void restore(const State& state);
 
-  /// All that the rest of the motion depends on, to the bit: also the step in which it diverges.
+  /// Complete state of a motion: a continued run gives the same bits, including the step in which it diverges.
   struct Checkpoint {
     State state;
-    std::optional<EnergyMemory> books;  ///< where something watches the energy
+    std::optional<EnergyMemory> books;  ///< if the energy is watched
   };
   [[nodiscard]] Checkpoint checkpoint() const;
-  /// Continues where another simulation of the same settings was, exactly as that one would have.
+  /// Restores a checkpoint of a simulation with the same settings and continues exactly like it.
   void restore(const Checkpoint& checkpoint);
 
   [[nodiscard]] const State& state() const;
-  /// A hash of the state to the bit, see hash_of(). It is the same on every run of the same settings, for every
+  /// Returns a hash of the state's bits, see hash_of(). It is the same on every run of the same settings, for every
   /// instruction set and number of threads.
   [[nodiscard]] std::uint64_t hash() const { return hash_of(state()); }
   [[nodiscard]] double time() const;  ///< [s]
-  /// Its pins are those of the last step.
+  /// Returns the cloth with the pins of the last step.
   [[nodiscard]] const Cloth& cloth() const { return settings().cloth; }
   [[nodiscard]] const SimulationSettings& settings() const;
-  /// All springs, those of effects included.
+  /// Returns all springs, including those of effects.
   [[nodiscard]] const std::vector<Spring>& springs() const;
-  /// The computing time of each effect in the steps so far [s]; empty unless it is measured. The springs
-  /// that an effect adds are not in it: they are computed together with the cloth's.
+  /// Returns the computing time of each effect so far [s]; empty unless measured. Springs of an effect are not
+  /// included, as they are computed together with the cloth's.
   [[nodiscard]] const std::vector<double>& effect_seconds() const;
 
   [[nodiscard]] Energies energies() const;
-  /// Whether a scheme solves for the end of a step in which the cloth may touch something, and nothing gives it energy:
-  /// the total can then only fall, see System::only_loses_energy().
+  /// Returns true if the scheme solves for contact and nothing adds energy, so that the total can only fall; see
+  /// System::only_loses_energy().
   [[nodiscard]] bool only_loses_energy() const;
-  /// ‖∇g‖ [N] where the last step ended, see Scheme::residual.
+  /// Returns ‖∇g‖ at the end of the last step [N], see Scheme::residual.
   [[nodiscard]] double residual() const;
-  /// The estimated error of the last step's solve [m], see Scheme::error. @throws Interrupted
+  /// Returns the estimated error of the last step's solve [m], see Scheme::error. @throws Interrupted
   [[nodiscard]] double error() const;
-  /// The forces left out of balance there [N], see Scheme::unbalanced.
+  /// Returns the residual forces of the last step [N], see Scheme::unbalanced.
   [[nodiscard]] double unbalanced() const;
-  /// Σ m‖g‖ [N].
+  /// Returns Σ m‖g‖ [N].
   [[nodiscard]] double weight() const;
-  /// When a step is accurate enough; nothing where nothing is minimised.
+  /// Returns the stopping criterion of a step; nothing for methods that minimise nothing.
   [[nodiscard]] std::optional<Accuracy> accuracy() const;
-  /// Everything that the cloth can touch, where it is at a time [s].
+  /// Returns everything that the cloth can touch, at a time [s].
   [[nodiscard]] std::vector<Collider> colliders(double time) const;
 
  private:

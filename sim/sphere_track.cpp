@@ -29,7 +29,7 @@ class Circling final : public SphereTrack {
     across_ = axis_.cross(arm_);
   }
   [[nodiscard]] SphereShape at(double time) const override {
-    // The fraction of a turn first: a whole number of periods then leads back to the very start.
+    // Reduce to a fraction of a turn first, so that a whole number of periods returns exactly to the start.
     const double turns = std::remainder(time / period_, 1.0);
     if (turns == 0) return start_;
     const double angle = 2 * std::numbers::pi * turns;

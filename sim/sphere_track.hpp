@@ -11,31 +11,31 @@
 
 namespace drape {
 
-/// Where a sphere is, as a function of time alone.
+/// Position of a sphere as a function of time.
 class SphereTrack {
  public:
   virtual ~SphereTrack() = default;
   [[nodiscard]] virtual SphereShape at(double time) const = 0;
 };
 
-/// A circle, followed at constant speed.
+/// A circular orbit at constant speed.
 struct Orbit {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< a point of its axis [m]
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< of any length but 0; counterclockwise seen from its tip
-  double period = 1;                                 ///< of a whole turn, not 0; negative: the other way round [s]
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< point on its axis [m]
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< of any nonzero length; counterclockwise seen from its tip
+  double period = 1;                                 ///< of a full turn, not 0; negative: clockwise [s]
 };
 
-/// From `start` along a straight line; velocity in m/s, 0 for a sphere that stays where it is.
+/// Returns a straight track from `start`; the velocity in m/s is 0 for a fixed sphere.
 std::shared_ptr<const SphereTrack> straight_track(const SphereShape& start, const Eigen::Vector3d& velocity);
 
-/// From `start` around an axis.
-/// @throws std::invalid_argument if the axis is 0 or the period is 0
+/// Returns a circular track from `start` around an axis.
+/// @throws std::invalid_argument if the axis or the period is 0
 std::shared_ptr<const SphereTrack> circling_track(const SphereShape& start, const Orbit& orbit);
 
-/// With its centre at the keyframes.
+/// Returns a track with its centre at the keyframes.
 std::shared_ptr<const SphereTrack> keyframed_track(double radius, Keyframes centers);
 
-/// Another track with a sphere of this radius [m].
+/// Returns another track with this radius [m].
 std::shared_ptr<const SphereTrack> with_radius(std::shared_ptr<const SphereTrack> track, double radius);
 
 }  // namespace drape

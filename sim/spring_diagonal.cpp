@@ -1,4 +1,4 @@
-// The part of SpringNetwork that sums its blocks up for each vertex.
+// Part of SpringNetwork that sums its blocks per vertex.
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 namespace drape {
 
 void SpringNetwork::add_diagonal(const Blocks& blocks, Eigen::Matrix<double, Eigen::Dynamic, 6>& diagonal) const {
-  // What is negative across a spring is left out, and of what is along it as much.
+  // Omit the negative part across a spring, and the same amount along it.
   const auto across = blocks.across.array();
   const auto along = blocks.along.array();
   Eigen::ArrayXd share(across.size());

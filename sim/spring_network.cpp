@@ -11,9 +11,9 @@
 namespace drape {
 namespace {
 
-// An entry of a band takes about a quarter of the time of a spring that is gathered by index.
+// Ratio of the times for a spring by index and for an entry of a band.
 constexpr int worth_a_band = 4;
-// What each version of the kernels handles at once; stretches are multiples of it, so that all versions divide alike.
+// Common multiple of all kernels' vector sizes. Stretches are multiples of it, so that all kernels divide alike.
 constexpr int widest_vector = 8;
 
 int offset(const Spring& s) { return s.j - s.i; }
@@ -37,7 +37,7 @@ SpringNetwork::SpringNetwork(const std::vector<Spring>& springs, int vertex_coun
 void SpringNetwork::find_bands() {
   std::map<int, int> springs_of_offset;
   for (const Spring& spring : springs_) ++springs_of_offset[offset(spring)];
-  std::vector<std::pair<int, int>> common;  // springs, offset
+  std::vector<std::pair<int, int>> common;  // number of springs, offset
   for (const auto& [distance, count] : springs_of_offset) {
     if (count * worth_a_band >= vertex_count_) common.emplace_back(-count, distance);
   }
@@ -47,7 +47,7 @@ void SpringNetwork::find_bands() {
   std::size_t scratch = 0;
   std::sort(common.begin(), common.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   for (const auto& [ignored, distance] : common) {
-    // The forces slide through the scratch: those that are still needed move to its front when its end is reached.
+    // Forces move through the scratch memory; at its end, those still needed are copied to its front.
     const std::size_t lead = padded(distance);
     const std::size_t capacity = 2 * lead + 4 * std::size_t{kernel_size};
     bands_.push_back({.offset = distance,
@@ -93,7 +93,7 @@ void SpringNetwork::cut_parts() {
     part.lead = std::max(0, part.first - lead);
     part.tail = part.end;
     if (part.end < vertex_count_) {
-      // A stretch needs the vertices up to `farthest` after it.
+      // A stretch needs up to `farthest` vertices after it.
       while (part.tail > part.first && part.tail + farthest > part.end) part.tail -= kernel_size;
     }
     if (part.first > 0) {

@@ -18,7 +18,7 @@ constexpr double tolerance = 1e-4;
 constexpr int max_iterations = 300;
 constexpr int check_every = 10;
 
-/// S v, S = M^-1/2 L M^-1/2 over the free vertices; `scale` is 1/√m, 0 on pins.
+/// Computes S v with S = M^-1/2 L M^-1/2 over the free vertices; `scale` is 1/√m, 0 on pins.
 void apply(const std::vector<Spring>& bound, const Eigen::VectorXd& scale, const Eigen::VectorXd& v,
            Eigen::VectorXd& product) {
   product.setZero();
@@ -29,21 +29,21 @@ void apply(const std::vector<Spring>& bound, const Eigen::VectorXd& scale, const
   }
 }
 
-/// A fixed vector with something of every direction in it, of norm 1, zero on pins.
+/// Returns a fixed unit vector with components in every direction, zero on pins.
 Eigen::VectorXd starting_vector(const Eigen::VectorXd& scale) {
   Eigen::VectorXd v(scale.size());
   std::uint32_t random = 1;
   for (Eigen::Index i = 0; i < v.size(); ++i) {
-    random = random * 1664525U + 1013904223U;  // Numerical Recipes' generator
+    random = random * 1664525U + 1013904223U;  // generator of Numerical Recipes
     v[i] = scale[i] == 0 ? 0 : 1 + static_cast<double>(random) / 4294967296.0;
     if (i % 2 == 1) v[i] = -v[i];
   }
   return v.norm() > 0 ? Eigen::VectorXd(v.normalized()) : v;
 }
 
-/// The largest eigenvalue of a tridiagonal matrix T from above, to 1e-12 of it, between a number that it is not below
-/// and Gershgorin's bound: all pivots of value·I − T are positive where the value is above it, and it is halved for.
-/// Eigen would find all of them, in more operations than the iterations of a small cloth.
+/// Returns the largest eigenvalue of a tridiagonal matrix T from above, to a relative 1e-12, by bisection between a
+/// lower bound and Gershgorin's bound. A value is above it if all pivots of value·I − T are positive. Eigen would
+/// compute all eigenvalues, which for small cloth takes longer than the Lanczos iterations.
 double largest_of_tridiagonal(const std::vector<double>& alpha, const std::vector<double>& beta, double least) {
   const std::size_t k = alpha.size();
   double most = least;
@@ -63,9 +63,9 @@ double largest_of_tridiagonal(const std::vector<double>& alpha, const std::vecto
   return most;
 }
 
-/// The last component of the unit eigenvector that belongs to the largest eigenvalue of a tridiagonal matrix T: with
-/// value·I − T = L D Lᵀ the last entry of D is zero, and the vector the solution of Lᵀ p = (0, …, 0, 1) but for its
-/// length. All of them by Eigen would take k³ operations, more than the iterations of a small cloth.
+/// Returns the last component of the unit eigenvector for the largest eigenvalue of a tridiagonal matrix T. With
+/// value·I − T = L D Lᵀ the last entry of D is zero, and the vector solves Lᵀ p = (0, …, 0, 1) up to its length. Eigen
+/// would take k³ operations for all eigenvectors, more than the Lanczos iterations of a small cloth.
 double last_component(const std::vector<double>& alpha, const std::vector<double>& beta, double value) {
   const std::size_t k = alpha.size();
   std::vector<double> pivots(k);
@@ -77,11 +77,11 @@ double last_component(const std::vector<double>& alpha, const std::vector<double
     component *= beta[i] / pivots[i];
     squares += component * component;
   }
-  // A pivot of zero, from which no number comes: it had converged before.
+  // NaN from a zero pivot: the iteration had converged before.
   return std::isnan(squares) ? 0 : 1 / std::sqrt(squares);
 }
 
-/// An upper bound of the largest eigenvalue of S [1/s²].
+/// Returns an upper bound on the largest eigenvalue of S [1/s²].
 double largest_eigenvalue(const std::vector<Spring>& bound_of_stiffness, const Eigen::VectorXd& scale,
                           const Stop& stop) {
   Eigen::VectorXd v = starting_vector(scale), previous = Eigen::VectorXd::Zero(v.size()), w(v.size());
@@ -97,9 +97,9 @@ double largest_eigenvalue(const std::vector<Spring>& bound_of_stiffness, const E
     if (!std::isfinite(alpha.back() + beta.back())) return std::numeric_limits<double>::infinity();
     const bool exhausted = beta.back() <= std::numeric_limits<double>::epsilon() * std::abs(alpha.front());
     if (exhausted || k % check_every == 0) {
-      // None is below the one of fewer iterations, as the matrices of those are parts of this one.
+      // The value never falls below that of fewer iterations, whose matrices are submatrices of this one.
       value = largest_of_tridiagonal(alpha, beta, value);
-      // The residual of the Ritz vector bounds how far the eigenvalue can be.
+      // The residual of the Ritz vector bounds the error of the eigenvalue.
       const double error = beta.back() * last_component(alpha, beta, value);
       bound = value + error;
       if (exhausted || error <= tolerance * value) break;
@@ -110,7 +110,7 @@ double largest_eigenvalue(const std::vector<Spring>& bound_of_stiffness, const E
   return bound;
 }
 
-/// A number for all that an eigenvalue depends on.
+/// Fingerprint of all inputs of an eigenvalue.
 struct Fingerprint {
   std::array<std::uint64_t, 2> state{0x9e3779b97f4a7c15U, 0xc2b2ae3d27d4eb4fU};
 
@@ -132,7 +132,7 @@ Fingerprint fingerprint(const std::vector<Spring>& bound, const Eigen::VectorXd&
   return result;
 }
 
-/// The same, remembered: whoever checks a scene asks first, whoever simulates it asks again.
+/// Returns the same bound, cached: a scene's check asks for it before its simulation does.
 double remembered_largest_eigenvalue(const std::vector<Spring>& bound, const Eigen::VectorXd& scale, const Stop& stop) {
   static std::mutex mutex;
   static std::optional<std::pair<Fingerprint, double>> last;
@@ -147,14 +147,14 @@ double remembered_largest_eigenvalue(const std::vector<Spring>& bound, const Eig
   return value;
 }
 
-/// The exponent of a power of four of about this size.
+/// Returns an even binary exponent of about this size.
 int even_exponent(double size) {
   int exponent = 0;
   std::frexp(size, &exponent);
   return std::isfinite(size) ? exponent / 2 * 2 : 0;
 }
 
-/// The sum of what bounds the forces that depend on the place [1/s²].
+/// Returns the sum of bounds of position-dependent forces [1/s²].
 double pushes_bound(const System& system) {
   double pushes = 0;
   for (const auto& force : system.forces) pushes += force->stiffness_bound();
@@ -169,8 +169,8 @@ double safe_step(const System& system) {
   for (const PinRelease& release : system.pin_releases) {
     for (const int vertex : release.vertices) free[vertex] = 1;
   }
-  // In units of about the largest stiffness and the least mass, so that no product leaves the range of a double. They
-  // are powers of four, which change no bit of the result.
+  // Scale to about the largest stiffness and the smallest mass, to keep products within the range of a double. The
+  // units are powers of four and change no bit of the result.
   std::vector<Spring> bound;
   system.stiffness_bound().for_each_pair([&](const Spring& pair) { bound.push_back(pair); });
   double stiffest = 0;

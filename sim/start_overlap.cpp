@@ -11,7 +11,7 @@
 namespace drape {
 namespace {
 
-/// How deep points are inside of a shape; 0 outside [m].
+/// Visitor that records the depth of points inside a shape [m].
 struct DepthIn {
   const Vertices& x;
   const std::vector<int>& vertices;
@@ -39,7 +39,7 @@ struct DepthIn {
  private:
   template <class Depth>
   void note(const Depth& depth_of) const {
-    // What lies in the surface to rounding is not inside of it.
+    // Points on the surface, up to rounding, are not inside.
     const double rounding = 1e-12 * std::max(1.0, x.cwiseAbs().maxCoeff());
     for (const int i : vertices) {
       const double depth = depth_of(x.row(i).transpose());

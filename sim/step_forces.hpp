@@ -4,30 +4,29 @@
 
 namespace drape {
 
-/// What acts on a cloth in a step, evaluated where and when a scheme asks for it. What is the same in every state is
-/// summed once.
+/// Forces on a cloth in a step, evaluated at the states and times that a scheme requests. Constant forces are summed
+/// once.
 class StepForces {
  public:
-  /// @param system may be made anew at the same place for a cloth with other pins
+  /// @param system may be replaced in place by one for a cloth with other pins
   StepForces(const System& system, const State& start);
 
-  /// The sum of all forces in a state at a time [s], n×3 [N]. Holds until the next call.
+  /// Returns the sum of all forces at a state and a time [s], n×3 [N]. Valid until the next call.
   const Vertices& all(const State& state, double time);
 
-  /// Of those that do not depend on the velocities.
+  /// Returns the sum of forces that do not depend on velocities.
   const Vertices& of_place(const State& state, double time);
 
-  /// Whether any depends on the velocities.
+  /// Returns true if any force depends on velocities.
   [[nodiscard]] bool any_of_velocity() const;
-  /// force = the sum of those that do.
+  /// Sets force = the sum of forces that depend on velocities.
   void of_velocity(const State& state, double time, Vertices& force) const;
-  /// Takes note of what those did in the step on average [N].
+  /// Records the mean of velocity-dependent forces in the step [N].
   void note(const Vertices& of_velocity);
 
-  /// What acted in the last step on average, as far as the scheme has asked for it and taken note, for books of its
-  /// work.
+  /// Returns the mean force in the last step, as far as evaluated and recorded, for the energy balance [N].
   [[nodiscard]] const Vertices& push() const { return *push_; }
-  /// Whether that is the same in every step.
+  /// Returns true if the mean force is the same in every step.
   [[nodiscard]] bool constant() const { return push_ == &constant_; }
 
  private:

@@ -10,7 +10,7 @@ namespace drape {
 namespace {
 
 constexpr double unit = std::numeric_limits<double>::epsilon();
-constexpr double units = 4;  // roundings on the way to a term of the energy, or to a force
+constexpr double units = 4;  // number of roundings in a term of the energy or in a force
 
 }  // namespace
 
@@ -82,7 +82,7 @@ void StepObjective::place_of_start_forces(Vertices& x, Vertices& gradient) const
   copy(threads(), *start_x_, x);
   for (const int pin : system_.cloth.pins) x.row(pin) = y_.row(pin);
   evaluate(x, gradient);
-  // ∇g(x₀) = M/τ² (x₀ − y) + ∇E(x₀), so what is asked for is x₀ − τ² M⁻¹ ∇g(x₀).
+  // ∇g(x₀) = M/τ² (x₀ − y) + ∇E(x₀), so the result is x₀ − τ² M⁻¹ ∇g(x₀).
   for (int axis = 0; axis < 3; ++axis) x.col(axis).array() -= push_.array() * gradient.col(axis).array();
 }
 
@@ -128,7 +128,7 @@ double StepObjective::error_bound(const Vertices& gradient) const {
 }
 
 double StepObjective::error_rounding() const {
-  constexpr double several = 64;  // measured: Newton's method ends at 0.1 to 2 of one, L-BFGS at up to 160
+  constexpr double several = 64;  // measured: Newton's method ends at 0.1 to 2 times one unit, L-BFGS at up to 160
   return several * unit * stiffness_ratio_ * y_.cwiseAbs().maxCoeff();
 }
 

@@ -11,14 +11,14 @@
 
 namespace drape {
 
-/// How a step was computed.
+/// Report of how a step was computed.
 struct StepReport {
-  int iterations = 0;     ///< linear solves; 0 for a method that has none
-  bool converged = true;  ///< whether the stopping rule was met within max_iterations, and every motion filter's too
-  double kept = 1;        ///< the fraction of the way to the last iterate that the step took, see BackwardEuler
-  double rise = 0;        ///< the largest increase of g in an iteration that rounding does not explain [J]: a fault
-  std::int64_t substeps = 1;       ///< that the step was cut into, see SubstepScheme
-  std::optional<double> estimate;  ///< of the error that the step has added [m], where an accuracy is asked for
+  int iterations = 0;              ///< linear solves; 0 for a method that has none
+  bool converged = true;           ///< true if the stopping rule and every motion filter converged within their limits
+  double kept = 1;                 ///< fraction of the path to the last iterate that the step kept, see BackwardEuler
+  double rise = 0;                 ///< largest increase of g in an iteration beyond rounding [J]: a fault
+  std::int64_t substeps = 1;       ///< number of substeps, see SubstepScheme
+  std::optional<double> estimate;  ///< error added by the step [m], if an accuracy is set
 };
 
 }  // namespace drape

@@ -15,25 +15,25 @@
 
 namespace drape {
 
-/// Thrown by a computation that was told to end before it was done. No error: there is nothing to report.
+/// Thrown by a computation that was told to stop. Not an error: there is nothing to report.
 struct Interrupted final : std::exception {
   [[nodiscard]] const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// A question that a computation asks between pieces of work of a few milliseconds: whether to end. What is in the
-/// hands of a library, such as a sparse factorisation, asks before and after.
+/// A stop request that a computation checks between pieces of work of a few milliseconds. Library calls, such as a
+/// sparse factorisation, run to their end between two checks.
 class Stop {
  public:
-  /// The answer is always no.
+  /// Creates an object that never stops.
   Stop() = default;
-  /// @param asked on the thread that computes; should take no time
+  /// @param asked returns true to stop; called on the computing thread, so it should be fast
   explicit Stop(std::function<bool()> asked)
       : asked_(std::make_shared<const std::function<bool()>>(std::move(asked))) {}
 
-  /// Whether anybody is asked at all.
+  /// Returns false if it can never stop.
   [[nodiscard]] bool possible() const { return asked_ != nullptr; }
 
-  /// @throws Interrupted if the answer is yes
+  /// @throws Interrupted if a stop is requested
   void look() const {
     if (asked_ && (*asked_)()) throw Interrupted();
   }

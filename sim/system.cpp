@@ -7,7 +7,7 @@
 namespace drape {
 namespace {
 
-constexpr int most_turns = 4;  // of filters that undo one another's changes
+constexpr int most_turns = 4;  // of filters that undo each other's changes
 
 }  // namespace
 

@@ -16,36 +16,36 @@
 
 namespace drape {
 
-/// A force that is evaluated a fixed number of times in a step, see StepForces.
+/// A force that is evaluated a fixed number of times per step, see StepForces.
 struct Force {
   virtual ~Force() = default;
-  /// Whether it is the same at every time and in every state.
+  /// Returns true if it is the same at every time and in every state.
   [[nodiscard]] virtual bool constant() const { return false; }
-  /// Whether it depends on the velocities.
+  /// Returns true if it depends on velocities.
   [[nodiscard]] virtual bool of_velocity() const { return false; }
-  /// Whether it pushes what touches something away from it, see ColliderMotion.
+  /// Returns true if it pushes the cloth away from an obstacle, see ColliderMotion.
   [[nodiscard]] virtual bool of_contact() const { return false; }
-  /// Adds the force on every vertex [N] at the given time [s].
+  /// Adds the force on every vertex at a time [s] [N].
   virtual void add(const State& state, double time, Vertices& force) const = 0;
-  /// By how much the acceleration of a vertex changes at most with its place, as if it hung on a spring of this
-  /// stiffness for each kilogram [1/s²].
+  /// Returns a bound on the change of a vertex's acceleration with its position, like a spring's stiffness per mass
+  /// [1/s²].
   [[nodiscard]] virtual double stiffness_bound() const { return 0; }
 };
 
 class FieldDrag;
 
-/// An upper bound of Hessians that holds in every shape and at every time,
+/// An upper bound on Hessians for all positions and times,
 ///   B = Σ k (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ I₃ + diag(d) ⊗ I₃.
 struct StiffnessBound {
-  std::span<const Spring> springs = {};  ///< those of the system, which this refers to
-  /// The pairs i < j of vertices that energies couple, each once for every energy: springs of the stiffness k, which
-  /// may be negative, and of no length.
+  std::span<const Spring> springs = {};  ///< springs of the system, by reference
+  /// Pairs i < j of vertices coupled by energies, each once per energy. They act as springs of zero length with
+  /// stiffness k, which may be negative.
   std::vector<Spring> pairs = {};
-  Eigen::VectorXd vertices = {};  ///< d, of vertices by themselves, n [N/m]
+  Eigen::VectorXd vertices = {};  ///< d, per vertex, n [N/m]
 
-  /// How many there are of both.
+  /// Returns the number of springs and pairs.
   [[nodiscard]] std::size_t pair_count() const { return springs.size() + pairs.size(); }
-  /// Visits the springs, and then the pairs.
+  /// Visits the springs, then the pairs.
   template <class Visit>
   void for_each_pair(const Visit& visit) const {
     for (const Spring& spring : springs) visit(spring);
@@ -53,83 +53,81 @@ struct StiffnessBound {
   }
 };
 
-/// Adds to both ends of a pair the sum of its row there, |k| + |−k|: where these are added up for all pairs, no
-/// eigenvalue exceeds the largest sum (Gershgorin's theorem) [N/m].
+/// Adds a pair's row sums |k| + |−k| to both of its vertices. Summed over all pairs, the largest sum bounds every
+/// eigenvalue (Gershgorin's theorem) [N/m].
 inline void add_row_sums(const Spring& pair, Eigen::VectorXd& sums) {
   sums[pair.i] += 2 * std::abs(pair.stiffness);
   sums[pair.j] += 2 * std::abs(pair.stiffness);
 }
 
-/// A Hessian as its symmetric blocks K,
+/// A Hessian as symmetric blocks K,
 ///   H = Σ (eᵢ − eⱼ)(eᵢ − eⱼ)ᵀ ⊗ K + Σ eᵢ eᵢᵀ ⊗ K.
 struct HessianBlocks {
   std::vector<Eigen::Matrix3d> pairs;  ///< in the order of StiffnessBound::pairs [N/m]
-  /// Of vertices by themselves: xx, xy, xz, yy, yz, zz. n×6 [N/m]
+  /// Blocks of single vertices: xx, xy, xz, yy, yz, zz. n×6 [N/m]
   Eigen::Matrix<double, Eigen::Dynamic, 6> vertices;
 };
 
-/// The Hessian of an energy at one place and time, or a part of it. An object of its own, as only some methods need
-/// what it keeps.
+/// The Hessian of an energy at given positions and time, or a part of it. It is separate because only some methods need
+/// its memory.
 struct EnergyHessian {
   virtual ~EnergyHessian() = default;
-  /// Takes the places x, n×3 [m], and the time [s].
-  /// @param concavity share of the negative eigenvalues that it has, from 0 to 1; an energy may leave out small ones
+  /// Evaluates the Hessian at positions x, n×3 [m], and a time [s].
+  /// @param concavity fraction of the negative eigenvalues to keep, 0 to 1; an energy may omit small ones
   virtual void linearise(const Vertices& x, double time, double concavity) = 0;
-  /// product += H·vector, both n×3.
+  /// Adds H·vector to the product, both n×3.
   virtual void add_product(const Vertices& vector, Vertices& product) const = 0;
   /// Appends the blocks of its pairs, and adds those of vertices.
   virtual void add_blocks(HessianBlocks& blocks) const = 0;
 };
 
-/// An energy E(x, t) ≥ 0 of the cloth, beside that of its springs.
+/// An energy E(x, t) ≥ 0 of the cloth other than that of its springs.
 struct Energy {
   virtual ~Energy() = default;
-  /// gradient += ∇E, n×3 [N]; returns E [J]. One pass.
+  /// Adds ∇E to the gradient, n×3 [N]; returns E [J], in one pass.
   virtual double add_gradient(const Vertices& x, double time, Vertices& gradient) const = 0;
-  /// Appends its pairs, and adds what bounds its Hessian at vertices.
+  /// Appends its pairs, and adds its bounds at vertices.
   virtual void add_bound(StiffnessBound& bound) const = 0;
-  /// Refers to this energy, which must outlive it.
+  /// Returns a Hessian that refers to this energy, which must outlive it.
   [[nodiscard]] virtual std::unique_ptr<EnergyHessian> make_hessian() const = 0;
 };
 
 /// A change of the velocity at the end of a step.
 struct Correction {
   virtual ~Correction() = default;
-  /// Changes state.v after a step of h seconds. Semi-implicit Euler moves with the changed velocity.
+  /// Changes state.v after a step of h seconds. Semi-implicit Euler then moves with the changed velocity.
   virtual void apply(State& state, double h) const = 0;
 };
 
-/// A change of the motion of a step before the vertices move: contact, friction, limits of strain (after Bridson,
-/// Fedkiw and Anderson 2002, section 4: whatever the integrator, a step ends at x + h·v with v corrected for what it
-/// would do).
+/// A change of a step's motion before the vertices move: contact, friction, strain limits. After Bridson, Fedkiw and
+/// Anderson 2002, section 4: with any integrator a step ends at x + h·v with a corrected v.
 struct MotionFilter {
   virtual ~MotionFilter() = default;
-  /// Takes note of the state in which a step begins at `time` [s], before anything has acted.
+  /// Receives the state at the start of a step at `time` [s], before anything has acted.
   virtual void begin(const State& /*state*/, double /*time*/) {}
-  /// Changes v, the velocities n×3 [m/s] with which the cloth is about to go from x to x + h·v, between `time` and
-  /// time + h [s]. Leaves the rows of pinned vertices as they are. What it keeps between calls is memory only: the
-  /// result depends on the arguments alone.
+  /// Changes v, the velocities n×3 [m/s] of the move from x to x + h·v, between `time` and time + h [s]. Keeps the rows
+  /// of pinned vertices. Data kept between calls are scratch memory: the result depends only on the arguments.
   virtual void apply(const Vertices& x, double time, double h, Vertices& v) = 0;
-  /// Lets what it is for hold again where other filters have changed v since, as a part of the same change: the filters
-  /// of a step take turns until nothing is left to change. Returns whether it has changed v.
+  /// Restores the filter's condition after other filters have changed v, as part of the same change. The filters of a
+  /// step take turns until none changes v. Returns true if it has changed v.
   virtual bool adjust(const Vertices& /*x*/, double /*time*/, double /*h*/, Vertices& /*v*/) { return false; }
-  /// Makes of the velocities with which the vertices have moved those that they have where they are now: what bounces
-  /// on its way ends it with another velocity than it went with on average.
+  /// Converts the mean velocities of the step into final ones. A vertex that bounces on its way has a different final
+  /// velocity.
   virtual void finish(Vertices& /*v*/) {}
-  /// How the last call held the cloth back, if the next step's will do so, too.
+  /// Returns the restraint of the last call, if the next step can expect the same.
   [[nodiscard]] virtual const Restraint* restraint() const { return nullptr; }
-  /// Whether the last call did all that the filter is for, rather than stop at its cap.
+  /// Returns true if the last call converged before its iteration limit.
   [[nodiscard]] virtual bool done() const { return true; }
-  /// Whether it did so, and no other filter has undone it since.
+  /// Returns true if it converged and no other filter has undone it since.
   [[nodiscard]] bool converged() const { return settled_ && done(); }
-  /// Takes note of whether the filters of the step have come to an end together.
+  /// Records if the filters of the step have converged together.
   void note(bool settled) { settled_ = settled; }
 
-  /// What to look at in the loops of apply().
+  /// Sets the stop request that the loops of apply() check.
   void heed(const Stop& stop) { stop_ = stop; }
 
  protected:
-  /// @throws Interrupted if it is to end
+  /// @throws Interrupted if a stop is requested
   void look_at_stop() const { stop_.look(); }
 
  private:
@@ -137,109 +135,106 @@ struct MotionFilter {
   bool settled_ = true;
 };
 
-/// Something the cloth can touch, whose place is a function of time.
+/// An obstacle whose position is a function of time.
 struct ColliderMotion {
   virtual ~ColliderMotion() = default;
   [[nodiscard]] virtual Collider at(double time) const = 0;
-  /// Whether it is the same at every time.
+  /// Returns true if it is the same at every time.
   [[nodiscard]] virtual bool rests() const = 0;
 };
 
-/// What acts on a cloth, as the schemes evaluate it. Filled by the effects a scene calls for, in the order of the
-/// registry; a scene without effects leaves every list empty.
+/// All that acts on a cloth, in the form that schemes evaluate. The effects of a scene add to its lists in the order of
+/// the registry; without effects every list is empty.
 struct System {
   const Cloth& cloth;
   double step;                                        ///< h [s]
-  double whole_step;                                  ///< that h is a part of [s]…
-  std::int64_t substeps = 1;                          ///< …which has so many of them
-  Stop stop = {};                                     ///< of everything that computes with it
-  const Threads& threads;                             ///< that share what is worth dividing
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²], for the log's gravity column only
+  double whole_step;                                  ///< duration of an undivided step [s]
+  std::int64_t substeps = 1;                          ///< number of h in an undivided step
+  Stop stop = {};                                     ///< for all computations with this system
+  const Threads& threads;                             ///< for passes worth dividing
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< for the gravity column of the log only [m/s²]
 
-  std::vector<Spring> springs;  ///< the cloth's and those that effects add
+  std::vector<Spring> springs;  ///< of the cloth and of effects
   std::vector<std::unique_ptr<Force>> forces;
-  /// Those of single vertices that depend on their velocities, and on nothing else that moves. Such a force has no
-  /// potential; taken at the start of a step it would give the cloth energy that it has not. Every scheme solves for
-  /// the velocity that it acts on, see FieldSolve and FieldKick.
+  /// Forces on single vertices that depend on their velocities and nothing else that moves. Such a force has no
+  /// potential. Evaluated at the start of a step, it could add energy. So every scheme solves for the velocity that it
+  /// acts on, see FieldSolve and FieldKick.
   std::vector<std::unique_ptr<Force>> fields;
   std::vector<std::unique_ptr<Energy>> energies;
-  FieldDrag* drag =
-      nullptr;  ///< the one of the energies that stands for the fields in an implicit step, if there are any
+  FieldDrag* drag = nullptr;  ///< energy for the fields in an implicit step, if there are any
   std::vector<std::unique_ptr<Correction>> corrections;
   std::vector<std::unique_ptr<MotionFilter>> filters;
   std::vector<std::unique_ptr<ColliderMotion>> colliders;
-  std::vector<std::shared_ptr<ContactSource>> contacts;  ///< what the cloth can touch
-  std::vector<PinMotion> pin_motions;                    ///< of pins that do not stay where they are
-  std::vector<PinRelease> pin_releases;  ///< a simulation makes its system anew, without these pins, when it gets there
+  std::vector<std::shared_ptr<ContactSource>> contacts;  ///< everything that the cloth can touch
+  std::vector<PinMotion> pin_motions;                    ///< of pins that move
+  std::vector<PinRelease> pin_releases;  ///< at each release, a simulation makes a new system without these pins
 
   System(const Cloth& c, double h, const Threads& by = one_thread())
       : cloth(c), step(h), whole_step(h), threads(by), springs(c.springs) {}
 
-  /// What no Hessian of the springs and the energies exceeds: the springs, then the energies one after another.
+  /// Returns an upper bound on all Hessians: of the springs, then of the energies in order.
   [[nodiscard]] StiffnessBound stiffness_bound() const;
 
-  /// Where everything is that the cloth can touch, at a time [s].
+  /// Returns everything that the cloth can touch, at a time [s].
   [[nodiscard]] std::vector<Collider> colliders_at(double at) const;
 
-  /// Whether nothing gives the cloth energy: it can touch only what rests and itself, no pin is moved, and gravity
-  /// alone acts from afar. Then kinetic, elastic and potential energy together can only fall.
+  /// Returns true if nothing adds energy: the cloth touches only itself and fixed obstacles, no pin moves, and gravity
+  /// is the only other force. Then the total of kinetic, elastic and potential energy can only fall.
   [[nodiscard]] bool only_loses_energy() const;
 
-  /// When a step begins, and so the one before it ends [s]: never a running sum.
+  /// Returns the time at the start of a step, which ends the previous one [s]. It is never a running sum.
   [[nodiscard]] double time(std::int64_t number) const {
     const std::int64_t whole = number / substeps, part = number % substeps;
     return static_cast<double>(whole) * whole_step + static_cast<double>(part) * step;
   }
 
-  /// m/τ² of every vertex [N/m], the inertia that holds it in an implicit step of τ seconds.
+  /// Returns the inertia m/τ² of every vertex in an implicit step of τ seconds [N/m].
   [[nodiscard]] Eigen::VectorXd inertia(double duration) const { return cloth.masses / (duration * duration); }
 
-  /// Shows every filter the state in which a step begins.
+  /// Passes the state at the start of a step to every filter.
   void begin(const State& state) const {
     for (const auto& filter : filters) filter->begin(state, time(state.step));
   }
 
-  /// Writes where the pins that move are at a time [s] into their rows of x.
+  /// Writes the moving pins' positions at a time [s] into their rows of x.
   void place_pins(double at, Vertices& x) const {
     for (const PinMotion& motion : pin_motions) motion.place(at, x);
   }
 
-  // What ends every step of Euler's, whose velocities are those with which the cloth goes. One that computes them
-  // corrects them before it moves by them; one that solves for where the cloth is moves first.
+  // End of a step of Euler schemes, whose velocities are mean velocities of the step. Explicit ones correct velocities
+  // before the move, implicit ones after it.
 
-  /// Moves the cloth to the end of the step that begins at state.step: lets every filter change its velocities, and
-  /// goes x + h·v. Takes note of what held it back.
-  /// @param reached if given, where that is without filters, to the bit
+  /// Moves the cloth to the end of the step that begins at state.step: lets every filter change the velocities, then
+  /// adds h·v to x. Records the restraint.
+  /// @param reached if given, the exact final positions without filters
   void move(State& state, const Vertices* reached) const;
 
-  /// Applies every correction to the velocities of that step, and gives the pins that move theirs.
+  /// Applies every correction to the velocities of that step, and sets those of moving pins.
   void correct(State& state) const {
     for (const auto& correction : corrections) correction->apply(state, step);
     for (const PinMotion& motion : pin_motions) motion.drive(time(state.step), time(state.step + 1), state.v);
   }
 
-  // What begins and ends a step of a scheme of second order, whose velocities are those of the moment.
+  // Start and end of a step of second-order schemes, whose velocities are instantaneous.
 
-  /// Applies half of what every correction does in a step: once before all else and once after it, which is of second
-  /// order (Strang 1968) where corrections commute.
+  /// Applies every correction for half a step. Done before and after all else it has second order (Strang 1968) if
+  /// corrections commute.
   void correct_half(State& state) const {
     for (const auto& correction : corrections) correction->apply(state, step / 2);
   }
 
-  /// Moves the cloth to where it has been computed to be at the end of the step that begins at state.step. What the
-  /// filters change about the velocities with which it goes there, (reached − x)/h, is added to state.v. Takes note of
-  /// what held it back.
+  /// Moves the cloth to its computed positions at the end of the step that begins at state.step. Changes that filters
+  /// make to the mean velocities, (reached − x)/h, are added to state.v. Records the restraint.
   /// @param way scratch, n×3
   void move(State& state, const Vertices& reached, Vertices& way) const;
 
-  /// Gives the pins that move the velocity that they have at a time [s].
+  /// Sets the velocities of moving pins at a time [s].
   void drive_pins(double at, Vertices& v) const {
     for (const PinMotion& motion : pin_motions) motion.drive(at, v);
   }
 
  private:
-  /// Lets every filter change the velocities with which the cloth goes from state.x, and notes in the state what held
-  /// it back.
+  /// Lets every filter change the velocities of the move from state.x, and records the restraint in the state.
   void filter(State& state, Vertices& way) const;
 };
 

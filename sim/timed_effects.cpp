@@ -6,7 +6,7 @@
 namespace drape {
 namespace {
 
-/// Adds the time that it lives to a number of seconds.
+/// Timer that adds its lifetime to a number of seconds.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}

@@ -4,7 +4,7 @@
 
 namespace drape {
 
-/// How much of each list of a system there is at one moment.
+/// Sizes of a system's lists at one moment.
 struct SystemSizes {
   std::size_t forces, fields, energies, corrections, filters, contacts;
   explicit SystemSizes(const System& system)
@@ -16,8 +16,8 @@ struct SystemSizes {
         contacts(system.contacts.size()) {}
 };
 
-/// Makes everything that was added to the system after `before` add the seconds it takes to `seconds`, which must
-/// outlive the system. What is not timed pays nothing for that it could be.
+/// Wraps everything added to the system after `before` so that its computing time is added to `seconds`, which must
+/// outlive the system. Without timing there is no overhead.
 void time_additions(System& system, const SystemSizes& before, double& seconds);
 
 }  // namespace drape

@@ -30,7 +30,7 @@ void require_valid(const SimulationSettings& settings) {
   const Cloth& cloth = settings.cloth;
   const int vertices = cloth.vertex_count();
   require_rows("velocities", cloth.velocities.rows(), vertices);
-  if (cloth.rest.rows() > 0) require_rows("rest positions", cloth.rest.rows(), vertices);  // springs do without
+  if (cloth.rest.rows() > 0) require_rows("rest positions", cloth.rest.rows(), vertices);  // springs do not need it
   require_rows("masses", cloth.masses.size(), vertices);
   for (const Triangle& triangle : cloth.triangles) {
     for (const int vertex : triangle) require_vertex("triangle", vertex, vertices);

@@ -4,9 +4,9 @@
 
 namespace drape {
 
-/// Looks at what a program has set before anything is computed from it: the step is positive, every list of the cloth
-/// has an entry for each vertex (rest may be empty), and triangles, springs and pins name vertices that there are.
-/// @throws UsageError that says what was expected and found
+/// Validates settings before a computation. The step must be positive, and every list of the cloth must have an entry
+/// for each vertex (rest may be empty). Triangles, springs and pins must refer to existing vertices.
+/// @throws UsageError with the expected and the found value
 void require_valid(const SimulationSettings& settings);
 
 }  // namespace drape

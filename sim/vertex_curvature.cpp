@@ -12,14 +12,14 @@ namespace {
 /// A triangle at an edge.
 struct Side {
   int triangle;
-  bool forwards;  // whether it goes along the edge from the smaller number to the larger
+  bool forwards;  // true if it runs along the edge from the smaller vertex number to the larger
 };
 
 }  // namespace
 
 VertexCurvature::VertexCurvature(int vertex_count, const std::vector<Triangle>& triangles)
     : vertex_count_(vertex_count), triangles_(triangles) {
-  std::map<Edge, std::vector<Side>> edges;  // in the order of their vertices, so that sums have one order
+  std::map<Edge, std::vector<Side>> edges;  // sorted by vertices, for a fixed order of sums
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (std::size_t c = 0; c < 3; ++c) {
       const int p = triangles[t][c], q = triangles[t][(c + 1) % 3];
@@ -35,7 +35,7 @@ VertexCurvature::VertexCurvature(int vertex_count, const std::vector<Triangle>& 
 
 Eigen::VectorXd VertexCurvature::operator()(const Vertices& positions) const {
   Eigen::VectorXd area = Eigen::VectorXd::Zero(vertex_count_), bent = area;
-  Vertices normals(static_cast<Eigen::Index>(triangles_.size()), 3);  // as long as twice the triangles' areas
+  Vertices normals(static_cast<Eigen::Index>(triangles_.size()), 3);  // with the length of twice the triangles' areas
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
     const Eigen::Vector3d ab = positions.row(b) - positions.row(a), ac = positions.row(c) - positions.row(a);

@@ -10,14 +10,14 @@ namespace {
 
 using Edges = Eigen::Matrix<double, 3, 2>;
 
-/// From a triangle's first vertex to its second and its third.
+/// Returns the edges from a triangle's first vertex to its second and third.
 Edges edges_of(const Vertices& x, const Triangle& t) {
   Edges edges;
   edges << (x.row(t[1]) - x.row(t[0])).transpose(), (x.row(t[2]) - x.row(t[0])).transpose();
   return edges;
 }
 
-/// The larger singular value, from the closed form of the eigenvalues of FᵀF.
+/// Returns the larger singular value, from the closed form of the eigenvalues of FᵀF.
 double largest_singular_value(const Edges& f) {
   const double a = f.col(0).squaredNorm(), b = f.col(0).dot(f.col(1)), d = f.col(1).squaredNorm();
   return std::sqrt((a + d) / 2 + std::hypot((a - d) / 2, b));
@@ -31,7 +31,7 @@ VertexStretch::VertexStretch(const Vertices& rest, const std::vector<Triangle>& 
     const Edges edges = edges_of(rest, triangle);
     const double area = edges.col(0).cross(edges.col(1)).norm() / 2;
     if (!(area > 0)) continue;
-    // The triangle in its own plane: its first edge along x.
+    // Place the triangle in its own plane, with its first edge along x.
     const Eigen::Vector3d x = edges.col(0).normalized();
     Eigen::Matrix2d flat;
     flat << edges.col(0).norm(), x.dot(edges.col(1)), 0, 2 * area / edges.col(0).norm();

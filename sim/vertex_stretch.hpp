@@ -7,15 +7,16 @@
 
 namespace drape {
 
-/// How far a cloth is stretched at each of its vertices: the largest principal stretch of the triangles around it, that
-/// is the largest singular value of their deformation gradient F (1: as at rest), averaged by their areas at rest. A
-/// cloth that is stretched by s in any one direction, and not in the other, has s everywhere, however it is meshed.
+/// Stretch of a cloth at each vertex: the largest principal stretch of the triangles around it, averaged by their rest
+/// areas. That is the largest singular value of the deformation gradient F (1: at rest). A cloth stretched by s in one
+/// direction only has s everywhere, on any mesh.
 class VertexStretch {
  public:
-  /// @param rest      n×3, the shape without strain [m]
-  /// @param triangles of it; those without an area at rest say nothing
+  /// @param rest      n×3, unstrained shape [m]
+  /// @param triangles of the cloth; those without a rest area are ignored
   VertexStretch(const Vertices& rest, const std::vector<Triangle>& triangles);
 
+  /// Returns the stretch.
   /// @param positions n×3 [m]
   /// @returns n; 1 at vertices without a triangle
   [[nodiscard]] Eigen::VectorXd operator()(const Vertices& positions) const;
@@ -27,7 +28,7 @@ class VertexStretch {
     double area;              // at rest [m²]
   };
   std::vector<Element> elements_;
-  Eigen::VectorXd areas_;  // of the triangles around each vertex
+  Eigen::VectorXd areas_;  // sum over the triangles around each vertex [m²]
 };
 
 }  // namespace drape

@@ -9,10 +9,10 @@
 namespace drape {
 namespace {
 
-// Pairs are added up before there are more than so many of them, and then as many again as are left.
+// Number of pairs above which they are summed; later twice the number left, if larger.
 constexpr std::size_t most_unsorted = 1 << 20;
 
-/// Sorts pairs, and adds up those of the same vertices in the order in which they came.
+/// Sorts pairs, and sums those of the same vertices in their original order.
 void add_up(std::vector<Spring>& pairs) {
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const Spring& a, const Spring& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); });
@@ -27,7 +27,7 @@ void add_up(std::vector<Spring>& pairs) {
   pairs.resize(count);
 }
 
-/// The pairs of vertices that the elements couple, sorted, each once.
+/// Returns the pairs of vertices coupled by the elements, sorted, without duplicates.
 std::vector<Spring> couplings(std::span<const CurvatureElement> elements) {
   std::vector<Spring> pairs;
   std::size_t most = most_unsorted;
@@ -50,8 +50,8 @@ std::vector<Spring> couplings(std::span<const CurvatureElement> elements) {
 
 }  // namespace
 
-/// H of the quadratic part, which is constant, and −s(I − q̂q̂ᵀ) wwᵀ of every curved component, s = share_across(r/‖q‖,
-/// concavity): the exact Hessian where ‖q‖ > r, else a part of it, as with springs.
+/// Hessian of the constant quadratic part, plus −s(I − q̂q̂ᵀ) wwᵀ of every curved component with s =
+/// share_across(r/‖q‖, concavity). It is exact for ‖q‖ > r, otherwise a part of the Hessian, as with springs.
 class BendingHessian final : public EnergyHessian {
  public:
   explicit BendingHessian(const BendingEnergy& energy) : energy_(energy), curved_(energy.curved_.size()) {
@@ -82,7 +82,7 @@ class BendingHessian final : public EnergyHessian {
   }
 
   void add_product(const Vertices& vector, Vertices& product) const override {
-    energy_.quadratic_.add_value_gradient(vector, product);  // a linear function, as no pair has a rest length
+    energy_.quadratic_.add_value_gradient(vector, product);  // linear in the vector, as no pair has a rest length
     for (std::size_t k = 0; k < curved_.size(); ++k) {
       const auto& component = energy_.curved_[k];
       const Eigen::RowVector3d force = energy_.bent(component, vector) * curved_[k];
@@ -106,8 +106,8 @@ class BendingHessian final : public EnergyHessian {
 
  private:
   const BendingEnergy& energy_;
-  std::vector<Eigen::Matrix3d> curved_;  // −s(I − q̂q̂ᵀ) of each curved component
-  std::vector<std::size_t> places_;      // among the pairs, of the pairs of each curved component's terms
+  std::vector<Eigen::Matrix3d> curved_;  // −s(I − q̂q̂ᵀ) per curved component
+  std::vector<std::size_t> places_;      // indices of the pairs of each curved component's terms
 };
 
 BendingEnergy::BendingEnergy(std::span<const CurvatureElement> elements, int vertex_count, const Threads& threads)
@@ -123,7 +123,7 @@ BendingEnergy::BendingEnergy(std::span<const CurvatureElement> elements, int ver
 
 Eigen::RowVector3d BendingEnergy::bent(const Curved& component, const Vertices& x) const {
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-  // Differences from one vertex: as the weights sum to zero, the cloth's place does not enter.
+  // Use differences from one vertex: as the weights sum to zero, the cloth's position does not matter.
   const Eigen::RowVector3d origin = x.row(terms_[component.first].vertex);
   for (const auto& [vertex, weight] : terms(component)) sum += weight * (x.row(vertex) - origin);
   return sum;
@@ -135,7 +135,7 @@ double BendingEnergy::add_gradient(const Vertices& x, double, Vertices& gradient
     const Eigen::RowVector3d q = bent(component, x);
     const double length = q.norm(), r = component.rest;
     value += r * (0.5 * r - length);
-    if (!(length > 0)) continue;  // bent to nothing: no direction to bend back to
+    if (!(length > 0)) continue;  // zero curvature: the direction to bend back is undefined
     const Eigen::RowVector3d force = -r / length * q;
     for (const auto& [vertex, weight] : terms(component)) gradient.row(vertex) += weight * force;
   }

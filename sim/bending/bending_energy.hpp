@@ -8,11 +8,11 @@
 
 namespace drape {
 
-/// The bending energy of a cloth, E = ½ Σ (‖q‖ − r)² over the components of its curvature elements; r = 0 for most.
+/// Bending energy of a cloth, E = ½ Σ (‖q‖ − r)² over the components of its curvature elements; r = 0 for most.
 ///
-/// Its quadratic part ½ Σ ‖q‖² couples pairs of vertices as springs without a length do, E = Σ k/2 ‖xᵢ − xⱼ‖² with
-/// k = −Σ wᵢ wⱼ of either sign, and is evaluated as such. It is all there is where the rest shape is flat, and the
-/// bound of the Hessian elsewhere: what is left, r²/2 − r‖q‖, is concave.
+/// Its quadratic part ½ Σ ‖q‖² couples pairs of vertices like springs of zero length, E = Σ k/2 ‖xᵢ − xⱼ‖² with k = −Σ
+/// wᵢ wⱼ of either sign, and is evaluated as such. For a flat rest shape it is the whole energy. Elsewhere it bounds
+/// the Hessian, as the rest, r²/2 − r‖q‖, is concave.
 class BendingEnergy final : public Energy {
  public:
   BendingEnergy(std::span<const CurvatureElement> elements, int vertex_count, const Threads& threads = one_thread());
@@ -21,13 +21,13 @@ class BendingEnergy final : public Energy {
   void add_bound(StiffnessBound& bound) const override;
   [[nodiscard]] std::unique_ptr<EnergyHessian> make_hessian() const override;
 
-  /// The pairs of vertices that it couples, sorted.
+  /// Returns the pairs of vertices that it couples, sorted.
   [[nodiscard]] const std::vector<Spring>& pairs() const { return quadratic_.springs(); }
 
  private:
   friend class BendingHessian;
 
-  /// A component whose rest curvature is not zero: its vertices are terms_[first] up to terms_[last].
+  /// A component with a nonzero rest curvature; its vertices are terms_[first] up to terms_[last], exclusive.
   struct Curved {
     std::size_t first, last;
     double rest;  // r [√J]

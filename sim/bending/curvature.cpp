@@ -9,20 +9,20 @@
 namespace drape {
 namespace {
 
-// A rest shape bent by less than this fraction of what folding it over would be is flat.
+// Largest curvature of a rest shape that counts as flat, as a fraction of a complete fold.
 constexpr double flat = 1e-9;
-// Weights below this fraction of the largest are zero but for rounding.
+// Relative size of weights that are zero up to rounding.
 constexpr double rounding = 1e-12;
 
 using Plane = Eigen::Vector2d;
 using Point = Eigen::Vector3d;
 
-/// The symmetric part of u⊗v in components xx, yy and √2 xy, whose squares sum to those of the matrix.
+/// Returns the symmetric part of u⊗v as components xx, yy and √2 xy, whose squares sum to those of the matrix.
 Eigen::Vector3d symmetric(const Plane& u, const Plane& v) {
   return {u.x() * v.x(), u.y() * v.y(), (u.x() * v.y() + u.y() * v.x()) / std::sqrt(2.0)};
 }
 
-/// The second derivatives of a triangle, as weights of vertices.
+/// Second derivatives of a triangle, as weights of vertices.
 class SecondDerivatives {
  public:
   SecondDerivatives(const RestSurface& surface, const PlacedTriangle& t) {
@@ -59,7 +59,7 @@ class SecondDerivatives {
     element.weights.resize(3, static_cast<Eigen::Index>(weights.size()));
     Eigen::Index count = 0;
     for (std::size_t c = 0; c < weights.size(); ++c) {
-      if (c >= 3 && weights[c].norm() <= rounding * largest) continue;  // the triangle's own are the first
+      if (c >= 3 && weights[c].norm() <= rounding * largest) continue;  // the triangle's own vertices come first
       element.vertices.push_back(vertices_[c]);
       element.weights.col(count++) = weights[c];
     }
@@ -78,10 +78,10 @@ class SecondDerivatives {
     }
   }
 
-  /// The projection onto what the free slopes cannot change.
+  /// Returns the projection onto the part that free slopes cannot change.
   [[nodiscard]] Eigen::Matrix3d without_free() const {
     Eigen::Matrix3d projection = Eigen::Matrix3d::Identity();
-    for (const Point& direction : free_) {  // at most two, of different directions
+    for (const Point& direction : free_) {  // at most two, in different directions
       const Point left = (projection * direction).normalized();
       projection -= left * left.transpose();
     }
@@ -94,7 +94,7 @@ class SecondDerivatives {
   std::vector<Point> free_;
 };
 
-/// The three components of the rest shape, each a row.
+/// Returns the three components of the rest shape, one per row.
 Eigen::Matrix3d components(const CurvatureElement& element, const RestSurface& surface) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   const Point origin = surface.place(element.vertices[0]);
@@ -115,7 +115,7 @@ bool is_flat(const Eigen::Matrix3d& bent, const CurvatureElement& element, const
   return bent.norm() <= flat * whole;
 }
 
-/// Makes the rest shape's components those of a curvature along the normal, the first of which is all there is.
+/// Makes the curvature of the rest shape normal to the triangle and confined to the first component.
 void bend_at_rest(CurvatureElement& element, const PlacedTriangle& t, const RestSurface& surface) {
   const Eigen::Matrix3d bent = components(element, surface);
   if (is_flat(bent, element, surface)) return;

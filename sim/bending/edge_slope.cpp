@@ -10,18 +10,18 @@ namespace {
 
 using Plane = Eigen::Vector2d;
 
-// Two triangles are a parallelogram if the middles of its diagonals are closer than this fraction of its height.
+// Largest distance between the middles of a parallelogram's diagonals, as a fraction of its height.
 constexpr double parallel = 1e-3;
-// A patch determines a quadratic function if no eigenvalue of the fit is smaller than this fraction of the largest.
+// Least ratio of the eigenvalues of a fit that determines a quadratic function.
 constexpr double determined = 1e-3;
-// Neighbours of neighbours at most: only patches of whole cloths that are tiny end undetermined.
+// Maximum number of rings; only patches of tiny cloths remain undetermined.
 constexpr int most_rings = 3;
 
-/// A value or a slope that a patch's function is fitted to.
+/// A value or slope for the fit of a patch's function.
 struct Sample {
   LinearForm form;
   Plane place;
-  std::optional<Plane> along;  // of a slope
+  std::optional<Plane> along;  // set for a slope
 };
 
 Plane middle(const PlacedTriangle& t, int side) {
@@ -37,7 +37,7 @@ class Surroundings {
     add(surface.unfold(t, side));
   }
 
-  /// Adds what lies beyond the sides of the triangles that came last.
+  /// Adds the neighbours of the triangles added last.
   void grow() {
     const std::size_t first = grown_, last = triangles_.size();
     grown_ = last;
@@ -75,10 +75,10 @@ class Surroundings {
   std::vector<PlacedTriangle> triangles_;
   std::vector<int> vertices_;
   std::vector<Sample> samples_;
-  std::size_t grown_ = 0;  // what lies beyond these triangles is there
+  std::size_t grown_ = 0;  // number of triangles whose neighbours have been added
 };
 
-/// The fit of a quadratic function to samples, in coordinates in which they are scattered alike in all directions.
+/// Fit of a quadratic function to samples, in coordinates where their scatter is isotropic.
 class Fit {
  public:
   Fit(const std::vector<Sample>& samples, const Plane& origin) : scales_(samples.size(), 1) {
@@ -101,7 +101,7 @@ class Fit {
       linear_.row(row) << 0, n.x(), n.y();
       bent_.row(row) << d.x() * n.x(), d.x() * n.y() + d.y() * n.x(), d.y() * n.y();
     }
-    // The linear part is fitted exactly, whatever the quadratic one is.
+    // Fit the linear part exactly, independent of the quadratic one.
     gram_.compute(linear_.transpose() * linear_);
     mixed_ = linear_.transpose() * bent_;
     rest_ = bent_ - linear_ * gram_.solve(mixed_);
@@ -112,7 +112,7 @@ class Fit {
     return bending_.eigenvalues()[0] > drape::determined * bending_.eigenvalues()[2];
   }
 
-  /// The weights of the samples in the function's slope at the origin.
+  /// Returns the weights of the samples in the function's slope at the origin.
   [[nodiscard]] std::vector<double> slope(const Plane& along) const {
     const Plane n = frame_.matrixL().solve(along);
     const Eigen::Vector3d linear = gram_.solve(Eigen::Vector3d(0, n.x(), n.y()));
@@ -129,15 +129,16 @@ class Fit {
   }
 
  private:
-  std::vector<double> scales_;  // of the samples
+  std::vector<double> scales_;  // per sample
   Eigen::LLT<Eigen::Matrix2d> frame_;
-  Eigen::Matrix<double, Eigen::Dynamic, 3> linear_, bent_, rest_;  // what 1, x, y and x²/2, xy, y²/2 are of the samples
+  // Values of 1, x, y and x²/2, xy, y²/2 at the samples.
+  Eigen::Matrix<double, Eigen::Dynamic, 3> linear_, bent_, rest_;
   Eigen::LLT<Eigen::Matrix3d> gram_;
   Eigen::Matrix3d mixed_;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> bending_;
 };
 
-/// The slope across a parallelogram's diagonal, from its four corners.
+/// Returns the slope across a parallelogram's diagonal, from its four corners.
 std::optional<LinearForm> slope_of_parallelogram(const RestSurface& surface, const PlacedTriangle& t, int side) {
   const auto p = static_cast<std::size_t>(side), q = (p + 1) % 3, apex = (p + 2) % 3;
   const int opposite = surface.beyond(t.triangle, side).opposite;

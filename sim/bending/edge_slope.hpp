@@ -7,20 +7,20 @@
 
 namespace drape {
 
-/// A linear function of the vertices' places, Σ weight·x(vertex). A vertex may come more than once.
+/// A linear function of the vertices' positions, Σ weight·x(vertex). Vertices may repeat.
 using LinearForm = std::vector<std::pair<int, double>>;
 
-/// The slope of a function on a triangle, linear between its vertices, along a unit vector of the triangle's plane.
+/// Returns the slope of a linear function on a triangle along a unit vector of its plane.
 LinearForm slope_inside(const RestSurface& surface, const PlacedTriangle& t, const Eigen::Vector2d& along);
 
-/// The slope of a smooth function across a side of a triangle, at the side's middle, out of the triangle, from the
-/// function's values at the vertices around. Exact for quadratic functions of the unfolded rest shape.
+/// Returns the outward slope of a smooth function across a side of a triangle, at the middle of the side, from the
+/// function's values at the surrounding vertices. Exact for quadratic functions of the unfolded rest shape.
 ///
-/// Where the triangle and its neighbour are a parallelogram, their four vertices determine it. Else it is that of the
-/// quadratic function with the least squares of differences to the values at the vertices of both, of what lies beyond
-/// their sides, and so on while those do not determine it. Beyond a held triangle's side lies a clamp: a patch ends
-/// there, and its function is fitted to the clamp's slope; if the side itself is a clamp's, that slope is the result.
-/// @param t    a triangle that is free
+/// If the triangle and its neighbour form a parallelogram, their four vertices determine the slope. Otherwise a
+/// quadratic function is fitted by least squares to the vertices of both and of the triangles beyond their sides.
+/// Further rings are added until it is determined. A patch ends at a clamp, and its function is fitted to the clamp's
+/// slope. At the side of a clamp, the clamp's slope is the result.
+/// @param t    a free triangle
 /// @param side with a triangle beyond it
 LinearForm edge_slope(const RestSurface& surface, const PlacedTriangle& t, int side);
 

@@ -6,20 +6,19 @@
 
 namespace drape {
 
-/// An edge and one of the triangles at it.
+/// An edge of a triangle.
 struct EdgeSide {
   Edge edge;
   int triangle;
-  int opposite;  ///< the triangle's vertex that is not on the edge
+  int opposite;  ///< the triangle's third vertex
 };
 
-/// Every side of every triangle, sorted by edge and then by triangle: the sides of an edge follow each other. Triangles
-/// with the same vertex twice have none.
+/// Returns every side of every triangle, sorted by edge and then by triangle, so that the sides of an edge are
+/// consecutive. Triangles with a repeated vertex have none.
 std::vector<EdgeSide> edge_sides(const std::vector<Triangle>& triangles);
 
-/// Calls visit(side, next) for every side of every edge that two or more triangles share, with the side that follows it
-/// around the edge: both ways round where there are two, in a ring where there are more. Sides opposite of which is the
-/// same vertex, as in duplicated triangles, are left out.
+/// Calls visit(side, next) for every side of every shared edge, with the next side around the edge: in both directions
+/// for two triangles, in a ring for more. Omits sides with the same opposite vertex, as in duplicated triangles.
 template <class Visit>
 void for_neighbours(const std::vector<EdgeSide>& sides, Visit&& visit) {
   for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
@@ -32,9 +31,9 @@ void for_neighbours(const std::vector<EdgeSide>& sides, Visit&& visit) {
   }
 }
 
-/// The "cross" springs against bending: one between the vertices opposite to each edge that two triangles share, as
-/// long as they are apart in the rest shape. Sorted by vertices, none twice; vertices that an edge joins already have
-/// none.
+/// Returns the "cross" springs against bending, one between the vertices opposite to each edge shared by two triangles.
+/// Their rest length is the distance in the rest shape. Sorted by vertices, without duplicates and without vertices
+/// that an edge already joins.
 /// @param stiffness of each [N/m]
 std::vector<Spring> cross_springs(const Cloth& cloth, double stiffness);
 

@@ -9,7 +9,7 @@
 namespace drape {
 namespace {
 
-// A triangle is taken to have no area below this fraction of its longest edge's square.
+// Least ratio of a triangle's area to its longest edge's square; below, it counts as having no area.
 constexpr double least_area = 1e-9;
 
 using Plane = Eigen::Vector2d;

@@ -7,18 +7,17 @@
 
 namespace drape {
 
-/// A triangle of the rest shape, laid into a plane.
+/// A triangle of the rest shape, laid out in a plane.
 struct PlacedTriangle {
   int triangle;
   std::array<Eigen::Vector2d, 3> corners;  ///< [m]
 };
 
-/// The triangles of a cloth's rest shape, and what lies beyond their sides. Side k of a triangle goes from its corner k
-/// to the next one.
+/// Triangles of a cloth's rest shape, and their neighbours. Side k of a triangle leads from its corner k to the next.
 class RestSurface {
  public:
-  /// What is beyond a side: a triangle and its vertex opposite to that side, both −1 where there is none. Around an
-  /// edge of three triangles or more, it is the next one.
+  /// Neighbour across a side: a triangle and its vertex opposite to that side, or −1 for both. At an edge of three or
+  /// more triangles it is the next one.
   struct Beyond {
     int triangle = -1, opposite = -1;
   };
@@ -32,14 +31,14 @@ class RestSurface {
   [[nodiscard]] const Beyond& beyond(int t, int side) const {
     return beyond_[3 * static_cast<std::size_t>(t) + static_cast<std::size_t>(side)];
   }
-  /// Whether all its vertices are pinned.
+  /// Returns true if all its vertices are pinned.
   [[nodiscard]] bool held(int t) const { return held_[static_cast<std::size_t>(t)]; }
-  /// Whether a triangle is free and something lies beyond one of its sides.
+  /// Returns true if a triangle is free and has a neighbour.
   [[nodiscard]] bool bends(int t) const;
 
-  /// Corner 0 lies at the origin, corner 1 on the positive x axis, corner 2 above it.
+  /// Returns the triangle with corner 0 at the origin, corner 1 on the positive x axis, and corner 2 above it.
   [[nodiscard]] PlacedTriangle lay_out(int t) const;
-  /// The triangle beyond a side, turned around that side into the plane of `from`.
+  /// Returns the neighbour across a side, rotated around that side into the plane of `from`.
   [[nodiscard]] PlacedTriangle unfold(const PlacedTriangle& from, int side) const;
 
  private:
@@ -48,7 +47,7 @@ class RestSurface {
   std::vector<bool> held_;
 };
 
-/// The unit normal of a side, out of the triangle.
+/// Returns the outward unit normal of a side.
 Eigen::Vector2d outward(const PlacedTriangle& t, int side);
 
 }  // namespace drape

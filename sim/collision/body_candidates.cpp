@@ -12,8 +12,8 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr int group_size = 12;          // triangles at most
-constexpr std::size_t usual_near = 32;  // triangles of the body near a group: where there are more, its memory grows
+constexpr int group_size = 12;          // maximum number of triangles
+constexpr std::size_t usual_near = 32;  // body triangles near a group; its memory grows if there are more
 
 Box larger(const Box& box, double margin) { return {box.low.array() - margin, box.high.array() + margin}; }
 
@@ -23,12 +23,12 @@ bool holds(const Box& outer, const Box& inner) {
   return (outer.low.array() <= inner.low.array()).all() && (inner.high.array() <= outer.high.array()).all();
 }
 
-/// How far two boxes are apart, at least [m].
+/// Returns a lower bound on the distance of two boxes [m].
 double distance(const Box& a, const Box& b) {
   return std::max({(a.low - b.high).maxCoeff(), (b.low - a.high).maxCoeff(), 0.0});
 }
 
-/// The box around vertices on their way.
+/// Returns the box around the paths of vertices.
 Box way_box(std::span<const int> vertices, const BodyStep& step) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Box box{Point::Constant(infinity), Point::Constant(-infinity)};
@@ -40,13 +40,13 @@ Box way_box(std::span<const int> vertices, const BodyStep& step) {
   return box;
 }
 
-/// How far the body's points are in the step from where they were when it had travelled so far, at most [m].
+/// Returns an upper bound on the displacement of the body's points in the step, relative to an earlier travel [m].
 double travel_since(double travel, const BodyStep& step) {
   return std::max(std::abs(step.start.travel() - travel), std::abs(step.end.travel() - travel));
 }
 
-/// Whether a plane along a triangle of the body lies between it and one of the cloth in the whole step, further than
-/// `reach` [m] from both together.
+/// Returns true if a slab along a body triangle, wider than `reach` [m], separates it from a cloth triangle throughout
+/// the step.
 bool parted(const Triangle& a, const Triangle& b, const Point& axis, const BodyStep& step, double reach) {
   double above = std::numeric_limits<double>::infinity(), below = above;
   for (const std::vector<Point>* at : {&step.from, &step.to}) {
@@ -78,7 +78,7 @@ BodyCandidates::BodyCandidates(const MeshTopology& body, int body_vertices, cons
   }
   TriangleTree tree;
   tree.build(boxes, group_size);
-  std::vector<std::pair<Index, Index>> ends;  // of the groups' triangles and vertices
+  std::vector<std::pair<Index, Index>> ends;  // ends of the groups' triangles and vertices
   tree.for_leaves([&](std::span<const int> leaf) {
     const auto first = static_cast<std::ptrdiff_t>(vertices_.size());
     for (const int t : leaf) {
@@ -245,7 +245,7 @@ void BodyCandidates::add(const FeaturePair& pair, int triangle, int corner, cons
   const FourPoints from = gather(step.from, v), to = gather(step.to, v);
   if (kept_apart(pair.feature, from, to, reach)) return;
   const Nearest before = nearest(pair.feature, from);
-  // When the step begins, no plane parts them better than the one across the line between their nearest points.
+  // Near the start of the step, the line between the closest points is the best separating axis.
   if (kept_apart(pair.feature, before.difference(from), from, to, reach)) return;
   pairs.push_back({pair, triangle, corner, before});
 }

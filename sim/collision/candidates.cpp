@@ -13,26 +13,26 @@ namespace {
 
 using Index = std::size_t;
 
-// Boxes hold the ways of so many more steps in which no vertex goes further than a part of an edge, but at most some.
-// Further ways bring more pairs into the list than searches that they save: where there are few, no list is made.
+// Kept boxes cover between `least_ahead` and `most_ahead` further steps, limited to paths of `furthest` edge lengths.
+// Longer paths would add more pairs than the list saves; below the least number no list is made.
 constexpr double furthest = 0.5, most_ahead = 8, least_ahead = 2;
-// They are so much larger, in edges, on all sides: for what is not foreseen of these ways.
+// Margin of kept boxes on all sides, in edge lengths, for changes of velocity.
 constexpr double skin = 0.06;
-// Memory is taken for so many of a vertex at once: cloth that is not crumpled has fewer.
+// Initial capacity per vertex; cloth that is not crumpled has fewer pairs.
 constexpr Eigen::Index usual_pairs = 16;
-// What shifting places may lose, as a part of the reach: where it is more, the boxes around kept pairs are not relied
-// on.
+// Largest rounding error of shifted positions, as a fraction of the reach. With larger errors the kept boxes are
+// ignored.
 constexpr double lost = 1e-6;
 
 Box around(const Box& a, const Box& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
 
-/// Around all places of a box on its way, and so much larger on all sides.
+/// Returns the box around a box on its path, enlarged by a margin.
 Box extended(const Box& box, const Point& way, double margin) {
   const Eigen::Vector3d all_around = Eigen::Vector3d::Constant(margin);
   return {box.low + way.cwiseMin(0.0) - all_around, box.high + way.cwiseMax(0.0) + all_around};
 }
 
-/// The largest of all part(first, count), for ranges of indices which together are all below `count`.
+/// Returns the largest of all part(first, count), over index ranges that together cover `count`.
 double largest_part(const Threads& threads, Eigen::Index count, const auto& part) {
   return reduce(threads, count, part, [](double a, double b) { return std::max(a, b); });
 }
@@ -111,7 +111,7 @@ void CollisionCandidates::search(Accept&& accept, std::vector<FeaturePair>& pair
     if (std::all_of(v.begin(), v.end(), [&](int i) { return pinned_[static_cast<Index>(i)] != 0; })) return;
     if (accept(pair)) found.push_back(pair);
   };
-  // Features are gone through in their order, so only the pairs of each have to be sorted.
+  // Features are visited in order, so only the pairs of each need sorting.
   const auto find_all = [&](Index count, auto&& find_of) {
     found_.fill(threads_, static_cast<Eigen::Index>(count), [&](Eigen::Index k, std::vector<FeaturePair>& found) {
       const auto before = static_cast<std::ptrdiff_t>(found.size());

@@ -6,13 +6,13 @@
 namespace drape {
 namespace {
 
-/// The squared length of a sum of differences, which far from the origin is more accurate than one of places.
+/// Returns the weights with the squared distance. Sums differences of points, which are accurate far from the origin.
 Nearest with_distance(const FourPoints& p, const std::array<double, 4>& w) {
   const Point d = w[0] * (p[0] - p[2]) + w[1] * (p[1] - p[2]) + w[3] * (p[3] - p[2]);
   return {d.squaredNorm(), w};
 }
 
-/// Where the point of a segment nearest to p is, in [0, 1].
+/// Returns the parameter, in [0, 1], of a segment's closest point to p.
 double place_on_segment(const Point& p, const Point& from, const Point& to) {
   const Point along = to - from;
   const double squared = along.squaredNorm();
@@ -43,10 +43,10 @@ Nearest vertex_triangle(const FourPoints& p) {
 Nearest edge_edge(const FourPoints& p) {
   const Point first = p[1] - p[0], second = p[3] - p[2], between = p[0] - p[2];
   const double a = first.squaredNorm(), e = second.squaredNorm(), b = first.dot(second), c = first.dot(between);
-  const double cross = first.cross(second).squaredNorm();  // a e − b², without its cancellation
+  const double cross = first.cross(second).squaredNorm();  // a e − b² without cancellation
   const double f = second.dot(between);
   double s = cross > 1e-18 * a * e ? std::clamp((b * f - c * e) / cross, 0.0, 1.0) : 0.0;
-  // The nearest point of the other edge to this one, and back, where its end was passed.
+  // Project onto the other edge and back, as the solution may be past an end.
   const double t = place_on_segment(p[0] + s * first, p[2], p[3]);
   s = place_on_segment(p[2] + t * second, p[0], p[1]);
   return with_distance(p, {1 - s, s, t - 1, -t});

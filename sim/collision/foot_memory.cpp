@@ -9,14 +9,15 @@ namespace {
 
 using Index = std::size_t;
 
-// How far a point may go from where it was before its triangles are searched anew, in reaches, if there are few.
+// Distance that a point may move before its triangles are searched again, as a multiple of the reach. It is shorter if
+// there are many triangles.
 constexpr double walk = 0.5;
-// What is nearer than another by less is as near, in reaches: far more than rounding.
+// Difference of distances that count as equal, as a multiple of the reach: far above rounding.
 constexpr double nearly_equal = 1e-6;
-// How often a few triangles are compared before they are measured from where the point is now.
+// Number of queries before the cached triangles are measured again.
 constexpr int patience = 16;
 
-/// The square of a little less than a distance, so that rounding does not matter; −1 of none.
+/// Returns the square of a distance, reduced to allow for rounding; −1 if the distance is not positive.
 double square_of_part(double distance) { return distance > 0 ? (1 - 1e-9) * distance * distance : -1; }
 
 }  // namespace
@@ -26,7 +27,7 @@ FootMemory::FootMemory(std::size_t points, double reach) : reach_(reach), known_
 bool FootMemory::find_slowly(const PlacedMesh& mesh, std::size_t k, const Point& point, Foot& foot) {
   Known& known = known_[k];
   Near& near = near_[k];
-  // Every distance has changed by that at most.
+  // Upper bound on the change of every distance.
   const auto since = [&](const Point& place, double travel) {
     return (point - place).norm() + std::abs(mesh.travel() - travel);
   };
@@ -42,7 +43,7 @@ bool FootMemory::find_slowly(const PlacedMesh& mesh, std::size_t k, const Point&
     moved = 0;
   }
   if (covers(near, moved)) return find_among(mesh, point, moved, known, near, foot);
-  // More triangles than there is room for are as near.
+  // More triangles are equally near than the list holds.
   foot = mesh.find(point, reach_, known.triangle).value_or(Foot{.distance = reach_});
   return foot.distance < reach_;
 }
@@ -55,7 +56,7 @@ bool FootMemory::find_among(const PlacedMesh& mesh, const Point& point, double m
                             Foot& foot) const {
   int triangle = known.triangle;
   Nearest best = mesh.nearest_on(triangle, point);
-  // How near any other is at least: what is compared as it is here, the rest as it was.
+  // Lower bounds on the other distances, from tested triangles at the new position and the rest at the old one.
   double second = std::numeric_limits<double>::infinity(), not_compared = near.all_within;
   const double may_be_nearest = near.nearest + 2 * moved + nearly_equal * reach_;
   for (Index j = 0; j < Index(near.count); ++j) {
@@ -99,7 +100,7 @@ void FootMemory::look(const PlacedMesh& mesh, const Point& point, Known& known, 
     known.clear_squared = square_of_part(away - reach_);
     return;
   }
-  // One more than there is room for says how far what is left out is at least.
+  // One entry more than the list holds bounds the distances of omitted triangles.
   std::array<double, most + 1> least;
   std::array<int, most + 1> triangles;
   Index count = 0;

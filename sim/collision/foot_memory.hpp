@@ -8,19 +8,18 @@
 
 namespace drape {
 
-/// Finds where points are beside a mesh, and remembers which triangles were near each of them: while a point and the
-/// mesh move little, only those of them are looked at that can be the nearest. It saves time and changes nothing about
-/// what is found. Points and mesh are in the mesh's coordinates. What is kept is of each point by itself: threads may
-/// ask for different ones at once.
+/// Closest-point search on a mesh, with a cache of the triangles that were near each point. While a point and the mesh
+/// move little, only these are tested. The cache changes no result. Points and mesh are in the mesh's coordinates. Data
+/// are separate for each point, so threads may query different points concurrently.
 class FootMemory {
  public:
-  /// @param reach within which feet are asked for [m]
+  /// @param reach search radius [m]
   FootMemory(std::size_t points, double reach);
 
-  /// The foot of a point, as PlacedMesh::find says it, if it is nearer than the reach.
+  /// Finds a point's closest point like PlacedMesh::find. Returns true if it is within the search radius.
   bool find(const PlacedMesh& mesh, std::size_t k, const Point& point, Foot& foot) {
     const Known& known = known_[k];
-    // Number by number: the point has just been computed so, and would have to go through memory.
+    // Scalars, as the point has just been computed and a vector would go through memory.
     const double x = point[0] - known.point[0], y = point[1] - known.point[1], z = point[2] - known.point[2];
     const double squared = x * x + y * y + z * z;
     if (mesh.travel() == known.travel && squared < known.clear_squared) return false;
@@ -31,32 +30,32 @@ class FootMemory {
 
  private:
   static constexpr std::size_t most = 8;
-  /// Of a point what is enough if it has moved little, and the mesh not at all.
+  /// Data that suffice if the point has moved little and the mesh not at all.
   struct Known {
     Point point = Point::Zero();
-    double travel = 0;          // of the mesh when the point was there
-    double clear_squared = -1;  // how far it may go from there with no foot, squared; negative: not at all [m²]
-    double alone_squared = -1;  // how far with its foot on the same triangle, likewise
+    double travel = 0;          // travel of the mesh at that time
+    double clear_squared = -1;  // squared distance that it may move without coming within reach [m²]; negative: none
+    double alone_squared = -1;  // squared distance that it may move with the same nearest triangle [m²]; negative: none
     int triangle = -1;
   };
-  /// The triangles that were near it.
+  /// Triangles that were near the point.
   struct Near {
     Point point = Point::Zero();
-    double travel = 0;                    // of the mesh when the point was there
-    int count = 0, asked = 0;             // since then
+    double travel = 0;                    // travel of the mesh at that time
+    int count = 0, asked = 0;             // queries since then
     double nearest = 0;                   // distance [m]
-    double all_within = 0;                // every triangle that was nearer than this is among them
-    std::array<double, most> least = {};  // how far they were at least, increasing
+    double all_within = 0;                // complete up to this distance [m]
+    std::array<double, most> least = {};  // lower bounds of their distances, ascending [m]
     std::array<int, most> triangles = {};
   };
   bool find_slowly(const PlacedMesh& mesh, std::size_t k, const Point& point, Foot& foot);
-  /// Searches what is near a point.
+  /// Searches the mesh for triangles near a point.
   void look(const PlacedMesh& mesh, const Point& point, Known& known, Near& near) const;
-  /// Measures how near it is from where the point is now, which is `moved` from where it was measured [m].
+  /// Measures the cached triangles again from the point's position, `moved` from the previous one [m].
   static void look_again(const PlacedMesh& mesh, const Point& point, double moved, double rounding, Near& near);
   bool find_among(const PlacedMesh& mesh, const Point& point, double moved, Known& known, const Near& near,
                   Foot& foot) const;
-  /// Whether the nearest triangle is one of those, however the distances have changed by so much [m].
+  /// Returns true if the nearest triangle must be in the list after distances changed by at most `moved` [m].
   [[nodiscard]] bool covers(const Near& near, double moved) const;
 
   double reach_;

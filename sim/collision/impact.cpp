@@ -6,9 +6,9 @@
 namespace drape {
 namespace {
 
-// How many times the gap that must be kept is near enough to count as colliding: it is only approached.
+// Multiple of the gap at which features count as colliding, as the gap is only approached.
 constexpr double near_enough = 1.2;
-// Features that touch but for rounding need many steps. Then they count as colliding.
+// Features that touch up to rounding need many steps. Beyond this they count as colliding.
 constexpr int max_steps = 200;
 
 Point mean(const FourPoints& p) { return (p[0] + p[1] + p[2] + p[3]) / 4; }
@@ -38,7 +38,7 @@ std::optional<double> time_of_impact(Feature feature, FourPoints p, FourPoints m
     const Nearest now = nearest(feature, p);
     distance = std::sqrt(now.squared);
     if (distance <= near_enough * gap) return time;
-    // Those that slide along each other do not come nearer on the rest of their way.
+    // Features that slide along each other come no nearer on the rest of their path.
     FourPoints to = p;
     for (std::size_t i = 0; i < 4; ++i) to[i] += (1 - time) * move[i];
     if (kept_apart(feature, now.difference(p), p, to, near_enough * gap)) return std::nullopt;

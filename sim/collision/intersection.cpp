@@ -12,20 +12,19 @@ namespace {
 
 using Point = Eigen::Vector3d;
 
-// Relative to the coordinates: how far rounding may have moved a vertex that was turned and then translated.
+// Relative rounding error of a vertex that was rotated and then translated.
 constexpr double place_rounding = 8 * std::numeric_limits<double>::epsilon();
 
-/// Six times the volume that four points span, with the sign of their orientation, and how far rounding may have taken
-/// it from that.
+/// Six times the signed volume of four points, with a bound on its rounding error.
 struct Volume {
   double value, error;
 
-  /// @param moved how far each point may be from its place
+  /// @param moved error of each point's position
   Volume(const Point& a, const Point& b, const Point& c, const Point& d, double moved) {
     const Point u = b - a, v = c - a, w = d - a;
     value = u.cross(v).dot(w);
-    // (7 + 56ε)ε of the sum of the products' sizes (Shewchuk 1997, section 4.3, with ε = 2⁻⁵³), and the sizes of the
-    // derivatives by the places.
+    // (7 + 56ε)ε times the sum of the products' sizes (Shewchuk 1997, section 4.3, with ε = 2⁻⁵³), plus the sizes of
+    // the derivatives by the positions.
     const Point s = u.cwiseAbs(), t = v.cwiseAbs(), r = w.cwiseAbs();
     const Point uv = sizes(s, t);
     error = 4 * std::numeric_limits<double>::epsilon() * uv.dot(r) + 2 * moved * (uv + sizes(t, r) + sizes(r, s)).sum();
@@ -35,13 +34,14 @@ struct Volume {
   [[nodiscard]] bool negative() const { return value < -error; }
 
  private:
-  /// Of the terms of a cross product.
+  /// Returns sums of the sizes of a cross product's terms.
   static Point sizes(const Point& a, const Point& b) {
     return {a.y() * b.z() + a.z() * b.y(), a.z() * b.x() + a.x() * b.z(), a.x() * b.y() + a.y() * b.x()};
   }
 };
 
-/// Also through a triangle's side or corner. What may lie in one plane but for rounding does not pass through it.
+/// Returns true if an edge passes through a triangle, its sides and corners included. Configurations that are coplanar
+/// up to rounding return false.
 bool passes_through(const Point& from, const Point& to, const Point& a, const Point& b, const Point& c) {
   std::array<Point, 5> p{from, to, a, b, c};
   double largest = 0, size = 0;
@@ -50,7 +50,7 @@ bool passes_through(const Point& from, const Point& to, const Point& a, const Po
     point -= from;
     size = std::max(size, point.cwiseAbs().maxCoeff());
   }
-  for (Point& point : p) point /= size;  // no product leaves the range of a double, however small the cloth
+  for (Point& point : p) point /= size;  // keeps products within the range of a double for cloth of any size
   const double moved = place_rounding * largest / size;
   const Volume first(p[2], p[3], p[4], p[0], moved), second(p[2], p[3], p[4], p[1], moved);
   if (!(first.positive() && second.negative()) && !(first.negative() && second.positive())) return false;
@@ -80,7 +80,7 @@ std::optional<std::pair<Edge, Triangle>> find_intersection(const std::vector<Tri
   SpatialHash hash;
   hash.build(boxes);
   for (const Edge& edge : unique_edges(triangles)) {
-    const int i = edge[0], j = edge[1];  // clang 14 lets no lambda capture a structured binding
+    const int i = edge[0], j = edge[1];  // clang 14 does not let lambdas capture structured bindings
     std::optional<std::size_t> found;
     hash.for_overlapping(box_of(edge, x), [&](int k) {
       const auto number = static_cast<std::size_t>(k);

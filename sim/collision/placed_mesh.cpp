@@ -13,17 +13,17 @@ namespace {
 
 using Index = std::size_t;
 
-// What a triangle's area is at least beside the square of its longest edge, both twice: else it is its edges.
+// Least ratio of a triangle's area to its squared longest edge, both doubled; below, it counts as its edges.
 constexpr double least_placed_area = 1e-8;
-// The sum of the two unit normals at an edge is shorter than this where it turns by more than 150°.
+// The sum of two unit normals at an edge is shorter than this if the edge turns by more than 150°.
 constexpr double sharpest_fold = 0.5;
 
-/// An edge as a triangle runs along it.
+/// An edge with its direction in a triangle.
 struct Run {
   Edge edge;
-  bool forwards;  // from the smaller number to the larger
+  bool forwards;  // from the smaller vertex number to the larger
   int triangle;
-  Index corner;  // that it begins at
+  Index corner;  // start of the edge
 };
 
 std::vector<Run> sorted_runs(const std::vector<Triangle>& triangles) {
@@ -120,7 +120,7 @@ Point PlacedMesh::normal_at(int triangle, const Point& weights) const {
   const auto zeros = (weights.array() == 0).count();
   if (zeros == 0) return normals_[Index(triangle)];
   if (zeros == 1) {
-    // The edge that is opposite to the corner of no weight begins after it.
+    // The opposite edge begins after the corner of zero weight.
     const Index from = weights[0] == 0 ? 1 : weights[1] == 0 ? 2 : 0;
     const int other = topology_->across[Index(triangle)][from];
     return normals_[Index(triangle)] + (other < 0 ? Point(Point::Zero()) : normals_[Index(other)]);
@@ -154,7 +154,7 @@ Foot PlacedMesh::foot_on_edge(const Point& point, int triangle, const Nearest& n
   const Point away = point - foot.weights[0] * corner(triangle, 0) - foot.weights[1] * corner(triangle, 1) -
                      foot.weights[2] * corner(triangle, 2);
   const Point out = normal_at(triangle, foot.weights);
-  // Where a mesh is folded over itself, as a skin at an elbow may be, the normals at the fold say nothing.
+  // Normals are useless where a mesh folds onto itself, as skin may at an elbow.
   const bool folded = solid() && out.squaredNorm() < sharpest_fold * sharpest_fold;
   const bool inside = folded ? encloses(point) : out.dot(away) < 0;
   const double length = std::sqrt(near.squared);

@@ -10,7 +10,7 @@ namespace {
 
 using Index = std::size_t;
 
-/// ω with inertia·ω = momentum; no rotation about axes without inertia, as of vertices on a line.
+/// Returns ω with inertia·ω = momentum, without rotation about axes of zero inertia, as for collinear vertices.
 Point angular_velocity(const Eigen::Matrix3d& inertia, const Point& momentum) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
   axes.computeDirect(inertia);

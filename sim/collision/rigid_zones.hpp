@@ -8,7 +8,7 @@
 
 namespace drape {
 
-/// Velocities of vertices, which zones change.
+/// Velocities and inverse masses of vertices, as input and output of RigidZones.
 struct MovingVertices {
   std::vector<Point> velocities;       ///< [m/s]
   std::vector<double> inverse_masses;  ///< 0 for a pin [1/kg]
@@ -17,37 +17,37 @@ struct MovingVertices {
   [[nodiscard]] double inverse_mass(int i) const { return inverse_masses[static_cast<std::size_t>(i)]; }
 };
 
-/// Groups of vertices that move as rigid bodies for one step: the way out where impulses do not settle a pile of
-/// collisions (Provot 1997; Bridson, Fedkiw and Anderson 2002, section 7.5; Harmon et al. 2008). A group has the linear
-/// and angular momentum that its vertices had: v = v̄ + ω × (x − x̄). On the way x + t·v no two of its points come nearer
-/// to each other, since I + t·[ω]× shortens no vector: so there is no collision inside a group.
-/// A group with a pin moves as the pin does.
+/// Groups of vertices that move as rigid bodies for one step, used when impulses cannot resolve a pile of collisions
+/// (Provot 1997; Bridson, Fedkiw and Anderson 2002, section 7.5; Harmon et al. 2008). A group keeps the linear and
+/// angular momentum of its vertices: v = v̄ + ω × (x − x̄). On the path x + t·v no two of its points approach each
+/// other, since I + t·[ω]× shortens no vector. So there is no collision inside a group.
+/// A group with a pin moves with the pin.
 class RigidZones {
  public:
-  /// Begins a step, with every vertex by itself.
-  /// @param velocities of the vertices, which the zones' momenta are taken from
+  /// Begins a step with each vertex in a zone of its own.
+  /// @param velocities of the vertices, which define the zones' momenta
   void begin(const std::vector<Point>& velocities);
 
   /// Joins the zones of four vertices.
   void join(const std::array<int, 4>& vertices);
   /// Joins all zones of more than one vertex into one.
   void join_all();
-  /// Whether four vertices are in one zone.
+  /// Returns true if four vertices are in one zone.
   [[nodiscard]] bool together(const std::array<int, 4>& vertices) const;
 
-  /// Sets the velocities of the vertices of all zones of more than one vertex.
-  /// @return false if a zone holds pins that move differently, so that it cannot be rigid
+  /// Sets the velocities of all vertices in zones of more than one vertex.
+  /// @return false if a zone has pins with different velocities and so cannot be rigid
   bool apply(const std::vector<Point>& x, MovingVertices& vertices);
 
  private:
-  /// What a zone's vertices have together.
+  /// Sums over the vertices of a zone.
   struct Body {
     double mass = 0;
     Point center = Point::Zero(), velocity = Point::Zero(), spin = Point::Zero();  // first sums, then means
     Point angular_momentum = Point::Zero();
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
     int pins = 0;
-    bool uneven = false;  // its pins move differently
+    bool uneven = false;  // true if its pins have different velocities
   };
 
   [[nodiscard]] int root(int vertex) const;
@@ -57,7 +57,7 @@ class RigidZones {
   std::vector<Point> velocities_;
   std::vector<Body> bodies_;      // by root
   std::vector<int> members_;      // vertices of zones of more than one
-  std::vector<char> zone_roots_;  // whether a vertex is the root of such a zone
+  std::vector<char> zone_roots_;  // nonzero at roots of such zones
 };
 
 }  // namespace drape

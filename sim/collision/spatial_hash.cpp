@@ -7,7 +7,7 @@ namespace drape {
 namespace {
 
 constexpr double most_cells_per_box = 12;
-// Of the boxes' mean size. Comparing many boxes in a cell at once is cheaper than having each in many cells.
+// In mean box sizes. Comparing many boxes in a cell at once is cheaper than storing each in many cells.
 constexpr double cell_size = 2;
 
 }  // namespace
@@ -24,7 +24,7 @@ void SpatialHash::build(std::span<const Box> boxes) {
     --shift_;
   }
 
-  // A counting sort: the entries of a slot are in the order of the boxes, whatever the hash.
+  // Counting sort: entries of a slot stay in the order of the boxes.
   starts_.assign(slots + 1, 0);
   entries_.resize(wanted);
   const auto for_entries = [&](auto&& visit) {
@@ -49,7 +49,7 @@ void SpatialHash::build(std::span<const Box> boxes) {
     places_[static_cast<std::size_t>(count)] = place;
     ends_[static_cast<std::size_t>(entry.box) + 1] = ++count;
   });
-  // Every start has moved to the next slot's.
+  // The loop advanced every start to that of the next slot.
   std::copy_backward(starts_.begin(), starts_.end() - 1, starts_.end());
   starts_.front() = 0;
 

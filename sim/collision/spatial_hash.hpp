@@ -12,7 +12,7 @@
 
 namespace drape {
 
-/// A box with its sides along the axes [m].
+/// Axis-aligned box [m].
 struct Box {
   Eigen::Vector3d low, high;
 
@@ -21,13 +21,13 @@ struct Box {
   }
 };
 
-/// Boxes sorted by the cells of a uniform grid that they reach into, for finding those that overlap in nearly linear
-/// time (Teschner et al. 2003, "Optimized spatial hashing for collision detection of deformable objects"). The cells
-/// are twice as large as the boxes on average, or larger where a few huge ones would fill too many.
-/// Every overlapping pair is visited once: in the cell of the lowest corner of what the two have in common.
+/// Uniform hash grid that finds overlapping boxes in nearly linear time (Teschner et al. 2003, "Optimized spatial
+/// hashing for collision detection of deformable objects"). Cells are twice the mean size of the boxes, or larger if a
+/// few huge boxes would fill too many. Each overlapping pair is visited once: in the cell of the lowest corner of the
+/// pair's intersection.
 class SpatialHash {
  public:
-  /// Replaces the boxes. Keeps its memory. The boxes have to outlive the visits.
+  /// Replaces the boxes and reuses memory. The boxes must outlive the visits.
   void build(std::span<const Box> boxes);
 
   /// Calls visit(k) for every box k that overlaps the given one.
@@ -51,7 +51,7 @@ class SpatialHash {
     }
   }
 
-  /// Calls visit(l) for every box l > k that overlaps box k: of all k, for every two boxes that overlap.
+  /// Calls visit(l) for every box l > k that overlaps box k. Calls for all k visit each overlapping pair once.
   template <class Visit>
   void for_later(int k, Visit&& visit) const {
     const auto box = static_cast<std::size_t>(k);
@@ -59,7 +59,7 @@ class SpatialHash {
     for (auto n = static_cast<std::size_t>(ends_[box]); n < static_cast<std::size_t>(ends_[box + 1]); ++n) {
       const auto e = static_cast<std::size_t>(places_[n]);
       const std::uint64_t key = entries_[e].key;
-      // A slot's entries are in the order of the boxes.
+      // Entries of a slot are in the order of the boxes.
       for_near(rounded, e + 1, start_of(slot_of(key) + 1), [&](const Entry& other) {
         const auto l = static_cast<std::size_t>(other.box);
         if (other.key != key || l == box || !is_first(cell_at(key), lows_[box], lows_[l])) return;
@@ -72,7 +72,7 @@ class SpatialHash {
   struct Cell {
     int x = 0, y = 0, z = 0;
   };
-  /// A box in a cell.
+  /// One box in one cell.
   struct Entry {
     std::uint64_t key;
     int box;
@@ -82,7 +82,7 @@ class SpatialHash {
     return {index((place.x() - origin_.x()) * inverse_size_), index((place.y() - origin_.y()) * inverse_size_),
             index((place.z() - origin_.z()) * inverse_size_)};
   }
-  /// Rounds down, to −1 and less at −1.
+  /// Rounds down and clamps; anything below zero gives −1.
   static int index(double place) {
     return static_cast<int>(std::min(std::max(place, -1.0), static_cast<double>(cells_per_axis)) + 1) - 1;
   }
@@ -99,12 +99,13 @@ class SpatialHash {
   [[nodiscard]] std::size_t slot_of(std::uint64_t key) const {
     return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >> shift_);  // Fibonacci hashing (Knuth, section 6.4)
   }
-  /// Whether a cell is that of the lowest corner of the intersection of two boxes whose lowest corners are in these.
+  /// Returns true if a cell holds the lowest corner of the intersection of two boxes, given the cells of their lowest
+  /// corners.
   static bool is_first(const Cell& cell, const Cell& a, const Cell& b) {
     return std::max(a.x, b.x) == cell.x && std::max(a.y, b.y) == cell.y && std::max(a.z, b.z) == cell.z;
   }
-  /// A box relative to the origin in single precision: lowest x, y, z, highest x, y, z. Rounding keeps the order, so
-  /// what overlaps does so still.
+  /// Box relative to the origin in single precision: lowest x, y, z, highest x, y, z. Rounding is monotonic, so
+  /// overlaps are preserved.
   using Rounded = std::array<float, 6>;
   [[nodiscard]] Rounded round(const Box& box) const {
     Rounded rounded{};
@@ -114,14 +115,14 @@ class SpatialHash {
     }
     return rounded;
   }
-  /// Calls visit(entry) for those of some entries whose rounded box overlaps this one.
+  /// Calls visit(entry) for the entries in a range whose rounded box overlaps this one.
   template <class Visit>
   void for_near(const Rounded& box, std::size_t begin, std::size_t end, Visit&& visit) const {
     constexpr std::uint64_t ones = 0x0101010101010101U;
     for (std::size_t first = begin; first < end; first += at_once) {
       const Bytes apart = compare(box, first);
       for (std::size_t w = 0; w < apart.size() && first + 8 * w < end; ++w) {
-        // Of bytes of 0 and 1, a bit for each 0.
+        // Sets one bit for each byte that is 0.
         std::uint64_t near = ~apart[w] & ones;
         const std::size_t e = first + 8 * w;
         if (end - e < 8) near &= (std::uint64_t{1} << (8 * (end - e))) - 1;
@@ -129,9 +130,9 @@ class SpatialHash {
       }
     }
   }
-  static constexpr std::size_t at_once = 16;  // of the entries, compared
+  static constexpr std::size_t at_once = 16;  // entries compared together
   using Bytes = std::array<std::uint64_t, at_once / 8>;
-  /// A byte for each of the entries from one on: whether their rounded boxes are apart from this one.
+  /// Compares a box with consecutive entries; a byte is 1 if the rounded boxes are apart.
   [[nodiscard]] Bytes compare(const Rounded& box, std::size_t first) const {
     std::array<const float*, 6> r{};
     for (std::size_t k = 0; k < r.size(); ++k) r[k] = rounded_[k].data() + first;
@@ -145,7 +146,7 @@ class SpatialHash {
     return std::bit_cast<Bytes>(apart);
   }
   [[nodiscard]] std::size_t start_of(std::size_t slot) const { return static_cast<std::size_t>(starts_[slot]); }
-  /// Chooses their size; returns how many the boxes reach into in all.
+  /// Chooses the cell size. Returns the total number of cells that the boxes cover.
   std::size_t choose_cells();
 
   static constexpr int cells_per_axis = 1 << 20;
@@ -155,11 +156,11 @@ class SpatialHash {
   double inverse_size_ = 1;
   Cell count_;
   unsigned shift_ = 63;
-  std::vector<Cell> lows_, highs_;  // of the lowest and highest corner of each box
-  std::vector<int> starts_;         // of each slot's entries
+  std::vector<Cell> lows_, highs_;  // cells of the lowest and highest corner of each box
+  std::vector<int> starts_;         // first entry of each slot
   std::vector<Entry> entries_;
-  std::vector<int> places_, ends_;             // of the entries, box by box; of each box's in there, after a 0
-  std::array<std::vector<float>, 6> rounded_;  // the boxes of the entries, and room behind for reading at once
+  std::vector<int> places_, ends_;             // entry numbers sorted by box; ends of each box's range, after a 0
+  std::array<std::vector<float>, 6> rounded_;  // boxes of the entries, padded for reads in blocks
 };
 
 }  // namespace drape

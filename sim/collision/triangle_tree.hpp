@@ -12,23 +12,23 @@
 
 namespace drape {
 
-/// Boxes in a binary tree of the boxes around them, for finding those that are near something. When they move, the tree
-/// is refitted: the same tree around other places.
+/// Bounding-volume tree of boxes for proximity queries. When the boxes move, the tree is refitted and keeps its
+/// structure.
 class TriangleTree {
  public:
-  /// Makes the tree: halves of the boxes along the longest side, down to leaves of a few.
+  /// Builds the tree: splits the boxes in halves along the longest side, down to small leaves.
   void build(std::span<const Box> boxes, int leaf_size = 4);
-  /// Moves the boxes that it was built for.
+  /// Updates the positions of the same boxes.
   void refit(std::span<const Box> boxes);
 
-  /// How far a point is from the box around all of them [m].
+  /// Returns the distance of a point from the root's box [m].
   [[nodiscard]] double distance(const Eigen::Vector3d& p) const {
     return std::sqrt(squared_distance(nodes_.front().box, p));
   }
-  /// Around all of them; of none, it overlaps nothing.
+  /// Returns the box around all boxes; without boxes it overlaps nothing.
   [[nodiscard]] const Box& bounds() const { return nodes_.front().box; }
 
-  /// Calls visit(k) for every box k that overlaps the given one, and some that do not.
+  /// Calls visit(k) for every box k that overlaps the given one, and for some others.
   template <class Visit>
   void for_overlapping(const Box& box, Visit&& visit) const {
     for (std::size_t n = 0; n < nodes_.size();) {
@@ -52,8 +52,8 @@ class TriangleTree {
     }
   }
 
-  /// Calls visit(k) for every box k that may hold something whose squared distance from a point is at most `limit`,
-  /// which visits may lower: nearer ones first.
+  /// Calls visit(k) for every box k whose squared distance from a point is at most `limit`. Visits nearer boxes first
+  /// and may lower the limit.
   template <class Visit>
   void for_nearest(const Eigen::Vector3d& point, const double& limit, Visit&& visit) const {
     struct Waiting {
@@ -65,7 +65,7 @@ class TriangleTree {
     stack[height++] = {0, squared_distance(nodes_.front().box, point)};
     while (height > 0) {
       const auto [n, squared] = stack[--height];
-      // A little more than the limit: of two that are equally near to rounding, both are visited.
+      // The slack makes sure that both of two distances equal up to rounding are visited.
       if (squared > limit * (1 + 1e-12)) continue;
       const Node& node = nodes_[n];
       if (node.count > 0) {
@@ -73,7 +73,7 @@ class TriangleTree {
         continue;
       }
       const std::size_t left = n + 1;
-      if (left == node.skip) continue;  // a tree of nothing
+      if (left == node.skip) continue;  // an empty tree
       const std::size_t right = nodes_[left].skip;
       Waiting near{left, squared_distance(nodes_[left].box, point)};
       Waiting far{right, squared_distance(nodes_[right].box, point)};
@@ -84,13 +84,13 @@ class TriangleTree {
   }
 
  private:
-  /// In the order in which they are visited: a node's first child follows it.
+  /// Nodes in order of traversal: the first child follows its parent.
   struct Node {
     Box box;
-    std::size_t skip;  // the node after all that is below this one
-    int first, count;  // of the boxes of a leaf, in order_; none of others
+    std::size_t skip;  // next node outside this subtree
+    int first, count;  // range of a leaf's boxes in order_; empty for inner nodes
   };
-  static constexpr std::size_t most_depth = 128;  // halves of what an int counts, two of each wait at most
+  static constexpr std::size_t most_depth = 128;  // enough for any int count of boxes, with two waiting per level
 
   void split(std::span<const Box> boxes, int first, int count, int leaf_size);
   static double squared_distance(const Box& box, const Eigen::Vector3d& p) {

@@ -4,33 +4,33 @@
 
 namespace drape {
 
-/// How a cloth would go through a step if nothing were in its way.
+/// Motion of a cloth through a step without contact.
 struct FreeFlight {
-  Vertices start_v;                                   ///< velocities when it begins, n×3 [m/s]
-  Vertices mean;                                      ///< with which it would go, on average [m/s]
-  Vertices target;                                    ///< where it would end [m]
+  Vertices start_v;                                   ///< velocities at the start of the step, n×3 [m/s]
+  Vertices mean;                                      ///< mean velocities over the step [m/s]
+  Vertices target;                                    ///< positions at the end of the step [m]
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²]
-  double h = 0;                                       ///< [s]
+  double h = 0;                                       ///< step length [s]
 };
 
-/// What Newton's law of restitution makes of features that arrive in a step at the speed s and leave with e·s, on
-/// parabolas under gravity: t seconds into a step of mean velocity w the velocity is w + (t − h/2)·g. A vertex in free
-/// flight thus rises to e² of its height, whatever the step; springs make an error of the order of h.
+/// Rebound by Newton's law of restitution: features arrive at the speed s and leave at e·s, on parabolas under gravity.
+/// With the mean velocity w of a step, the velocity at the time t is w + (t − h/2)·g. A vertex in free flight rises to
+/// e² of its height for any step length. Springs add an error of the order of h.
 struct Bounce {
-  double gap = 0;     ///< how far beyond their distance they end [m]
-  double leaves = 0;  ///< mean velocity with which they go on [m/s]
-  double turned = 0;  ///< by how much that is more than the one of this step [m/s]
-  double struck = 0;  ///< s + e·s [m/s]
+  double gap = 0;     ///< gap at the end of the step in excess of the contact distance [m]
+  double leaves = 0;  ///< mean velocity after the rebound [m/s]
+  double turned = 0;  ///< excess of `leaves` over the mean velocity of this step [m/s]
+  double struck = 0;  ///< change of speed at impact, s + e·s [m/s]
 };
 
-/// Bounces of what arrives fast enough to leave: faster than what presses it on pushes it back in a step. All zero for
-/// anything else.
+/// Returns the bounce of a contact. All zero if the rebound is slower than the forces push the features back together
+/// within a step.
 Bounce bounce_of(const ContactConstraint& contact, const FreeFlight& flight);
 
-/// The change of the velocity of d at the end of a step in which it has bounced: along the normal, and Coulomb's
-/// friction of the impact, µ times what that turns at most [m/s].
-/// @param slip   velocity of d, relative to the obstacle, as the step leaves it [m/s]
-/// @param rubbed what friction has already taken from it, as a change across the normal [m/s]
+/// Returns the change of the velocity of d at the end of a step with a bounce [m/s]. It acts along the normal, plus
+/// Coulomb friction of at most µ·struck.
+/// @param slip   velocity of d relative to the obstacle at the end of the step [m/s]
+/// @param rubbed change across the normal that friction has already made [m/s]
 Eigen::Vector3d change_by(const Bounce& bounce, const ContactConstraint& contact, const Eigen::Vector3d& slip,
                           const Eigen::Vector3d& rubbed);
 

@@ -8,7 +8,7 @@ namespace {
 
 using Index = std::size_t;
 
-// Added to the diagonal of G, which is 1, so that contacts that say the same twice leave it positive definite.
+// Added to the unit diagonal of G to keep it positive definite when contacts are redundant.
 constexpr double regularisation = 1e-6;
 
 }  // namespace

@@ -8,27 +8,27 @@
 
 namespace drape {
 
-/// A direction of a contact's relative place d that the contact holds: a row u·d of the constraints' Jacobian.
+/// One direction of a contact's relative position d that the contact constrains: a row u·d of the constraint Jacobian.
 struct HeldDirection {
   int contact;
-  Eigen::Vector3d direction;  ///< u, of length 1
-  double stiffness;           ///< that holds it, the contact's and the cloth's [N/m]
+  Eigen::Vector3d direction;  ///< unit vector u
+  double stiffness;           ///< stiffness along u, of contact and cloth together [N/m]
 };
 
-/// Preconditioner of H + Σ Jᵀ D J for conjugate gradients, from one of H alone. With J the rows that contacts hold,
-/// G = J Jᵀ and S = I − Jᵀ G⁻¹ J, the projection on what they leave free,
-///   P = S H⁻¹ S + Jᵀ G⁻¹ Λ⁻¹ G⁻¹ J,
-/// Λ the stiffness of each row. Where contacts are far stiffer than the cloth the two parts do not mix, and the first
-/// is off by the rim of what is held alone, so a few iterations do whatever the contacts' stiffness.
+/// Preconditioner of H + Σ Jᵀ D J for conjugate gradients, built on a preconditioner of H. J holds the constrained rows
+/// and Λ their stiffnesses. With G = J Jᵀ and S = I − Jᵀ G⁻¹ J, the projection on the unconstrained space,
+///   P = S H⁻¹ S + Jᵀ G⁻¹ Λ⁻¹ G⁻¹ J.
+/// Contacts far stiffer than the cloth decouple the two parts; the first then errs only near the constrained vertices.
+/// A few iterations therefore suffice for any contact stiffness.
 class ContactPreconditioner {
  public:
   explicit ContactPreconditioner(int vertex_count);
 
-  /// Takes the rows that are held.
-  /// @param free whether each vertex can move
+  /// Sets the constrained rows.
+  /// @param free nonzero for vertices that can move
   void set(std::span<const ContactConstraint> contacts, std::vector<HeldDirection> held, const std::vector<char>& free);
 
-  /// solution = P·vector, where solve(a, b) sets b = H⁻¹·a. Zero on pins where both are.
+  /// Computes solution = P·vector, where solve(a, b) sets b = H⁻¹·a. The result is zero on pins if both inputs are.
   template <class Solve>
   void apply(const Vertices& vector, Vertices& solution, const Solve& solve) {
     if (held_.empty()) return solve(vector, solution);
@@ -59,8 +59,8 @@ class ContactPreconditioner {
 
   std::vector<HeldDirection> held_;
   std::vector<Row> rows_of_;
-  std::vector<std::vector<int>> at_vertex_;  // rows, where G has to be factored
-  bool orthogonal_ = true;                   // no two contacts share a vertex: G is the identity
+  std::vector<std::vector<int>> at_vertex_;  // rows at each vertex, for assembling G
+  bool orthogonal_ = true;                   // G is the identity: no two contacts share a vertex
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
   Eigen::VectorXd rows_, more_rows_;
   Vertices free_part_;

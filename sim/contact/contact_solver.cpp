@@ -12,21 +12,21 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr double relative_stiffness = 10;     // of a contact, of what holds its vertices otherwise
+constexpr double relative_stiffness = 10;     // κ, in multiples of the stiffness of a contact's vertices
 constexpr double sufficient_decrease = 1e-4;  // Armijo's constant (Nocedal and Wright 2006, section 3.1)
-constexpr double shortest_move = 1e-6;        // of a direction
-constexpr double share_of_change = 0.01;      // tolerance of a step, of how far its forces move a vertex in it at most
-constexpr double begins_on = 0.01;            // of the distance: what begins no further away lies there
-constexpr double share_of_way = 1e-6;         // and of how far it goes, where forces do next to nothing
-constexpr double contact_share = 0.1;  // of the tolerance, that gaps and slips may have: κ makes large forces of them
-constexpr double linear_tolerance = 0.05;  // of conjugate gradients, in the norm of their preconditioner
+constexpr double shortest_move = 1e-6;        // least step length along a direction
+constexpr double share_of_change = 0.01;      // tolerance, relative to the largest displacement by forces
+constexpr double begins_on = 0.01;            // largest gap at the start of a contact, relative to the distance
+constexpr double share_of_way = 1e-6;         // least tolerance, relative to the largest displacement
+constexpr double contact_share = 0.1;         // limit of gaps and slips, relative to the tolerance, as κ is large
+constexpr double linear_tolerance = 0.05;     // of conjugate gradients, in the preconditioner's norm
 constexpr int most_linear_iterations = 300;
-constexpr double least_held = 0.1;       // of κ, from which on a direction counts as held
-constexpr double worth_an_update = 0.5;  // largest move of an iteration, of the slack, at which multipliers change
-constexpr double fast = 0.5;             // what an iteration leaves of the gradient at most, unless it creeps
+constexpr double least_held = 0.1;       // fraction of κ from which a direction counts as constrained
+constexpr double worth_an_update = 0.5;  // largest move, as a fraction of the slack, at which multipliers change
+constexpr double fast = 0.5;             // gradient norm ratio of iterations above which the full Hessian is used
 constexpr double least_damping = 1.0 / 256, damping_growth = 4;
 constexpr int most_halvings = 40, most_rounds = 50;
-constexpr int most_useful = 150;  // iterations: a step that has not ended by then hardly ever does
+constexpr int most_useful = 150;  // iterations; a step that needs more rarely converges
 
 double longest(const Vertices& v) { return v.rowwise().norm().maxCoeff(); }
 
@@ -266,7 +266,8 @@ void ContactSolver::iterate_linearly(ContactProblem& problem, const Solve& solve
     for (const int pin : system_.cloth.pins) product_.row(pin).setZero();
     const double curvature = dot(threads, search_, product_);
     if (!(curvature > 0)) {
-      // As far as the Hessian is positive definite it has been solved (Nocedal and Wright 2006, algorithm 7.1).
+      // Conjugate gradients have solved it as far as the Hessian is positive definite (Nocedal and Wright 2006,
+      // algorithm 7.1).
       if (iteration == 0) direction_ = preconditioned_;
       return;
     }
@@ -442,7 +443,7 @@ void ContactSolver::rebound(bool of_the_moment, Vertices& v) const {
     const double now = slip.dot(n);
     Bounce bounce = bounce_of(contact, flight_);
     if (!(bounce.struck > 0)) {
-      // What slides on a ball goes along a chord: at its end the velocity is along the ball again.
+      // A vertex that slides on a ball moves along a chord: turn its end velocity along the surface again.
       const double most = std::max(0.0, (contact.gather(flight_.mean) + drift).dot(n));
       if (of_the_moment && now > most) give_velocity(contact, (most - now) * n, v);
       continue;
@@ -454,7 +455,7 @@ void ContactSolver::rebound(bool of_the_moment, Vertices& v) const {
     }
     const double later = of_the_moment ? flight_.h / 2 * weight * flight_.gravity.dot(n) : 0;
     if (flies_freely(contact)) {
-      bounce.turned = bounce.leaves + later - now;  // whatever the solve has left of the gap
+      bounce.turned = bounce.leaves + later - now;  // independent of the gap that the solve left
     } else {
       bounce.turned = std::max(0.0, bounce.struck * contact.restitution / (1 + contact.restitution) - now);
     }

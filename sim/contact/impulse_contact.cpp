@@ -10,14 +10,14 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr int most_contact_rounds = 10;    // of contacts found anew, before what collides is held
-constexpr int most_impulse_passes = 60;    // over the contacts in a round
-constexpr int most_held_rounds = 60;       // after which all zones are joined
-constexpr double settled_share = 1e-3;     // of the distance that a contact keeps: what a pass may still move
-constexpr double near_share = 0.1;         // of the least distance: how far a solve may move what was found
-constexpr double least_correction = 1e-9;  // or this [m]
+constexpr int most_contact_rounds = 10;  // searches for contacts before colliding vertices are held
+constexpr int most_impulse_passes = 60;  // per round
+constexpr int most_held_rounds = 60;     // rounds after which all zones are joined
+constexpr double settled_share = 1e-3;   // convergence tolerance of a pass, as a fraction of the contact distance
+constexpr double near_share = 0.1;  // largest move of a solve without a new search, as a fraction of the least distance
+constexpr double least_correction = 1e-9;  // added to the tolerance of a pass [m]
 
-/// A force across the normal, no larger than friction can be.
+/// Returns a force across the normal, limited to `most`.
 Eigen::Vector3d limited(const Eigen::Vector3d& across, double most) {
   const double size = across.norm();
   return size > most ? Eigen::Vector3d(most / size * across) : across;
@@ -112,7 +112,7 @@ void ImpulseContact::find() {
     Impulse impulse{.contact = contact, .compliance = compliance, .bounce = {}};
     while (known != before_.end() && known->contact.key < contact.key) ++known;
     if (known != before_.end() && known->contact.key == contact.key) {
-      // The same push along the normal that it has now.
+      // Keep the push, along the new normal.
       const Eigen::Vector3d &n = contact.normal, &force = known->contact.force;
       const double normal = force.dot(known->contact.normal);
       impulse.contact.force = normal * n + limited(force - force.dot(n) * n, contact.friction * normal);

@@ -13,12 +13,12 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr double impact_share = 0.5;   // of the distance at the end, down to which features may come on their way
-constexpr double target_slack = 0.25;  // how far a vertex may end from where pairs were searched for, in distances
-constexpr int vertex_kind = -1;        // of contacts of vertices with a body, before those of pairs
-constexpr double touch_reach = 1.25;   // features further apart than so many distances do not touch
-constexpr int most_steps_ahead = 8;    // for which one search does
-constexpr double resolved = 1e-9;      // of the distance: below, a difference has no direction
+constexpr double impact_share = 0.5;   // least gap on the path, as a fraction of the distance at the end
+constexpr double target_slack = 0.25;  // largest deviation from the predicted end of a step, in distances
+constexpr int vertex_kind = -1;        // kind of vertex-body contacts, sorted before those of pairs
+constexpr double touch_reach = 1.25;   // largest gap of touching features, in distances
+constexpr int most_steps_ahead = 8;    // steps that one search covers
+constexpr double resolved = 1e-9;      // least length of a difference with a direction, as a fraction of the distance
 
 Point plane_normal(Feature feature, const FourPoints& p) {
   const bool edges = feature == Feature::edge_edge;
@@ -57,7 +57,7 @@ std::optional<Touch> find_touch(const FeatureWays& ways, double distance, bool h
   }
   const Nearest near = nearest(feature, to);
   if (!held && near.squared >= 1.5 * distance * distance) return std::nullopt;
-  // The ends of edges are vertices beside triangles, too.
+  // Vertex-triangle pairs cover the ends of edges.
   if (feature == Feature::edge_edge && !inside(near.weights, feature)) return std::nullopt;
   const Point difference = near.difference(to);
   Point normal = difference.normalized();
@@ -122,7 +122,7 @@ void SelfContacts::find(const Vertices& target, int source, const std::vector<Co
   for (const FeaturePair& pair : candidates_.pairs()) {
     add(pair, source, is_held(held, key_of(pair, source)), contacts);
   }
-  // What bears a force may have gone beyond the pairs that are near.
+  // Contacts that bear a force may have left the candidates.
   for (const ContactConstraint& contact : held) {
     const FeaturePair pair{static_cast<Feature>(contact.key.kind), contact.key.features};
     if (!std::ranges::binary_search(candidates_.pairs(), pair)) add(pair, source, true, contacts);
@@ -214,7 +214,7 @@ void BodyContacts::find(const Vertices& target, int source, const std::vector<Co
 
 void BodyContacts::leave_wrong_sides(std::vector<ContactConstraint>& contacts, std::ptrdiff_t begin,
                                      std::ptrdiff_t pairs) {
-  std::vector<ContactConstraint> passing;  // vertices through triangles
+  std::vector<ContactConstraint> passing;  // vertices that pass through triangles
   std::copy_if(contacts.begin() + pairs, contacts.end(), std::back_inserter(passing),
                [](const ContactConstraint& contact) { return contact.collides && contact.count == 1; });
   if (passing.empty()) return;

@@ -8,7 +8,7 @@
 
 namespace drape {
 
-/// A half-space, as SurfaceContacts takes it. It does not move.
+/// A fixed half-space for SurfaceContacts.
 struct PlaneObstacle {
   struct Placed {
     Eigen::Vector3d center = Eigen::Vector3d::Zero(), up = Eigen::Vector3d::UnitZ();
@@ -22,13 +22,13 @@ struct PlaneObstacle {
     }
   };
 
-  Eigen::Vector3d up;  ///< unit vector out of it
-  double height;       ///< of its surface above the origin, along that [m]
+  Eigen::Vector3d up;  ///< outward unit normal
+  double height;       ///< of the surface above the origin, along `up` [m]
 
   [[nodiscard]] Placed at(double) const { return {height * up, up}; }
 };
 
-/// A ball that moves, as SurfaceContacts takes it.
+/// A moving sphere for SurfaceContacts.
 struct BallObstacle {
   struct Placed {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
@@ -38,7 +38,7 @@ struct BallObstacle {
     [[nodiscard]] double margin() const { return 0.05 * radius; }
     [[nodiscard]] Eigen::Vector3d surface_point(const Eigen::Vector3d& normal) const { return radius * normal; }
 
-    /// Whether what goes straight from one place to another, both outside, passes through more than the rim.
+    /// Returns true if a straight path between two outside positions cuts deeper than the sphere's rim.
     [[nodiscard]] bool crosses(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double distance) const {
       return nearest_on_way(from, to).norm() < rim * (radius + distance);
     }
@@ -49,7 +49,7 @@ struct BallObstacle {
       if (from.norm() < reach || nearest.norm() >= rim * reach) {
         return to.isZero(0) ? Eigen::Vector3d(from.normalized()) : Eigen::Vector3d(to.normalized());
       }
-      // Where it enters: |from + t·way| = reach.
+      // Point of entry: |from + t·way| = reach.
       const Eigen::Vector3d way = to - from;
       const double a = way.squaredNorm(), b = from.dot(way), c = from.squaredNorm() - reach * reach;
       const double t = (-b - std::sqrt(std::max(0.0, b * b - a * c))) / a;
@@ -57,7 +57,7 @@ struct BallObstacle {
     }
 
    private:
-    static constexpr double rim = 0.9;  // part of the reach within which a way is not only across the rim
+    static constexpr double rim = 0.9;  // a path that stays outside this fraction of the reach only crosses the rim
 
     [[nodiscard]] static Eigen::Vector3d nearest_on_way(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
       const Eigen::Vector3d way = to - from;
@@ -68,7 +68,7 @@ struct BallObstacle {
   };
 
   std::shared_ptr<const SphereTrack> track;
-  double scale = 1;  ///< of its radius
+  double scale = 1;  ///< factor on the track's radius
 
   [[nodiscard]] Placed at(double time) const {
     const SphereShape shape = track->at(time);

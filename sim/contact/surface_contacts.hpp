@@ -9,26 +9,25 @@
 
 namespace drape {
 
-/// What a contact is like.
+/// Parameters of a contact.
 struct ContactTerms {
-  double distance = 0;     ///< that the features keep [m]
+  double distance = 0;     ///< minimum distance of the features [m]
   double friction = 0;     ///< Coulomb's coefficient
-  double restitution = 0;  ///< of impacts, 0 to 1
+  double restitution = 0;  ///< coefficient for impacts, 0 to 1
 };
 
-/// Rate at which features separate that are nearer than their distance when a step begins, as a fraction of what is
-/// missing [1/s].
+/// Rate at which features that start too near separate, as a fraction of the missing distance [1/s].
 inline constexpr double separation_rate = 20;
 
-/// Distance that features have to end a step at, which began it so far apart: those that are too near separate slowly,
-/// as a jump would stretch the cloth [m].
+/// Returns the distance required at the end of a step, given the one at its start [m]. Features that are too near
+/// separate slowly, as a jump would stretch the cloth.
 inline double distance_at_end(double before, double kept, double duration) {
   return before >= kept ? kept : before + (kept - before) * std::min(1.0, separation_rate * duration);
 }
 
 /// Contacts of vertices with a smooth surface that moves as a whole. Surface::at(time) returns a Placed: its `center`
-/// [m], and for a place relative to that `gap` [m], `crosses`, `normal_on_way` and `surface_point`. `margin` is how far
-/// beyond twice the distance vertices count as near [m].
+/// [m] and, for positions relative to it, `gap` [m], `crosses`, `normal_on_way` and `surface_point`. Vertices within
+/// twice the distance plus `margin` [m] count as near.
 template <class Surface>
 class SurfaceContacts final : public ContactSource {
  public:
@@ -77,7 +76,7 @@ class SurfaceContacts final : public ContactSource {
   ContactTerms terms_;
   const Vertices* x_ = nullptr;
   double duration_ = 0;
-  double near_ = 0;  // what ends nearer is a contact, which may bear a force after the next iteration [m]
+  double near_ = 0;  // search radius at the end of a step; these contacts may bear a force soon [m]
   typename Surface::Placed from_, to_;
 };
 

@@ -12,15 +12,15 @@ namespace drape {
 namespace {
 
 /// Drag and lift on every triangle (Keckeisen, Kimmerle, Thomaszewski and Wacker, "Modelling Effects of Wind Fields in
-/// Cloth Animations", 2004, section 4; after Ling, Damodaran and Gay 1996). A triangle of area A and unit normal n,
-/// whose vertices move on average by u slower than the air at their places, feels a third at each vertex of
+/// Cloth Animations", 2004, section 4; after Ling, Damodaran and Gay 1996). Consider a triangle of area A and unit
+/// normal n, with the air's mean velocity u relative to its vertices. Each vertex receives a third of
 ///   F = ρA/2 (C_D |c| ‖u‖ u + C_L c (‖u‖² n − (n·u) u)),   c = n·u/‖u‖.
-/// The drag follows the air, the lift is perpendicular to it, and none of it knows which side of the triangle is n's.
+/// Drag is parallel and lift perpendicular to the flow; both are independent of the sign of n.
 ///
-/// No step can be too long for it: the impulse J = h·F is shortened until J·(u − J/µ) ≥ 0, that is, until it does not
-/// go beyond the point where it has stopped a mass µ that moves by u, with 1/µ = Σ dᵢ/9mᵢ over the triangle's free
-/// vertices, dᵢ the number of triangles at vertex i. Summed over all triangles, with Cauchy's inequality for the dᵢ
-/// impulses at a vertex, the kinetic energy relative to a steady wind then changes by at most −Σ J·u/2 ≤ 0.
+/// The force is stable for any step: the impulse J = h·F is shortened until J·(u − J/µ) ≥ 0. It then goes no further
+/// than to stop a mass µ with the velocity u. Here 1/µ = Σ dᵢ/9mᵢ over the triangle's free vertices, with dᵢ triangles
+/// at vertex i. Cauchy's inequality for the dᵢ impulses at a vertex bounds the sum over all triangles. The kinetic
+/// energy relative to a steady wind changes by at most −Σ J·u/2 ≤ 0.
 class AirForce final : public Force {
  public:
   AirForce(const Air& values, const Cloth& cloth, double h, const Threads& threads)
@@ -68,7 +68,7 @@ class AirForce final : public Force {
     for_ranges(threads_, triangle_count(), [&](Eigen::Index first, Eigen::Index count) {
       for (Eigen::Index t = first; t < first + count; ++t) thirds_.row(t) = third_on(t, state.x);
     });
-    // Each vertex adds up its triangles' forces in the order in which one thread comes by them.
+    // Sum each vertex's forces in the order of a single thread, for identical results.
     for_ranges(threads_, force.rows(), [&](Eigen::Index first, Eigen::Index count) {
       for (Eigen::Index i = first; i < first + count; ++i) {
         for (const int t : around_.of(i)) force.row(i) += thirds_.row(t);
@@ -79,7 +79,7 @@ class AirForce final : public Force {
  private:
   [[nodiscard]] Eigen::Index triangle_count() const { return static_cast<Eigen::Index>(triangles_.size()); }
 
-  /// A third of the force on a triangle [N].
+  /// Returns a third of the force on a triangle [N].
   [[nodiscard]] Eigen::RowVector3d third_on(Eigen::Index triangle, const Vertices& x) const {
     const auto t = static_cast<std::size_t>(triangle);
     const auto [a, b, c] = triangles_[t];
@@ -88,8 +88,9 @@ class AirForce final : public Force {
     return force_on(u, p.cross(q), inverse_masses_[t]) / 3;
   }
 
-  /// @param u            how fast the air passes the triangle [m/s]
-  /// @param cross        its normal, as long as twice its area [m²]
+  /// Returns the force on a triangle [N].
+  /// @param u            velocity of the air relative to the triangle [m/s]
+  /// @param cross        normal with the length of twice the area [m²]
   /// @param inverse_mass 1/µ [1/kg]
   [[nodiscard]] Eigen::RowVector3d force_on(const Eigen::RowVector3d& u, const Eigen::RowVector3d& cross,
                                             double inverse_mass) const {
@@ -107,13 +108,13 @@ class AirForce final : public Force {
   Air values_;
   Gusts gusts_;
   std::vector<Triangle> triangles_;
-  std::vector<double> inverse_masses_;  // 1/µ of each triangle
+  std::vector<double> inverse_masses_;  // 1/µ per triangle [1/kg]
   double step_;
-  const Threads& threads_;  // one where there is too little to divide
-  Incidence around_;        // of each vertex, its triangles, where several threads compute them
-  // Memory only:
-  mutable Vertices slip_;    // how fast the air passes each vertex
-  mutable Vertices thirds_;  // of the force on each triangle, where several threads compute them
+  const Threads& threads_;  // a single thread for small cloth
+  Incidence around_;        // triangles at each vertex, if several threads are used
+  // Scratch memory:
+  mutable Vertices slip_;    // velocity of the air relative to each vertex [m/s]
+  mutable Vertices thirds_;  // a third of each triangle's force, if several threads are used [N]
 };
 
 }  // namespace

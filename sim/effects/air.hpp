@@ -10,15 +10,15 @@
 
 namespace drape {
 
-/// The air's drag and lift on every triangle: a wind, or air that is still and slows the cloth down.
+/// Drag and lift of the air on every triangle, from a wind or from still air that slows the cloth down.
 struct Air {
   static constexpr std::string_view name = "air";
   static constexpr EffectCost cost{.evaluated = 0.3e-6, .solved = 1.5e-6};
 
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of the wind [m/s]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< wind velocity [m/s]
   double density = 1.2;                                ///< [kg/m³]
-  double drag = 1.2;                                   ///< C_D, of the force along the wind that passes a triangle
-  double lift = 0.6;                                   ///< C_L, of the force across it; there is none without drag
+  double drag = 1.2;                                   ///< coefficient C_D of the force along the flow past a triangle
+  double lift = 0.6;                                   ///< coefficient C_L of the force across the flow; requires drag
   GustValues gusts = {};
 
   void describe(Keys& keys);

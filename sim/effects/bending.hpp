@@ -9,14 +9,14 @@
 
 namespace drape {
 
-/// Resistance to bending: an energy of the curvature, "cross" springs, or both; at least one must be given.
+/// Resistance to bending: a curvature energy, "cross" springs, or both; at least one must be given.
 struct Bending {
   static constexpr std::string_view name = "bending";
   static constexpr EffectCost cost{.evaluated = 20e-9, .solved = 50e-9};
 
-  /// D [N·m], above 0: rolled to the radius R, an area A stores ½·D·A/R².
+  /// Flexural rigidity D [N·m], above 0: an area A rolled to the radius R stores ½·D·A/R².
   std::optional<double> rigidity = {};
-  /// Of springs between the vertices opposite to each inner edge [N/m], above 0.
+  /// Stiffness of springs between the vertices opposite to each inner edge [N/m], above 0.
   std::optional<double> cross_stiffness = {};
 
   void describe(Keys& keys);

@@ -4,11 +4,11 @@
 
 namespace drape {
 
-/// Adds the keys of what the cloth touches: `friction`, and the advice for those that there were.
+/// Adds the key `friction` of anything that the cloth touches, and advice for keys of former versions.
 void describe_friction(Keys& keys, double& friction);
 
 /// Adds the keys of an obstacle: `friction` and `restitution`.
-/// @param restitution number that it sets, or optional one
+/// @param restitution target of that key, a number or an optional one
 void describe_obstacle(Keys& keys, double& friction, Key::Target restitution);
 
 }  // namespace drape

@@ -7,11 +7,11 @@
 
 namespace drape {
 
-/// Reduces every velocity by the same fraction in the same time: v *= factor^h at the end of a step of h seconds.
+/// Damping of all velocities at the same rate: v *= factor^h at the end of a step of h seconds.
 struct Damping {
   static constexpr std::string_view name = "damping";
 
-  double factor = 1;  ///< what is left of every velocity after one second, above 0 and at most 1
+  double factor = 1;  ///< fraction of every velocity left after one second, above 0 and at most 1
 
   void describe(Keys& keys);
   void install(System& system) const;

@@ -21,27 +21,26 @@ class Keys;
 struct SimulationSettings;
 struct System;
 
-/// Receives what is wrong with an effect: the key to blame (empty: the whole table) and a sentence, once for each
-/// problem.
+/// Receiver of the problems of an effect, one per call: the key at fault (empty: the whole table) and a sentence.
 using ProblemSink = std::function<void(std::string_view key, const std::string& sentence)>;
 
-/// Estimated time that an effect takes on a processor as they were in 2022, with the iterations that a step has more
-/// where there is it [s], for each vertex and step.
+/// Estimated time for an effect per vertex and step on a processor of 2022 [s]. Includes the iterations that it adds to
+/// a step.
 struct EffectCost {
-  double evaluated = 0;  ///< where forces are evaluated once
-  double solved = 0;     ///< where a step is solved for
+  double evaluated = 0;  ///< in methods that evaluate forces once
+  double solved = 0;     ///< in methods that solve for a step
 };
 
-/// A type of effect: a struct whose public members say what it is like, with their defaults and units. They are what
-/// a scene's table [effects.NAME] can say, and code writes it as a value, Damping{.factor = 0.2}. It has
+/// A type of effect: a struct whose public members are its parameters, with defaults and units. A scene sets them in
+/// the table [effects.NAME]; code writes a value, Damping{.factor = 0.2}. It has
 ///   static constexpr std::string_view name            the NAME of its table
-///   static constexpr bool repeatable = true           where [[effects.NAME]] may occur several times
-///   static constexpr EffectCost cost                  where it takes something to speak of
-///   static constexpr bool touches = true              where the cloth can touch it
+///   static constexpr bool repeatable = true           if [[effects.NAME]] may occur several times
+///   static constexpr EffectCost cost                  if its time is worth counting
+///   static constexpr bool touches = true              if the cloth can touch it
 ///   void describe(Keys&)                              lists the table's keys; their values are written to the members
 ///   void check(const SimulationSettings&, const ProblemSink&) const
-///                                                     says what is wrong with the values taken together and with
-///                                                     everything else, where something can be
+///                                                     optional: reports values that conflict with each other or with
+///                                                     other settings
 ///   void install(System&) const                       adds its forces, springs, energies, filters, corrections and
 ///                                                     colliders to the system
 template <class T>
@@ -51,10 +50,10 @@ concept EffectValue = requires(T value, const T& constant, Keys& keys, System& s
   constant.install(system);
 };
 
-/// An effect of any type: something that acts on the cloth. A value like what it holds.
+/// An effect of any type, copied by value.
 class Effect {
  public:
-  // Implicit: whatever is an effect can stand where one is taken.
+  // Implicit, so that any effect value converts to an Effect.
   template <EffectValue T>
   Effect(T value) : held_(std::make_unique<Held<T>>(std::move(value))) {}
   Effect(const Effect& other) : held_(other.held_->copy()) {}
@@ -64,14 +63,14 @@ class Effect {
 
   [[nodiscard]] std::string_view name() const { return held_->name(); }
   [[nodiscard]] EffectCost cost() const { return held_->cost(); }
-  /// Returns true if it is something that the cloth can touch.
+  /// Returns true if the cloth can touch it.
   [[nodiscard]] bool touches() const { return held_->touches(); }
-  /// The keys' targets are in this object.
+  /// Lists the keys, whose targets are members of this object.
   void describe(Keys& keys) { held_->describe(keys); }
   void check(const SimulationSettings& settings, const ProblemSink& problem) const { held_->check(settings, problem); }
   void install(System& system) const { held_->install(system); }
 
-  /// The effect as one of this type; null if it is of another.
+  /// Returns the effect as this type, or null if it has another.
   template <EffectValue T>
   [[nodiscard]] const T* as() const {
     const auto* held = dynamic_cast<const Held<T>*>(held_.get());
@@ -118,15 +117,15 @@ class Effect {
 /// A row of the registry.
 struct EffectType {
   std::string_view name;
-  bool repeatable;   ///< may be written as [[effects.NAME]] several times
-  Effect (*make)();  ///< with its defaults
+  bool repeatable;   ///< true if [[effects.NAME]] may occur several times
+  Effect (*make)();  ///< creates the effect with its defaults
 };
 
-/// Every effect there is, in the order in which they are evaluated. The only list of them.
+/// Returns the only list of all effects, in order of evaluation.
 std::span<const EffectType> effect_types();
 
-/// The effects of a simulation, in the order in which they are evaluated: that of the registry, whatever the order in
-/// which they are added. One of a type that is not in the registry comes where it is added: none moves past it.
+/// Effects of a simulation in order of evaluation. This is the registry's order, independent of the order of add(). An
+/// effect of an unregistered type keeps the position where it was added; no other moves past it.
 class Effects {
  public:
   Effects() = default;

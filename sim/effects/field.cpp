@@ -38,7 +38,7 @@ class FieldForce final : public Force {
   FormulaField formulas_;
   Eigen::VectorXd masses_;
   bool constant_, of_velocity_;
-  double bound_;  // infinite where nobody has said it
+  double bound_;  // infinite if unknown
 };
 
 }  // namespace

@@ -11,21 +11,21 @@
 
 namespace drape {
 
-/// A field of acceleration by formula, Field{.acceleration = {"-x", "-y", "0"}}: centrifugal, of an attractor, a swirl.
+/// Acceleration field by formula, Field{.acceleration = {"-x", "-y", "0"}}: centrifugal, an attractor, a swirl.
 struct Field {
   static constexpr std::string_view name = "field";
   static constexpr EffectCost cost{.evaluated = 0.1e-6, .solved = 0.3e-6};
   static constexpr bool repeatable = true;
 
-  /// Of a vertex along x, y and z, each a formula in x, y, z, t, vx, vy and vz, see FormulaField [m/s²].
+  /// Components along x, y and z, each a formula in x, y, z, t, vx, vy and vz, see FormulaField [m/s²].
   std::array<std::string, 3> acceleration = {"0", "0", "0"};
-  /// How fast the acceleration changes with the place at most, √λ_max of JᵀJ, J its derivative [1/s²]. Explicit
-  /// methods need it where a formula depends on the place: their largest stable step follows from it.
+  /// Largest change of the acceleration with the position, √λ_max of JᵀJ with the derivative J [1/s²]. Explicit methods
+  /// need it for formulas that depend on the position, to find their largest stable step.
   std::optional<double> stiffness_bound = {};
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;
-  /// @throws std::invalid_argument if a formula cannot be read
+  /// @throws std::invalid_argument if a formula is invalid
   void install(System& system) const;
 };
 

@@ -9,7 +9,7 @@
 
 namespace drape {
 
-/// The same acceleration on every vertex, whose potential energy is counted as gravity's.
+/// Uniform acceleration whose potential energy is reported as gravity's.
 struct Gravity {
   static constexpr std::string_view name = "gravity";
 

@@ -16,12 +16,12 @@ struct Ground {
   static constexpr bool touches = true;
   static constexpr bool repeatable = true;
 
-  double height = 0;                                  ///< its distance from the origin along the normal [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< out of it, of any length but 0
-  double thickness = 0.02;                            ///< distance that the cloth keeps from it [m]
+  double height = 0;                                  ///< distance of the plane from the origin along the normal [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< outward direction, a nonzero vector of any length
+  double thickness = 0.02;                            ///< distance that the cloth keeps from the plane [m]
 
   double friction = 0.5;   ///< Coulomb's coefficient
-  double restitution = 0;  ///< of impacts, 0 to 1
+  double restitution = 0;  ///< coefficient for impacts, 0 to 1
 
   void describe(Keys& keys);
   void check(const SimulationSettings& settings, const ProblemSink& problem) const;

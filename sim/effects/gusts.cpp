@@ -9,16 +9,16 @@
 namespace drape {
 namespace {
 
-constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // 2⁶⁴ by the golden ratio
+constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // 2⁶⁴ divided by the golden ratio
 
-/// A well-mixed 64-bit number from another (the finaliser of SplitMix64, Steele, Lea and Flood 2014).
+/// Returns a hash of a 64-bit number (the finaliser of SplitMix64, Steele, Lea and Flood 2014).
 std::uint64_t mixed(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
   return z ^ (z >> 31);
 }
 
-/// Three numbers in [−1, 1) out of 21 bits each.
+/// Returns three numbers in [−1, 1), each from 21 bits.
 Eigen::Vector3d random_vector(std::uint64_t bits) {
   constexpr std::uint64_t mask = (1U << 21) - 1;
   constexpr double half = 1 << 20;
@@ -46,7 +46,7 @@ Eigen::Vector3d Gusts::at(const Eigen::Vector3d& place, double time) const {
     cell[d] = static_cast<std::int64_t>(below);
     weight[d] = s * s * (3 - 2 * s);
   }
-  // The corners of the cell: each dimension splits those before in two, the lower ones and the upper ones.
+  // Corners of the lattice cell: each dimension splits the previous corners into lower and upper ones.
   std::array<std::uint64_t, 16> bits{mixed(static_cast<std::uint64_t>(values_.seed))};
   std::array<double, 16> share{1};
   for (std::size_t d = 0, corners = 1; d < 4; ++d, corners *= 2) {

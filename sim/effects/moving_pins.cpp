@@ -97,13 +97,13 @@ void MovingPins::check_overlap(const MovingPins& other, const ProblemSink& probl
 }
 
 void MovingPins::install(System& system) const {
-  // Once they are released, the system is made for a cloth on which they are not pinned.
+  // Once they are released, the system's cloth does not have them as pins.
   const bool held =
       std::ranges::all_of(pins, [&](int vertex) { return std::ranges::binary_search(system.cloth.pins, vertex); });
   if (!held) return;
   if (!keyframes.empty() || !turns.empty() || follow) system.pin_motions.push_back(motion(system.cloth));
   if (release) {
-    // The first step that begins at that time or later; times are products and must not miss it by their rounding.
+    // First step that begins at the release or later; the factor allows for rounding of its start time.
     const double step = std::ceil(*release / system.whole_step * (1 - 1e-12));
     if (step < most_steps) system.pin_releases.push_back({static_cast<std::int64_t>(step), pins});
   }

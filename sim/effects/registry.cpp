@@ -26,7 +26,7 @@ constexpr EffectType row() {
   return {T::name, repeatable, [] { return Effect(T{}); }};
 }
 
-/// Its place in the registry; the number of all for one that is not there.
+/// Returns the effect's index in the registry, or the registry's size if it is not registered.
 std::size_t rank(const Effect& effect) {
   const auto types = effect_types();
   return static_cast<std::size_t>(std::ranges::find(types, effect.name(), &EffectType::name) - types.begin());

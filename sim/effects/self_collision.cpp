@@ -21,7 +21,7 @@ void SelfCollision::describe(Keys& keys) {
 void SelfCollision::check(const SimulationSettings& settings, const ProblemSink& problem) const {
   const Vertices& x = settings.cloth.positions;
   const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
-  // Everything would touch everything, in a time that grows with the square of the mesh's size.
+  // All features would touch each other, and the time would grow with the square of the mesh size.
   if (thickness > size) {
     problem("thickness", fmt::format("expected less than the size of the whole cloth at its start, {:g} m, found {:g}",
                                      size, thickness));

@@ -7,13 +7,13 @@
 
 namespace drape {
 
-/// Keeps the cloth from passing through itself, see SelfContacts.
+/// Contact of the cloth with itself, so that it does not pass through itself, see SelfContacts.
 struct SelfCollision {
   static constexpr std::string_view name = "self_collision";
   static constexpr EffectCost cost{.evaluated = 0.6e-6, .solved = 4.0e-6};
   static constexpr bool touches = true;
 
-  double thickness = 0.01;  ///< the distance that layers of the cloth keep [m]
+  double thickness = 0.01;  ///< distance between layers of the cloth [m]
   double friction = 0.3;    ///< Coulomb's coefficient between layers
 
   void describe(Keys& keys);

@@ -16,14 +16,14 @@
 namespace drape {
 namespace {
 
-/// How far beyond its centre a sphere reaches: scale·radius + thickness, of which one is 1 or 0.
+/// Reach of a sphere from its centre, scale·radius + thickness, with either scale = 1 or thickness = 0.
 struct Reach {
   double scale, thickness;
 
   [[nodiscard]] double of(double radius) const { return scale * radius + thickness; }
 };
 
-/// The homework's penalty, a = k·max(s·r − ‖x−c‖, 0)·(x−c)/‖x−c‖. At the centre itself no direction leads outwards.
+/// The homework's penalty, a = k·max(s·r − ‖x−c‖, 0)·(x−c)/‖x−c‖. At the centre there is no outward direction.
 struct PenaltyForce final : Force {
   std::shared_ptr<const SphereTrack> track;
   Reach reach;
@@ -108,9 +108,9 @@ void Sphere::check(const SimulationSettings& settings, const ProblemSink& proble
 }
 
 void Sphere::check_push(const SimulationSettings& settings, const ProblemSink& problem) const {
-  // A vertex on the explicit penalty is a harmonic oscillator of frequency √k, which every step that evaluates the
-  // force at its start turns unstable beyond h·√k = 2, whatever the method does with the springs.
-  // Substeps are short enough, those of an accuracy and those that are chosen.
+  // Under the explicit penalty a vertex is a harmonic oscillator of frequency √k. Methods that evaluate the force at
+  // the start of a step are unstable beyond h·√k = 2, however they treat the springs. Substeps chosen for an accuracy
+  // or by the automatic method are short enough.
   if (settings.accuracy || settings.integrator.method == Method::automatic) return;
   const double h = settings.step / settings.integrator.substep_count();
   const double k = stiffness.value_or(usual_stiffness), product = h * std::sqrt(k);

@@ -10,13 +10,13 @@ namespace {
 
 using Index = std::size_t;
 constexpr Index no_spring = std::numeric_limits<Index>::max();
-constexpr double straightest_corner = -0.8;  // cosine of the angle between two springs that go on from one another
-constexpr int most_rounds = 4;               // of finding which springs of a string are slack
-// By this part of its weight each spring holds on to what it pulls: a string between two pins that is too short for
-// their distance would have to pull without end.
+constexpr double straightest_corner = -0.8;  // cosine of the largest corner between consecutive springs
+constexpr int most_rounds = 4;               // maximum number of updates of a string's slack set
+// Regularisation of each spring, as a fraction of its weight. A string between two pins that is too short for their
+// distance would otherwise need an infinite tension.
 constexpr double slackening = 1e-3;
 
-/// For each spring the one that goes on from it at either end.
+/// Next spring in the string, for both ends of each spring.
 class Continuations {
  public:
   Continuations(const Cloth& cloth, const std::vector<Index>& springs)
@@ -59,7 +59,7 @@ class Continuations {
   std::vector<std::array<Index, 2>> next_;
 };
 
-/// Finds the changes of all that are not slack, with those that are given.
+/// Solves for the changes of all taut springs, given those of slack ones.
 void eliminate(std::span<Tension> string) {
   double next = 0, more = 0;
   for (Index k = 0; k < string.size(); ++k) {
@@ -73,7 +73,7 @@ void eliminate(std::span<Tension> string) {
   for (Index k = string.size() - 1; k-- > 0;) string[k].more += string[k].next * string[k + 1].more;
 }
 
-/// Lets go of what would have to push, and takes up what has become too long; returns whether there was any.
+/// Releases springs that would push and adds slack ones that became too long. Returns true if any changed.
 bool exchange(std::span<Tension> string) {
   bool any = false;
   for (Index k = 0; k < string.size(); ++k) {
@@ -98,7 +98,7 @@ std::vector<StringLink> lay_out_strings(const Cloth& cloth, const std::vector<st
   links.reserve(springs.size());
   for (const Index seed : springs) {
     if (laid[seed] != 0) continue;
-    // Back to where the string begins, or once around where it is a ring.
+    // Go back to the start of the string, or once around a ring.
     Index first = seed;
     int from = cloth.springs[seed].i;
     for (Index before = continuations.next(first, from); before != no_spring && before != seed;) {

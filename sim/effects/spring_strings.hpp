@@ -8,34 +8,34 @@
 
 namespace drape {
 
-/// A spring's place in a string: one after another, at each vertex the next is the one that goes on straightest.
+/// A spring's position in a string: a chain of springs, each continued at its end by the straightest neighbour.
 struct StringLink {
-  std::size_t spring;  ///< its number in the cloth
-  int from, to;        ///< its ends, in the direction of the string
-  bool joined;         ///< whether it goes on from the link before it
+  std::size_t spring;  ///< number in the cloth
+  int from, to;        ///< ends, in the direction of the string
+  bool joined;         ///< true if it continues the previous link
 };
 
-/// Lays the springs out in strings, each spring once. Strings go through vertices that are no pins, by what is straight
-/// at rest, and end where nothing goes on within 37° of straight. On a grid they are its lines and diagonals.
-/// @param springs the numbers of those that are laid out
+/// Groups springs into strings, each spring once. A string passes through free vertices in the direction straightest at
+/// rest, and ends where no spring is within 37° of it. On a grid the strings are the lines and diagonals.
+/// @param springs numbers of the springs to group
 std::vector<StringLink> lay_out_strings(const Cloth& cloth, const std::vector<std::size_t>& springs);
 
-/// A spring that pulls, in a string of them, and by how much more it should.
+/// A pulling spring in a string, with the change of its tension.
 struct Tension {
-  Eigen::Vector3d along;  ///< of length 1, the direction that it pulls in
-  double weight;          ///< 1/m of both of its ends [1/kg]
-  double coupling;        ///< by how much the one before it lengthens it, and the other way round [1/kg]
-  double excess;          ///< by how much it is too long as it pulls now [m]
-  double pull;            ///< that, not negative; it remains 0 [kg·m]
-  double more = 0;        ///< the result, at least −pull [kg·m]
+  Eigen::Vector3d along;  ///< unit direction of the pull
+  double weight;          ///< sum of 1/m of both ends [1/kg]
+  double coupling;        ///< lengthening of this spring by the tension of the previous one, and vice versa [1/kg]
+  double excess;          ///< length beyond the limit at the current tension [m]
+  double pull;            ///< current tension, not negative; springs at 0 stay there [kg·m]
+  double more = 0;        ///< result: change of the tension, at least −pull [kg·m]
 
-  // Of the elimination.
+  // For the elimination.
   bool slack = false;
   double next = 0;
 };
 
-/// Finds what all of a string have to pull more so that none is too long, and none that could pull less is too short:
-/// a tridiagonal system, without those that would have to push.
+/// Finds the changes of a string's tensions such that no spring is too long, and none that could pull less is too
+/// short. Solves a tridiagonal system without the springs that would have to push.
 void balance(std::span<Tension> string);
 
 }  // namespace drape

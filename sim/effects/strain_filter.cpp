@@ -7,11 +7,10 @@ namespace drape {
 namespace {
 
 constexpr int early_sweeps = 30;
-constexpr int sweeps_in_turn = 60;  // where contact is in the way the two may have no solution
-// How often springs are looked at that had no impulse.
+constexpr int sweeps_in_turn = 60;  // when alternating with contact, as both constraints together may have no solution
+// Number of sweeps between checks of springs without an impulse.
 constexpr int sweeps_between_looks = 2;
-// Where no more than this part of the springs is beyond the limits, a sweep ends with some over these and what is so
-// many springs around them alone.
+// Largest fraction of unconverged springs for which a sweep ends with passes over these and their neighbours.
 constexpr double few = 0.01;
 
 }  // namespace
@@ -64,7 +63,7 @@ void StrainFilter::apply(const Vertices& x, double /*time*/, double h, Vertices&
   relax_from(x, h, v, limits_.iterations);
 }
 
-/// Finds the impulses from where the cloth would go, beginning with those that are expected.
+/// Solves for the impulses from the unconstrained velocities, starting with the expected impulses.
 void StrainFilter::relax_from(const Vertices& x, double h, Vertices& v, int most_sweeps) {
   forget();
   find_beyond(x, h, v);
@@ -107,7 +106,7 @@ bool StrainFilter::adjust(const Vertices& x, double, double h, Vertices& v) {
     return squared <= most * range.most && squared >= least * range.least;
   });
   if (hold) return false;
-  // Its own impulses are what it begins with, from where the cloth would go without them.
+  // The filter's own impulses are the initial guess, so the velocities are taken without them.
   for (const int i : moved_) v.row(i) -= change_[Index(i)].transpose() / h;
   expected_.clear();
   for (const Index k : active_) {
@@ -117,7 +116,7 @@ bool StrainFilter::adjust(const Vertices& x, double, double h, Vertices& v) {
   return true;
 }
 
-/// Undoes what the last step has left.
+/// Resets the data of the last step.
 void StrainFilter::forget() {
   for (const int i : moved_) {
     change_[Index(i)].setZero();
@@ -134,7 +133,7 @@ void StrainFilter::forget() {
   watched_.clear();
 }
 
-/// Finds the springs that would end beyond their limits, and those that begin with an impulse.
+/// Finds the springs that would end beyond their limits, and those with an initial impulse.
 void StrainFilter::find_beyond(const Vertices& x, double h, const Vertices& v) {
   target_ = x + h * v;
   auto expected = expected_.begin();
@@ -149,7 +148,7 @@ void StrainFilter::find_beyond(const Vertices& x, double h, const Vertices& v) {
   for (Index k = 0; k < found; ++k) activate(active_[k], x);
 }
 
-/// Has a spring take part in the sweeps, and those around it watched.
+/// Adds a spring to the sweeps and its neighbours to the watched springs.
 void StrainFilter::activate(Index k, const Vertices& x) {
   const auto from_j_to_i = [](const Vertices& at, const Limited& s) -> Eigen::Vector3d {
     return (at.row(s.i) - at.row(s.j)).transpose();
@@ -176,12 +175,12 @@ void StrainFilter::activate(Index k, const Vertices& x) {
   }
 }
 
-/// Activates what has been brought beyond its limits, and gives what is beyond the tolerance, too, what it needs, so
-/// that what this in turn brings beyond them is found as well. Returns whether there was none.
+/// Activates watched springs beyond their limits. Those beyond the tolerance are updated at once, so that the same
+/// check finds the springs which that affects. Returns true if there were none.
 bool StrainFilter::look_around(const Vertices& x, bool early) {
   bool all_hold = true;
   const Index before = active_.size();
-  for (Index next = 0; next < watched_.size();) {  // which activate() makes longer
+  for (Index next = 0; next < watched_.size();) {  // activate() appends to this list
     const Index k = watched_[next++];
     Limited& s = limited_[k];
     if (s.stage == Stage::active) continue;

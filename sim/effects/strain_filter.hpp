@@ -8,32 +8,29 @@
 
 namespace drape {
 
-/// Changes the velocities by impulses along the springs until no spring ends the step outside its limits (Provot 1995,
-/// "Deformation constraints in a mass-spring model", on velocities as in Bridson, Fedkiw and Anderson 2002, section
-/// 4.2). What ends the step within all upper limits is a convex set, with a cloth that stays where it is in it, and
-/// what is looked for is its nearest point, by mass: Dykstra's method (Boyle and Dykstra 1986), which lowers
+/// Filter that changes velocities by impulses along the springs until no spring ends the step outside its limits. It
+/// follows Provot 1995, "Deformation constraints in a mass-spring model", applied to velocities as in Bridson, Fedkiw
+/// and Anderson 2002, section 4.2. End positions within all upper limits form a convex set, which contains the unmoved
+/// cloth. The filter finds its closest point in the mass norm, by Dykstra's method (Boyle and Dykstra 1986). This
+/// lowers, spring by spring,
 ///   φ(p) = ½ ‖δ‖²_M + Σ pₖ·dₖ + Σ Lₖ ‖pₖ‖,   M δ the sum of the springs' impulses pₖ at each vertex, times h,
-/// spring by spring, dₖ from one end to the other as the step would end and Lₖ the limit, so that what its neighbours
-/// do can take an impulse back. A sweep gives each spring what it needs, and then all springs that pull one after
-/// another in a string the tensions that they need together, which carries a load across the cloth at once. From sweep
-/// to sweep the impulses go on in the direction in which they have changed (Nesterov 1983), and back where φ has risen
-/// by that (O'Donoghue and Candès 2015).
+/// where dₖ joins the ends of a spring at the end of the step and Lₖ is its limit. Later changes of its neighbours can
+/// reduce an impulse again. A sweep updates each spring, then solves each string of pulling springs together, which
+/// carries a load across the cloth at once. Between sweeps, impulses are extrapolated along their last change (Nesterov
+/// 1983). The extrapolation is undone if φ has risen (O'Donoghue and Candès 2015).
 ///
-/// Impulses that point along the springs as they end the step, as the nearest point has them, change the angular
-/// momentum Σ m x × v. So at first they are kept along the springs as they are when the step starts, which keeps both
-/// momenta to rounding; a spring for which that does not do, since it turns by more than 25° in the step, bears a load
-/// on pins that would swing up by it, or the others have not settled after the early sweeps, gives up this restriction,
-/// and nothing else, for the rest of the step.
+/// The closest point has impulses along the springs' final directions, which change the angular momentum Σ m x × v.
+/// Early sweeps therefore use the directions at the start of the step, which conserves both momenta to rounding. A
+/// spring drops this restriction for the rest of the step in three cases. It turns by more than 25°, its load on pins
+/// would make it swing up, or other springs have not settled after the early sweeps.
 ///
-/// It begins with the impulses that the last step ended with, as State::restraint has them: φ is convex in them, and
-/// has its least value where they lead to the nearest point, wherever they begin. So that they do not hold more than
-/// that, the sweeps end only where every spring that pulls is at its upper limit, to the tolerance, and every one that
-/// pushes at its lower.
+/// The impulses of the last step, in State::restraint, are the initial guess. φ is convex in them with its minimum at
+/// the closest point, so any guess works. Sweeps end only when every pulling spring is at its upper limit and every
+/// pushing one at its lower, within the tolerance. So the filter holds no more than needed.
 ///
-/// Only springs that have had an impulse are swept over. Those that have an end in common with one of these are looked
-/// at after every second sweep, and before the limits are said to hold; the ends of all others are not moved. Where the
-/// springs that are still beyond the limits are few, as at a pin that a large load hangs on, a sweep ends with some
-/// over these and those around them alone.
+/// Sweeps cover only springs that have had an impulse. Springs that share a vertex with these are checked after every
+/// second sweep and before the filter converges; no other spring has moved. Few springs may be beyond the limits, as at
+/// a pin under a large load. Then a sweep ends with several passes over these and their neighbours only.
 class StrainFilter final : public MotionFilter {
  public:
   StrainFilter(const StrainLimit& limits, const Cloth& cloth);
@@ -46,7 +43,7 @@ class StrainFilter final : public MotionFilter {
 
  private:
   using Index = std::size_t;
-  // What is looked at of every spring in every step, close together.
+  // Data checked for every spring in every step, in compact form.
   struct Range {
     int i, j;
     double least, most;  // squared lengths [m²]
@@ -58,16 +55,16 @@ class StrainFilter final : public MotionFilter {
   enum class Stage : unsigned char { still, watched, active, restless };
   struct Limited {
     int i, j;
-    double weight;             // 1/m of both [1/kg]
+    double weight;             // sum of 1/m of both ends [1/kg]
     double longest, shortest;  // [m]
-    bool joined;               // its i is the j of the one before it
+    bool joined;               // its i is the j of the previous spring
     Stage stage = Stage::still;
-    bool straight = true;  // impulses are along its direction at the start
-    // From j to i at the end of the step as it would be without any impulse [m], and, of length 1, where the impulse
-    // that it was last given is along: at its start while straight, and then at its end.
+    bool straight = true;  // impulses are along the direction at the start of the step
+    // Vector from j to i at the end of the step without impulses [m], and unit direction of the last impulse. That is
+    // the direction at the start of the step while `straight`, then the one at its end.
     Eigen::Vector3d end = Eigen::Vector3d::Zero(), direction = end;
-    Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), last = impulse;  // on i, times h, now and a sweep ago [kg·m]
-    double push = 0;  // that it was last given, along that: negative where it pulls
+    Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), last = impulse;  // on i, times h, now and one sweep ago [kg·m]
+    double push = 0;  // last impulse along `direction`; negative: it pulls
   };
 
   void forget();
@@ -96,22 +93,22 @@ class StrainFilter final : public MotionFilter {
   void go_back();
 
   StrainLimit limits_;
-  bool free_;                                          // without pins: has its angular momentum to keep
+  bool free_;                                          // without pins, so that angular momentum is conserved
   Eigen::VectorXd weight_;                             // 1/m, 0 for a pin [1/kg]
-  std::vector<Limited> limited_;                       // in strings
-  std::vector<Range> ranges_;                          // of each of these
-  Vertices target_;                                    // where the step would end without any impulse [m]
-  std::vector<Eigen::Vector3d> change_, last_change_;  // by how much the impulses change that, as Limited has them [m]
-  std::vector<int> moved_;                             // the vertices for which they do
-  std::vector<Eigen::Index> spring_;                   // of each of limited_, its number in the cloth
-  std::vector<Pull> expected_;                         // by the last step, in the order of limited_
+  std::vector<Limited> limited_;                       // sorted by string
+  std::vector<Range> ranges_;                          // one per entry of limited_
+  Vertices target_;                                    // positions at the end of the step without impulses [m]
+  std::vector<Eigen::Vector3d> change_, last_change_;  // displacement by the impulses [m]
+  std::vector<int> moved_;                             // vertices with a displacement
+  std::vector<Eigen::Index> spring_;                   // number in the cloth of each entry of limited_
+  std::vector<Pull> expected_;                         // from the last step, in the order of limited_
   Restraint restraint_;
   std::vector<char> is_moved_;
   std::vector<Index> active_, watched_, merged_, restless_;
-  std::vector<std::vector<Index>> springs_at_;  // of each vertex
+  std::vector<std::vector<Index>> springs_at_;  // per vertex
   std::vector<Tension> string_;
-  double pace_ = 1, ahead_ = 0;  // Nesterov's t, and what part of the last change a sweep has gone on by
-  double last_value_ = 0;        // φ a sweep ago
+  double pace_ = 1, ahead_ = 0;  // Nesterov's t, and the extrapolated fraction of the last change
+  double last_value_ = 0;        // φ one sweep ago
   bool converged_ = true;
 };
 

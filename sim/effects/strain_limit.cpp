@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-/// That an edge starts beyond a limit.
+/// Returns the message that an edge starts beyond a limit.
 std::string beyond(const char* side, double limit, const Spring& s, double stretch) {
   return fmt::format(
       "the cloth starts beyond the limit, and one step would throw it back: the edge between the vertices {} "

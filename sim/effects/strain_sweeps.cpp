@@ -1,4 +1,4 @@
-// What a sweep of a StrainFilter does.
+// Steps of a sweep of StrainFilter.
 
 #include <algorithm>
 #include <cmath>
@@ -8,19 +8,19 @@
 namespace drape {
 namespace {
 
-constexpr int rings = 3, most_passes = 8;  // of settling the last springs
-// A spring that turns in one step by more than 25°, by the cosine of this, is pulled along where it ends.
+constexpr int rings = 3, most_passes = 8;  // for settle()
+// Cosine of 25°, the largest turn of a spring in a step. Beyond it the spring is pulled along its final direction.
 constexpr double least_cosine = 0.9;
-// In a cloth with pins so is one that its impulse alone would shorten by more than this part of its length. Where
-// strings of vertices of mass m, l apart, cross and pull by p/h² each, vertices swing across by up to ω² = Σ 4 p/(h² m
-// l), over the four strings of a grid 6.8 p w/(h² l) with w = 2/m. Pulls along where springs start are explicit in
-// that: it swings up from ω h = 2 on, at p w = 0.59 l, and hardly dies down near it.
+// With pins, the same holds for a spring that its impulse alone would shorten by more than this fraction of its length.
+// Consider crossing strings of vertices of mass m, l apart, each pulling with p/h². Vertices swing across them at up to
+// ω² = Σ 4 p/(h² m l); over the four strings of a grid this is 6.8 p w/(h² l) with w = 2/m. Pulls along initial
+// directions treat this motion explicitly: it grows from ω h = 2 on, at p w = 0.59 l, and is hardly damped near that.
 constexpr double most_pull = 0.25;
 
 }  // namespace
 
-/// Gives every active spring the impulse it needs, every other one first: two that follow one another in a string do
-/// not then wait for one another in the processor.
+/// Updates the impulse of every active spring, even entries first. Consecutive springs of a string then do not stall
+/// each other in the processor's pipeline.
 void StrainFilter::relax_all(bool early) {
   for (const Index parity : {0U, 1U}) {
     for (const Index k : active_) {
@@ -29,7 +29,7 @@ void StrainFilter::relax_all(bool early) {
   }
 }
 
-/// Gives a spring the impulse it needs now.
+/// Updates the impulse of a spring.
 void StrainFilter::relax(Limited& s, bool early) {
   const Eigen::Vector3d end = end_of(s);
   const double squared = end.squaredNorm(), along = end.dot(s.direction);
@@ -39,7 +39,7 @@ void StrainFilter::relax(Limited& s, bool early) {
     const double across = std::max(0.0, squared - along * along);
     const double most = std::sqrt(std::max(0.0, s.longest * s.longest - across));
     const double least = s.shortest > 0 ? std::sqrt(std::max(0.0, s.shortest * s.shortest - across)) : 0;
-    const double length = along - s.weight * s.impulse.dot(s.direction);  // without it
+    const double length = along - s.weight * s.impulse.dot(s.direction);  // without its own impulse
     give(s, (std::clamp(length, least, most) - length) / s.weight);
     return;
   }
@@ -49,7 +49,7 @@ void StrainFilter::relax(Limited& s, bool early) {
   give(s, (std::clamp(length, s.shortest, s.longest) - length) / s.weight);
 }
 
-/// Sweeps over the springs that are still beyond the tolerance, and those around them, until they hold.
+/// Sweeps over the unconverged springs and their neighbours until they hold.
 void StrainFilter::settle(bool early) {
   for (const Index k : restless_) limited_[k].stage = Stage::restless;
   for (Index ring = 0, inner = 0; ring < rings; ++ring) {
@@ -82,14 +82,14 @@ void StrainFilter::pull_strings() {
   }
 }
 
-/// @param first, count of active_
+/// @param first, count range in active_
 void StrainFilter::pull_string(Index first, Index count) {
   string_.clear();
   for (Index k = first; k < first + count; ++k) {
     const Limited& s = limited_[active_[k]];
     const Eigen::Vector3d end = end_of(s);
     const double along = s.direction.dot(end);
-    // One that is kept straight has the part of its length that is left beside what is across.
+    // A spring with a fixed direction keeps the length that its transverse part leaves.
     const double most =
         !s.straight ? s.longest : std::sqrt(std::max(0.0, s.longest * s.longest - end.squaredNorm() + along * along));
     const double coupling = string_.empty() ? 0 : weight_[s.i] * s.direction.dot(string_.back().along);
@@ -106,7 +106,8 @@ void StrainFilter::pull_string(Index first, Index count) {
   }
 }
 
-/// Whether a spring with this end is within its limits, and where it pulls or pushes at that limit, to the tolerance.
+/// Returns true if a spring with this end vector is within its limits, and at the limit where it pulls or pushes,
+/// within the tolerance.
 bool StrainFilter::holds(const Limited& s, const Eigen::Vector3d& end) const {
   const double most = (1 + limits_.tolerance) * (s.push > 0 ? s.shortest : s.longest);
   const double least = (1 - limits_.tolerance) * (s.push < 0 ? s.longest : s.shortest);
@@ -114,7 +115,7 @@ bool StrainFilter::holds(const Limited& s, const Eigen::Vector3d& end) const {
   return squared <= most * most && squared >= least * least;
 }
 
-/// Returns φ, and finds what does not hold.
+/// Returns φ and collects the springs that do not hold.
 double StrainFilter::assess() {
   double value = 0;
   restless_.clear();
@@ -128,8 +129,8 @@ double StrainFilter::assess() {
   return value;
 }
 
-/// Goes on from the impulses of a sweep in the direction of what it has changed, or, where that has raised φ to this
-/// value, back to those a sweep ago.
+/// Extrapolates the impulses of a sweep along their last change. If the last extrapolation raised φ to this value,
+/// restores the impulses of the previous sweep instead.
 void StrainFilter::go_on(double value) {
   if (value > last_value_ && ahead_ > 0) return go_back();
   last_value_ = value;

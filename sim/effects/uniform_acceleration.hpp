@@ -4,10 +4,10 @@
 
 namespace drape {
 
-/// The same acceleration on every vertex, for as long as the scene lasts.
+/// Uniform acceleration, constant in time.
 struct UniformAcceleration final : Force {
   Eigen::Vector3d acceleration;   ///< [m/s²]
-  const Eigen::VectorXd& masses;  ///< [kg], of the system's cloth
+  const Eigen::VectorXd& masses;  ///< masses of the system's cloth [kg]
 
   UniformAcceleration(const Eigen::Vector3d& a, const Eigen::VectorXd& m) : acceleration(a), masses(m) {}
   [[nodiscard]] bool constant() const override { return true; }

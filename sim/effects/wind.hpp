@@ -9,7 +9,7 @@
 
 namespace drape {
 
-/// The same acceleration on every vertex, as in the homework: a second gravity. For the force of moving air see Air.
+/// Uniform acceleration as in the homework: a second gravity. For the force of moving air see Air.
 struct Wind {
   static constexpr std::string_view name = "wind";
   static constexpr EffectCost cost{.evaluated = 10e-9, .solved = 10e-9};

@@ -1,18 +1,18 @@
 #pragma once
 
-// Springs in bands, a stretch of vertices at a time. Included by kernels_isa.cpp only, see there.
+// Springs in bands, for one stretch of vertices at a time. Only for inclusion by kernels_isa.cpp, see there.
 //
-// A vertex v receives the force of a band's spring v and gives back that of spring v − offset. The loop over a band
-// computes its forces, keeps them, and gives back those of the band before, which were written long enough ago that no
-// read waits for a write. The square root and the division of a spring take the processor longer than all else in the
-// loop together, so that the sums cost nothing; and the loop is short, so that many springs are under way at once.
+// A vertex v receives the force of a band's spring v and the opposite force of spring v − offset. The loop over a band
+// computes its forces, stores them, and subtracts those of the previous band. These were written long enough ago that
+// no read waits for a write. A spring's square root and division take longer than the rest of the loop, so the sums are
+// free. The loop is short, so many springs are processed concurrently.
 
 #include "sim/kernels/isa_springs.hpp"
 
 namespace drape {
 namespace {
 
-/// A vertex's three numbers.
+/// Three coordinates of a vertex.
 template <class V>
 struct Triple {
   V x, y, z;
@@ -40,13 +40,13 @@ inline void operator+=(Triple<V>& sum, const Triple<V>& term) {
 }
 inline Columns<const double> constant(Columns<double> c) { return {c.x, c.y, c.z}; }
 
-/// The first band: sum = its forces.
+/// First band: sum = its forces.
 struct NoBandBefore {
   template <class V>
   void add(Columns<double>, int, Triple<V>&) const {}
 };
 
-/// A later one: sum += its forces − those that the band before gives back.
+/// Later bands: sum += its forces minus the opposite forces of the previous band.
 struct BandBefore {
   SpringBand band;
 
@@ -56,7 +56,7 @@ struct BandBefore {
   }
 };
 
-/// Computes the forces of one band and adds them up; zeros where the cloth has no vertices for their other ends.
+/// Computes the forces of one band and adds them up. They are zero if the cloth has no vertices for their other ends.
 template <class Law, class Before>
 inline void add_band(const SpringBand band, int count, int springs, Columns<const double> from, Law& shared,
                      const Before before, Columns<double> sum) {
@@ -77,7 +77,7 @@ inline void add_band(const SpringBand band, int count, int springs, Columns<cons
   shared = law;
 }
 
-/// Computes every band of a stretch with its law and hands every vertex's place and sum to `finish`.
+/// Computes every band of a stretch with its law, and passes each vertex's position and sum to `finish`.
 template <class Law, class Finish>
 inline void sweep(const SpringStretch& stretch, Columns<const double> from, Law* laws, Finish& shared) {
   alignas(64) double sums[3][kernel_size];

@@ -1,6 +1,6 @@
 #pragma once
 
-// Between columns of x, y and z and rows of four numbers side by side. Included by kernels_isa.cpp only, see there.
+// Conversion between columns x, y and z and rows of four numbers. Only for inclusion by kernels_isa.cpp, see there.
 
 #include "sim/kernels/isa_triangle.hpp"
 #include "sim/kernels/kernels.hpp"
@@ -8,7 +8,7 @@
 namespace drape {
 namespace {
 
-/// Four vertices, as columns and as rows.
+/// Four vertices, as columns or as rows.
 template <class Row>
 struct FourVertices {
   Row x, y, z;

@@ -1,13 +1,13 @@
 #pragma once
 
-// Vectors of DRAPE_LANES doubles. Included by kernels_isa.cpp only, see there.
+// Vectors of DRAPE_LANES doubles. Only for inclusion by kernels_isa.cpp, see there.
 
 namespace drape {
 namespace {
 
 using Vector = double __attribute__((vector_size(8 * DRAPE_LANES)));
 constexpr int lanes = DRAPE_LANES;
-constexpr int sum_lanes = 8;  // the width that every version sums in, so that all round alike
+constexpr int sum_lanes = 8;  // lanes of a sum in every version, for equal rounding
 
 template <class V>
 inline V load(const void* from) {
@@ -30,7 +30,7 @@ inline Vector square_root(Vector value) {
   return value;
 }
 
-/// A sum in eight interleaved lanes: term t goes to lane t mod 8, and the lanes are added up at the end.
+/// A sum in eight interleaved lanes: term t goes to lane t mod 8; the lanes are summed at the end.
 struct LaneSum {
   alignas(64) double sums[sum_lanes];
   template <class V>

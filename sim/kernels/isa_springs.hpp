@@ -1,6 +1,6 @@
 #pragma once
 
-// The laws of springs, and loops over springs in any order. Included by kernels_isa.cpp only, see there.
+// Spring laws, and loops over springs in any order. Only for inclusion by kernels_isa.cpp, see there.
 
 #include "sim/concavity.hpp"
 #include "sim/kernels/isa_simd.hpp"
@@ -9,17 +9,17 @@
 namespace drape {
 namespace {
 
-/// Added to a squared length, so that a spring of zero length has a direction and a force of zero, not NaN [m²].
+/// Added to a squared length, so that a spring of zero length has zero direction and force instead of NaN [m²].
 constexpr double tiny = 1e-30;
 
-/// √(x² + y² + z²). Square root and division are exactly rounded, and so the same on every processor, which the
-/// reciprocal instructions are not; guesses in single precision improved by Newton steps are no faster.
+/// Returns √(x² + y² + z²). Square root and division are exactly rounded, so the same on every processor, unlike the
+/// reciprocal instructions. Single-precision estimates refined by Newton steps are no faster.
 template <class V>
 inline V length(V x, V y, V z) {
   return square_root((x * x + tiny) + (y * y + z * z));
 }
 
-/// What a spring does with the difference d = x_i − x_j: ∇E = k(1 − L/‖d‖)·d on i and the opposite on j.
+/// Force law for the difference d = x_i − x_j: ∇E = k(1 − L/‖d‖)·d on i and the opposite on j.
 struct GradientLaw {
   const double* stiffness;
   const double* rest_length;
@@ -33,7 +33,7 @@ struct GradientLaw {
   }
 };
 
-/// The same, and the sum of E = k/2 (‖d‖ − L)².
+/// The same law, with the sum of E = k/2 (‖d‖ − L)².
 struct ValueGradientLaw {
   const double* stiffness;
   const double* rest_length;
@@ -53,7 +53,7 @@ struct ValueGradientLaw {
   }
 };
 
-/// Keeps the Hessian block K = k(1 − s)·I + k·s·x̂x̂ᵀ, s as in share_across(L/‖d‖, concavity).
+/// Law that stores the Hessian block K = k(1 − s)·I + k·s·x̂x̂ᵀ, with s as in share_across(L/‖d‖, concavity).
 struct BlockLaw {
   const double* stiffness;
   const double* rest_length;
@@ -67,7 +67,7 @@ struct BlockLaw {
     const V ratio = load<V>(rest_length + t) / distance;
     const V positive = smaller(ratio, V{} + 1.0);
     const V share = k * (positive + concavity * (smaller(ratio, V{} + most_compressed) - positive));
-    const V scale = square_root(share) / distance;  // of √share·x̂
+    const V scale = square_root(share) / distance;  // for √share·x̂
     store<V>(blocks.across + t, k - share);
     store<V>(blocks.along.x + t, scale * x);
     store<V>(blocks.along.y + t, scale * y);
@@ -75,7 +75,7 @@ struct BlockLaw {
   }
 };
 
-/// K·d with the blocks that BlockLaw kept.
+/// Product K·d with the blocks stored by BlockLaw.
 struct ProductLaw {
   ConstSpringBlocks blocks;
 
@@ -90,7 +90,7 @@ struct ProductLaw {
   }
 };
 
-/// Calls a body for first … end−1, a vector at a time and the rest one by one.
+/// Calls a body for first … end−1, in whole vectors and then one by one.
 template <class Body>
 inline void for_range(int first, int end, Body&& body) {
   int t = first;
@@ -98,7 +98,7 @@ inline void for_range(int first, int end, Body&& body) {
   for (; t < end; ++t) body(t, double{});
 }
 
-/// The law of some springs, with their differences gathered before and their forces left in the same place.
+/// Gathered differences of springs, which a law replaces by forces.
 struct Gathered {
   alignas(64) double x[kernel_size];
   alignas(64) double y[kernel_size];

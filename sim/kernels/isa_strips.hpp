@@ -1,8 +1,8 @@
 #pragma once
 
-// What a dense factorisation consists of, on strips of eight rows. Included by kernels_isa.cpp only, see there.
-// Every element of a target is changed by one product after the other, in the order of the columns, so that neither the
-// size of the blocks nor that of a vector register changes a bit.
+// Building blocks of a dense factorisation, on strips of eight rows. Only for inclusion by kernels_isa.cpp, see there.
+// Every element of a target changes by one product at a time, in the order of the columns. So neither block sizes nor
+// vector widths change any bit.
 
 #include <cstddef>
 
@@ -18,10 +18,10 @@ constexpr int vector_registers = 32;
 #else
 constexpr int vector_registers = 16;
 #endif
-// As many columns at a time as half of the registers hold; the others are for the rows, or for a second strip.
+// Columns processed together: as many as fit into half of the registers, beside the rows or a second strip.
 constexpr int strip_columns = vector_registers / 2 / strip_vectors < 8 ? vector_registers / 2 / strip_vectors : 8;
 
-/// `at_once` strips and `strip_columns` columns of them, which stay in registers.
+/// Processes `at_once` strips and `strip_columns` of their columns, which stay in registers.
 template <int at_once>
 inline void subtract_block(const StripProduct& p, const double* rows, const double* columns, double* target) {
   Vector sums[at_once][strip_columns][strip_vectors];

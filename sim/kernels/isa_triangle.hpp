@@ -1,6 +1,6 @@
 #pragma once
 
-// Substitution with a packed triangle. Included by kernels_isa.cpp only, see there.
+// Substitution with a packed triangle. Only for inclusion by kernels_isa.cpp, see there.
 
 #include <cstddef>
 
@@ -10,7 +10,7 @@
 namespace drape {
 namespace {
 
-// A row's four numbers in one vector, whatever the instruction set, and two rows in one.
+// One row's four numbers in one vector for any instruction set, and two rows in one vector.
 using FourSingles = float __attribute__((vector_size(16)));
 using FourDoubles = double __attribute__((vector_size(32)));
 using EightSingles = float __attribute__((vector_size(32)));
@@ -27,7 +27,7 @@ struct PairOf<FourDoubles> {
   using Type = EightDoubles;
 };
 
-/// Two rows side by side, and apart.
+/// Joins two rows; low_of() and high_of() split the pair.
 template <class Row>
 inline typename PairOf<Row>::Type join(Row low, Row high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
@@ -41,7 +41,8 @@ inline Row high_of(typename PairOf<Row>::Type pair) {
   return __builtin_shufflevector(pair, pair, 4, 5, 6, 7);
 }
 
-/// Four times the first of two numbers and four times the second. In single precision: one read, one permutation.
+/// Returns four copies of the first of two numbers and four of the second. In single precision: one read, one
+/// permutation.
 inline EightSingles spread(const float* two) {
   const auto bits = load<double>(two);
   const auto both = reinterpret_cast<EightSingles>(FourDoubles{bits, bits, bits, bits});
@@ -51,13 +52,13 @@ inline EightDoubles spread(const double* two) {
   return EightDoubles{two[0], two[0], two[0], two[0], two[1], two[1], two[1], two[1]};
 }
 
-/// Numbers stored for a panel: panel_size, which is not used here because it would be a header's inline function.
+/// Returns the numbers stored for a panel. panel_size is a header's inline function and must not be used here.
 std::ptrdiff_t stored(const Panel& panel) {
   return panel.width * (panel.width + 1) / 2 + std::ptrdiff_t{panel.width} * panel.row_count;
 }
 
-/// x := L⁻¹x for the columns of one panel: multiplies by its inverted triangle and takes what follows from the rows
-/// below. Columns are taken in pairs.
+/// Computes x := L⁻¹x for the columns of one panel: multiplies by its inverted triangle and subtracts the contributions
+/// from the rows below. Columns are processed in pairs.
 template <class Row, int width, class T>
 inline void forward(const Panel& panel, const int* rows, const T* values, T* x) {
   using Pair = typename PairOf<Row>::Type;
@@ -82,11 +83,11 @@ inline void forward(const Panel& panel, const int* rows, const T* values, T* x) 
   }
 }
 
-/// x := L⁻ᵀx for the columns of one panel.
+/// Computes x := L⁻ᵀx for the columns of one panel.
 template <class Row, int width, bool from_last, class T>
 inline void backward(const Panel& panel, const int* rows, const T* values, T* x) {
   using Pair = typename PairOf<Row>::Type;
-  // Narrow panels sum in several chains, so that an addition waits for fewer others.
+  // Narrow panels sum in several chains, so that additions wait less for each other.
   constexpr int chains = width >= 4 ? 1 : width == 1 ? 4 : 2;
   constexpr int pairs = width / 2;
   const T* below = from_last ? values + stored(panel) - width : values + width * (width + 1) / 2;
@@ -137,8 +138,8 @@ constexpr Substitution<T> backwards[] = {backward<Row, 1, from_last, T>, backwar
                                          backward<Row, 7, from_last, T>, backward<Row, 8, from_last, T>};
 static_assert(panel_width == 8);
 
-/// x := L⁻¹x, panel by panel.
-/// @param rows, values of the first panel, and then where those of the last end
+/// Computes x := L⁻¹x, panel by panel.
+/// @param rows, values of the first panel; advanced to the end of the last
 template <class Row, class T>
 inline void go_forward(const PackedTriangle<T>& triangle, const int*& rows, const T*& values, T* x) {
   for (int p = 0; p < triangle.panel_count; ++p) {
@@ -149,8 +150,8 @@ inline void go_forward(const PackedTriangle<T>& triangle, const int*& rows, cons
   }
 }
 
-/// x := L⁻ᵀx, from the last panel to the first.
-/// @param rows, values where those of the last panel end
+/// Computes x := L⁻ᵀx, from the last panel to the first.
+/// @param rows, values the end of the last panel's data
 template <class Row, bool from_last, class T>
 inline void go_back(const PackedTriangle<T>& triangle, const int* rows, const T* values, T* x) {
   for (int p = triangle.panel_count - 1; p >= 0; --p) {
@@ -168,10 +169,9 @@ void solve_forward(const PackedTriangle<T>& triangle, T* x) {
   go_forward<Row>(triangle, rows, values, x);
 }
 
-// Parts of a large triangle, which come from memory, are read from end to beginning, and of each panel the last rows
-// first: those that the panel before it has just solved for are then the last to be waited for. That takes half as
-// long. A small triangle, which is in a cache, would gain little from it, and keeps the order of its sums and so its
-// bits.
+// Parts of a large triangle come from memory. They are read backwards, with the last rows of each panel first, so that
+// results of the previous panel are needed last. This halves the time. A small triangle fits into the cache and would
+// gain little; it keeps the order of its sums and so its bits.
 template <class Row, class T>
 void solve_backward(const PackedTriangle<T>& triangle, T* x) {
   go_back<Row, true>(triangle, triangle.rows + triangle.row_total, triangle.values + triangle.value_total, x);

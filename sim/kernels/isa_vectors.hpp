@@ -1,6 +1,6 @@
 #pragma once
 
-// Loops over plain arrays of numbers. Included by kernels_isa.cpp only, see there.
+// Loops over plain arrays of numbers. Only for inclusion by kernels_isa.cpp, see there.
 
 #include <cstddef>
 
@@ -18,13 +18,13 @@ void add_multiple(std::size_t count, double factor, const double* __restrict fro
   for (std::size_t t = 0; t < count; ++t) to[t] += factor * from[t];
 }
 
-/// Partial sums of interleaved lanes, kept in registers.
+/// Partial sums in interleaved lanes, kept in registers.
 template <int sum_lanes>
 struct Accumulator {
   static constexpr int parts = sum_lanes / lanes;
   Vector sums[parts] = {};
 
-  /// Adds term(t) to lane t − first, for what is left over at the end.
+  /// Returns the total after adding term(t) to lane t − first for the remaining terms.
   template <class Term>
   double total_with(std::size_t first, std::size_t end, Term&& term) const {
     alignas(64) double values[sum_lanes];
@@ -36,10 +36,10 @@ struct Accumulator {
   }
 };
 
-/// The dot products of `many` vectors with one, in one pass over that one.
+/// Computes the dot products of `many` vectors with one, in a single pass over that one.
 template <int many>
 inline void dots_of(std::size_t count, const double* const* vectors, const double* with, double* results) {
-  // One sum by itself takes more lanes, so that an addition waits for fewer others.
+  // A single sum uses more lanes, so that additions wait less for each other.
   constexpr int width = many == 1 ? 2 * sum_lanes : sum_lanes;
   Accumulator<width> sum[many];
   std::size_t t = 0;

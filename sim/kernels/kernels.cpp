@@ -33,7 +33,8 @@ std::span<const Kernels* const> all_kernels() {
 
 namespace {
 
-/// The fastest version that this processor runs, at most the last of `most`.
+/// Returns the fastest version that this processor can run.
+/// @param most versions to choose from, slowest first
 const Kernels* fastest(std::span<const Kernels* const> most) {
   const Kernels* best = most.front();
   for (const Kernels* version : most) {

@@ -1,7 +1,7 @@
-// Compiled once for each instruction set: DRAPE_KERNELS is the name, DRAPE_LANES the doubles in a vector register.
-// Nothing with external linkage but the table may be defined or instantiated in this file, not even an inline function
-// of a header: the linker would keep one copy for the whole program, perhaps the one that an older processor cannot
-// run.
+// Compiled once per instruction set: DRAPE_KERNELS is its name, DRAPE_LANES the number of doubles in a vector register.
+// Only the table may have external linkage here. Nothing else may be defined or instantiated with it, not even a
+// header's inline function. The linker would keep one copy for the whole program, possibly one that an older processor
+// cannot run.
 
 #include "sim/kernels/isa_bands.hpp"
 #include "sim/kernels/isa_packing.hpp"

@@ -7,7 +7,7 @@
 
 namespace drape {
 
-/// The columns of n×3 numbers from a row on, as the kernels take them.
+/// Returns the columns of n×3 numbers from a row on, as arguments of kernels.
 inline Columns<const double> columns(const Vertices& v, Eigen::Index row = 0) {
   return {v.col(0).data() + row, v.col(1).data() + row, v.col(2).data() + row};
 }
@@ -15,7 +15,7 @@ inline Columns<double> columns(Vertices& v, Eigen::Index row = 0) {
   return {v.col(0).data() + row, v.col(1).data() + row, v.col(2).data() + row};
 }
 
-/// Σ a·b over all numbers, the same bits on every processor.
+/// Returns Σ a·b over all numbers, with the same bits on every processor.
 inline double dot(const Vertices& a, const Vertices& b) {
   const double* vector = a.data();
   double result = 0;
@@ -23,7 +23,7 @@ inline double dot(const Vertices& a, const Vertices& b) {
   return result;
 }
 
-/// The 2-norm over all numbers.
+/// Returns the 2-norm over all numbers.
 inline double norm(const Vertices& v) { return std::sqrt(dot(v, v)); }
 
 }  // namespace drape

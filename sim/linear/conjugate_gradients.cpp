@@ -8,21 +8,20 @@
 namespace drape {
 namespace {
 
-// An iteration of Newton's method gains from a residual smaller than this only where it is about to converge to
-// rounding; the iteration counts of the homework's tables are kept.
+// A smaller residual helps Newton's method only near convergence to rounding. The iteration counts of the homework's
+// tables are kept.
 constexpr double tolerance = 1e-2;
-// Of a large cloth an error is estimated with as many digits as are of use: until the residual is small, or the
-// solution has grown so little in as many iterations. Long before its stiff parts are balanced it is as long as it will
-// be.
+// An estimate for a fine cloth ends at a small residual, or when the solution has grown by less than the second
+// fraction in a few iterations. Its length converges long before its stiff parts do.
 constexpr double tolerance_of_estimates = 0.1, growth_of_estimates = 0.05;
 constexpr std::size_t growing = 4;
 
-// What takes how long, in nanoseconds of one machine: only their ratios count. Measured on grids of 10×10 to 100×100
-// cells and on irregular meshes of 1400 and 4000 vertices, with and without bending, where they agree within a third.
-// Of an iteration: a number of A's factor, a pair of vertices in a band or gathered by index, a vertex, and its block
-// of D, where there is one, with its share of making that;
+// Relative costs, measured in nanoseconds on one machine: grids of 10×10 to 100×100 cells and irregular meshes of 1400
+// and 4000 vertices, with and without bending. They agree within a third.
+// Costs in an iteration: a number of A's factor, a pair in a band, a pair accessed by index, a vertex, and its block of
+// D, including its assembly.
 constexpr double of_number = 0.35, of_pair = 1.2, of_gathered_pair = 10, of_vertex = 4, of_block = 2.5;
-// of H's factor: an operation, an entry of L, and the assembly of a pair.
+// Costs of H's factor: an operation, an entry of L, and the assembly of a pair.
 constexpr double of_operation = 0.015, of_entry = 2.5, of_assembled_pair = 130;
 
 }  // namespace
@@ -71,7 +70,7 @@ bool ConjugateGradients::solve_within(int iterations, const Vertices& x, const V
     apply(search_, product_);
     const double curvature = dot(threads, search_, product_);
     if (concavity > 0 && !(curvature > 0)) {
-      // As far as H is positive definite it has been solved (Nocedal and Wright 2006, algorithm 7.1).
+      // It has been solved as far as H is positive definite (Nocedal and Wright 2006, algorithm 7.1).
       if (iteration == 0) direction = preconditioned_;
       return true;
     }
@@ -92,7 +91,7 @@ int ConjugateGradients::worth_a_factor() const {
   const auto pairs = static_cast<double>(pair_count_), vertices = static_cast<double>(residual_.rows());
   const double iteration = of_number * entries + (diagonal_ ? of_vertex + of_block : of_vertex) * vertices +
                            (gathered * of_gathered_pair + (1 - gathered) * of_pair) * pairs;
-  // H couples what A couples by 3×3 blocks: three times the columns, of three times the entries each.
+  // H has 3×3 blocks for each entry of A: three times the columns, with three times the entries each.
   const double factor =
       27 * of_operation * preconditioner_.operations() + 9 * of_entry * entries + of_assembled_pair * pairs;
   return static_cast<int>(std::min(std::ceil(factor / std::max(iteration, 1.0)), 1e9));

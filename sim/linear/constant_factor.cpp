@@ -15,10 +15,10 @@
 namespace drape {
 namespace {
 
-// A panel may store this many numbers for each entry of L in it: zeros cost less than leaving the panel.
+// Largest ratio of numbers stored in a panel to entries of L: zeros cost less than another panel.
 constexpr double tolerated_zeros = 1.6;
 
-/// The lower triangle of A over the free vertices.
+/// Lower triangle of A over the free vertices.
 struct Matrix {
   LowerPattern pattern;
   std::vector<double> values;
@@ -54,7 +54,7 @@ ConstantFactor::ConstantFactor(const System& system, double duration, Precision 
   row_.assign(static_cast<std::size_t>(vertex_count_), row_count_);
   if (row_count_ == 0) return;
   const Matrix matrix = assemble(system, duration, free);
-  const bool factored = row_count_ < large_cloth  // from where on our own is faster (bench/README.md)
+  const bool factored = row_count_ < large_cloth  // above it our own is faster (bench/README.md)
                             ? factor_columns(matrix.pattern, matrix.values, system.stop, free)
                             : factor_fronts(matrix.pattern, matrix.values, system, free);
   if (!factored) {
@@ -138,7 +138,7 @@ void ConstantFactor::find_panels(const SparseCholesky::Columns& columns) {
 
 void ConstantFactor::copy(const SparseCholesky::Columns& columns) {
   double_.values.assign(entries_, 0.0);
-  std::vector<int> place(static_cast<std::size_t>(row_count_));  // of a row among those below the panel
+  std::vector<int> place(static_cast<std::size_t>(row_count_));  // index of a row among those below the panel
   const int* rows = rows_.data();
   double* values = double_.values.data();
   for (const Panel& panel : panels_) {
@@ -156,7 +156,7 @@ void ConstantFactor::copy(const SparseCholesky::Columns& columns) {
         }
       }
     }
-    // The inverse of a triangle is applied without one row waiting for the one before.
+    // With an inverted triangle no row waits for the previous one.
     const Eigen::MatrixXd inverse =
         dense.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(panel.width, panel.width));
     for (int r = 0; r < panel.width; ++r) {
@@ -226,7 +226,7 @@ double ConstantFactor::subtract_solution(const Vertices& b, Vertices& x) {
 bool ConstantFactor::single_suffices() {
   constexpr double tolerated = 1e-3;
   Vertices b(vertex_count_, 3), exact = Vertices::Zero(vertex_count_, 3), rounded = exact;
-  // A smooth vector excites the smallest eigenvalues, where errors grow; an alternating one the largest.
+  // A smooth vector excites the smallest eigenvalues, which amplify errors; an alternating one excites the largest.
   for (int i = 0; i < vertex_count_; ++i) b.row(i) << 1, (i % 2 == 0 ? 1 : -1), (i * 7 % 11) - 5;
   solve_with(double_, b, exact);
   solve_with(single_, b, rounded);

@@ -9,24 +9,24 @@ namespace {
 using Index = std::size_t;
 
 constexpr int block_size = strip_rows * strip_rows;
-// Columns that are eliminated before the rest of a front hears of it, and strips that hear of them together: so many
-// rows of so many columns stay in the second-level cache.
+// Columns eliminated before the rest of a front is updated, and strips updated together. These rows of these columns
+// fit into the second-level cache.
 constexpr int columns_at_once = 128;
 constexpr int strips_at_once = 32;
 
 int strips_of(int rows) { return (rows + strip_rows - 1) / strip_rows; }
 
-/// Where a column of a strip begins, and a row of a triangle of eight.
+/// Returns the offset of a column in a strip, or of a row in a triangle of eight.
 Index eights(int number) { return Index{strip_rows} * static_cast<Index>(number); }
 
-/// Where a column of blocks begins in what is left, as if its blocks above the diagonal were there.
+/// Returns the offset of a column of blocks in the update matrix, as if the blocks above the diagonal were stored.
 Index left_start(int strips, int column_of_blocks) {
   const auto n = static_cast<Index>(strips), c = static_cast<Index>(column_of_blocks);
   return block_size * (c * (n - 1) - c * (c - 1) / 2);
 }
 
-/// Factors the block on the diagonal. Rows of eight numbers, the diagonal as its reciprocals.
-/// @returns whether it is positive definite
+/// Factors the diagonal block into rows of eight numbers, with reciprocals on the diagonal.
+/// @returns true if it is positive definite
 bool factor_block(const double* block, int width, double* triangle) {
   for (int c = 0; c < width; ++c) {
     const double* row = triangle + eights(c);
@@ -125,7 +125,7 @@ bool DenseFront::eliminate(double*& output, Pacer& pacer) {
   return true;
 }
 
-/// Takes what the columns begin … end−1 contribute from a strip of columns in some strips of rows.
+/// Subtracts the products of columns begin … end−1 from a strip of columns, for a range of row strips.
 void DenseFront::subtract(int begin, int end, int column_strip, int first_strip, int count, Pacer& pacer) {
   if (begin == end) return;
   const Index from = eights(begin);
@@ -143,7 +143,7 @@ void DenseFront::subtract(int begin, int end, int column_strip, int first_strip,
   pacer.did(2.0 * block_size * count * (end - begin));
 }
 
-/// Writes some neighbouring columns that are done.
+/// Writes a group of neighbouring finished columns.
 double* DenseFront::write_panel(int column, int width, const double* triangle, double* output) {
   output = write_inverse(triangle, width, output);
   const auto write_rows = [&](int row, int end) {

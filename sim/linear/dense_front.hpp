@@ -8,7 +8,7 @@
 
 namespace drape {
 
-/// Calls whoever waits every few milliseconds of counted work.
+/// Invokes the pause callback every few milliseconds of counted work.
 class Pacer {
  public:
   /// @param pause may be empty
@@ -26,40 +26,41 @@ class Pacer {
   double since_ = 0;
 };
 
-/// The dense matrix of some columns to eliminate and the rows below them, lower triangle. In strips of eight rows:
-/// first the rows of its own columns, then, from a new strip on, those below. What is left of the rows below is a
-/// triangle of 8×8 blocks, column after column of blocks.
+/// The dense lower triangle of a group of columns to eliminate and the rows below. It is stored in strips of eight
+/// rows: the rows of its own columns, then, from a new strip on, those below. The rest, the update matrix, is a
+/// triangle of 8×8 blocks, by columns of blocks.
 class DenseFront {
  public:
-  /// Numbers in the strips of a front.
+  /// Returns the number of values in the strips of a front.
   static std::size_t own_size(int width, int below);
-  /// Numbers in what it leaves.
+  /// Returns the number of values in the update matrix.
   static std::size_t left_size(int below);
 
-  /// @param largest own_size() of all fronts to come, and the most rows below one
+  /// @param largest largest own_size() of all fronts to come
+  /// @param most_below largest number of rows below
   DenseFront(std::size_t largest, int most_below);
 
-  /// Becomes a front of zeros.
-  /// @param left receives what is left, left_size(below) numbers
+  /// Begins a front of zeros.
+  /// @param left receives the update matrix, left_size(below) numbers
   void begin(int width, int below, double* left);
-  /// The row in strips of the t-th row below.
+  /// Returns the row in strips of the t-th row below.
   [[nodiscard]] int row_below(int t) const { return strip_rows * own_strips_ + t; }
-  /// An entry of its own columns, by the row in strips.
+  /// Returns an entry of its own columns, by the row in strips.
   double& own(int row, int column) {
     return own_[offset(row, stride_) + strip_rows * static_cast<std::size_t>(column)];
   }
-  /// Adds what another front has left.
-  /// @param rows its rows in strips of this one, ascending
+  /// Adds the update matrix of another front.
+  /// @param rows its rows in strips of this front, ascending
   /// @param left see begin()
   void add(const std::vector<int>& rows, const double* left);
 
   /// Eliminates its columns.
   /// @param output receives them as panels, see PackedTriangle; is advanced to their end
-  /// @return false if it is not positive definite
+  /// @return false if the matrix is not positive definite
   [[nodiscard]] bool eliminate(double*& output, Pacer& pacer);
 
  private:
-  /// Where a row is from the beginning of its column.
+  /// Returns the offset of a row from the start of its column.
   static std::size_t offset(int row, std::size_t stride) {
     return static_cast<std::size_t>(row / strip_rows) * stride + static_cast<std::size_t>(row % strip_rows);
   }
@@ -68,10 +69,10 @@ class DenseFront {
   double* write_panel(int column, int width, const double* triangle, double* output);
 
   int width_ = 0, below_ = 0, own_strips_ = 0, strips_ = 0;
-  std::size_t stride_ = 0;  // from a strip to the next
+  std::size_t stride_ = 0;  // between strips
   std::vector<double> own_;
   double* left_ = nullptr;
-  std::vector<std::size_t> own_offsets_, left_offsets_;  // of the rows that are added
+  std::vector<std::size_t> own_offsets_, left_offsets_;  // of rows to be added
 };
 
 }  // namespace drape

@@ -7,7 +7,7 @@
 namespace drape {
 namespace {
 
-// A piece of so many vertices or fewer is not halved any more: it becomes one dense block or two.
+// Largest piece that is not halved further; it becomes one or two dense blocks.
 constexpr std::size_t smallest_piece = 12;
 
 using Index = std::size_t;
@@ -44,7 +44,7 @@ class Dissection {
   Dissection(const LowerPattern& pattern, const Vertices& places)
       : neighbours_(pattern), places_(places), half_(Index(pattern.size()), 0) {}
 
-  /// Brings the vertices of a piece into their order.
+  /// Sorts the vertices of a piece.
   void order(std::span<int> piece) {
     if (piece.size() <= smallest_piece) {
       std::sort(piece.begin(), piece.end());
@@ -52,7 +52,7 @@ class Dissection {
     }
     const Index low_size = halve(piece);
     const std::span<int> low = piece.first(low_size), high = piece.subspan(low_size);
-    // Numbers that no other piece has: those of the halves before are never looked at again.
+    // New names, which no other piece has; earlier halves are never checked again.
     const int name = names_ += 2;
     for (const int vertex : low) half_[Index(vertex)] = name;
     for (const int vertex : high) half_[Index(vertex)] = name + 1;
@@ -61,12 +61,12 @@ class Dissection {
         return std::ranges::any_of(neighbours_.of(vertex), [&](int other) { return half_[Index(other)] == half; });
       };
     };
-    // What separates are the vertices of one half that have neighbours in the other: of the half where they are fewer.
+    // The separator consists of the vertices of one half with neighbours in the other; choose the smaller one.
     const auto from_low = std::count_if(low.begin(), low.end(), touches(name + 1));
     const auto from_high = std::count_if(high.begin(), high.end(), touches(name));
     const bool cut_low = from_low <= from_high;
     const std::span<int> whole = cut_low ? high : low;
-    // In the order: the half that stays whole, what is left of the other, what was cut.
+    // Order: the uncut half, the rest of the other half, the separator.
     if (cut_low) std::rotate(piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(low_size), piece.end());
     const std::span<int> rest = piece.subspan(whole.size());
     const auto cut = std::partition(rest.begin(), rest.end(), std::not_fn(touches(cut_low ? name + 1 : name)));
@@ -76,7 +76,7 @@ class Dissection {
   }
 
  private:
-  /// Brings the vertices on one side of the middle of a piece before the others; returns how many they are.
+  /// Moves the vertices on one side of the middle of a piece to its front; returns their number.
   Index halve(std::span<int> piece) const {
     Eigen::Array3d least = places_.row(piece.front()).transpose(), most = least;
     for (const int vertex : piece) {
@@ -91,8 +91,7 @@ class Dissection {
     const auto middle = piece.begin() + static_cast<std::ptrdiff_t>(piece.size() / 2);
     std::nth_element(piece.begin(), middle, piece.end(),
                      [&](int a, int b) { return place[a] < place[b] || (place[a] == place[b] && a < b); });
-    // A line of vertices in one place goes to one half as a whole, so that the cut is straight, unless it is most of
-    // all.
+    // Keep vertices at the same coordinate in one half for a straight cut, unless they are most of the piece.
     const double at = place[*middle];
     const auto line = std::partition(piece.begin(), middle, [&](int vertex) { return place[vertex] < at; });
     const auto before = static_cast<Index>(line - piece.begin());
@@ -101,7 +100,7 @@ class Dissection {
 
   Neighbours neighbours_;
   const Vertices& places_;
-  std::vector<int> half_;  // the name of the half that a vertex was last in
+  std::vector<int> half_;  // name of the last half of each vertex
   int names_ = 0;
 };
 

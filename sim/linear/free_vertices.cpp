@@ -31,7 +31,7 @@ LowerPattern spring_pattern(const StiffnessBound& bound, const FreeVertices& fre
       if (low >= 0) visit(static_cast<Index>(low), high);
     });
   };
-  std::vector<int> next(n + 1, 0);  // where the next row of a column goes; with one place for the diagonal
+  std::vector<int> next(n + 1, 0);  // next free index of each column, after its diagonal
   each([&](Index low, int) { ++next[low + 1]; });
   for (Index c = 0; c < n; ++c) next[c + 1] += next[c] + 1;
   std::vector<int> rows(static_cast<Index>(next[n]));

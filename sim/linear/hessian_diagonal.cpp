@@ -18,7 +18,7 @@ void HessianDiagonal::linearise(const SpringNetwork::Blocks& springs) {
   objective_.springs().add_diagonal(springs, factor_);
   for_ranges(objective_.threads(), factor_.rows(), [&](Eigen::Index first, Eigen::Index count) {
     for (Eigen::Index i = first; i < first + count; ++i) {
-      // No pivot is below what holds the vertex in all directions but for rounding.
+      // Up to rounding, no pivot is below the isotropic part.
       const double least = scalar_[i], xx = least + 2 * factor_(i, 0);
       const double xy = 2 * factor_(i, 1) / xx, xz = 2 * factor_(i, 2) / xx;
       const double yy = std::max(least, least + 2 * (factor_(i, 3) - xy * factor_(i, 1)));

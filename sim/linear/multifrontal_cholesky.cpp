@@ -14,11 +14,11 @@ namespace {
 
 using Index = std::size_t;
 
-// Multiplications and additions that any graph's factor may take: a minute or two.
+// Operations allowed for any graph, multiplications and additions: a minute or two.
 constexpr double always_allowed = 2e12;
 
-/// The supernodes of the given order, or those of CHOLMOD's where that is missing or takes more than a surface's would:
-/// what separates pieces grows with how far rows are coupled, and what is eliminated with its third power.
+/// Returns the supernodes of the given order. Uses CHOLMOD's order if none is given, or if the given one costs more
+/// than for a surface: separators grow with the coupling distance, and elimination with its third power.
 Supernodes analyse(const LowerPattern& pattern, const std::vector<int>& order) {
   if (order.empty()) return find_supernodes(pattern, {});
   Supernodes given = find_supernodes(pattern, order);
@@ -134,14 +134,14 @@ bool MultifrontalCholesky::factorize(const double* values, const Pause& pause) {
     if (!front_->eliminate(output, pacer)) return false;
     if (below == 0) continue;
     const Index size = DenseFront::left_size(below);
-    std::copy(left, left + size, top);  // downwards
+    std::copy(left, left + size, top);  // copied downwards
     waiting.push_back(s);
     top += size;
   }
   return true;
 }
 
-/// Adds what A has in a supernode's columns, and takes note of the places of its rows.
+/// Adds A's entries in a supernode's columns, and records the positions of its rows.
 void MultifrontalCholesky::assemble(int s, const double* values) {
   const int first = tree_.first[Index(s)], width = tree_.width(s);
   const int* rows = tree_.rows.data() + tree_.starts[Index(s)];

@@ -14,19 +14,19 @@ namespace drape {
 /// The Cholesky factorisation A = Pᵀ L Lᵀ P of a sparse symmetric positive-definite matrix by dense fronts (Duff and
 /// Reid 1983; Liu 1992), with the same bits on every machine. The sparsity is analysed once; the values may change.
 ///
-/// The front of a supernode is the dense matrix of its columns and the rows below: what A has there, and what its
-/// children in the elimination tree have left for it. Eliminating its columns gives those of L, which are written out
-/// as panels for the substitution at once, and what is left for its parent, which goes onto a stack.
+/// The front of a supernode is the dense matrix of its columns and the rows below: the entries of A plus the update
+/// matrices of its children in the elimination tree. Eliminating its columns gives those of L, which are written at
+/// once as panels for the substitution. The remaining update matrix for its parent goes onto a stack.
 class MultifrontalCholesky {
  public:
-  /// Called every few milliseconds of work. What it throws ends the factorisation, after which there is none.
+  /// Called every few milliseconds of work. An exception from it ends the factorisation without a factor.
   using Pause = std::function<void()>;
 
   /// Analyses the pattern.
-  /// @param order        of its rows that leaves little fill, see dissect(). CHOLMOD's own is tried where it is empty,
-  ///                     and where the order turns out to be no good one
-  /// @param caller_bytes that the caller will keep for each entry of the factor
-  /// @throws UsageError if the factor cannot fit into memory, or takes far longer than one of a surface
+  /// @param order        of the rows, with little fill, see dissect(). CHOLMOD's own order is tried if it is empty or
+  ///                     poor
+  /// @param caller_bytes kept by the caller for each entry of the factor
+  /// @throws UsageError if the factor cannot fit into memory, or takes far longer than that of a surface
   explicit MultifrontalCholesky(const LowerPattern& pattern, const std::vector<int>& order = {},
                                 double caller_bytes = 0);
 
@@ -37,14 +37,14 @@ class MultifrontalCholesky {
   /// Solves A x = b for one right-hand side of n numbers; x and b may be the same. Allocates nothing.
   void solve(const double* b, double* x);
 
-  /// Row r of L belongs to row permutation()[r] of A.
+  /// Returns the permutation: row r of L is row permutation()[r] of A.
   [[nodiscard]] const std::vector<int>& permutation() const { return tree_.order; }
-  /// Multiplications and additions of a factorisation: Σ c² over columns of c entries.
+  /// Returns the operations of a factorisation, multiplications and additions: Σ c² over columns of c entries.
   [[nodiscard]] double operations() const { return operations_; }
-  /// Numbers stored for L, the zeros within supernodes included.
+  /// Returns the numbers stored for L, including zeros within supernodes.
   [[nodiscard]] std::size_t entries() const { return entries_; }
 
-  /// The factor itself, to be solved with or to be moved away.
+  /// The factor, for a solve or to be moved out.
   struct Panels {
     std::vector<Panel> panels;
     std::vector<int> rows;
@@ -56,9 +56,9 @@ class MultifrontalCholesky {
   [[nodiscard]] Panels take() && { return std::move(factor_); }
 
  private:
-  /// Where the entries of A's columns are, as L has them: entry e of L's column c, starts[c] ≤ e < starts[c+1].
+  /// Positions of A's entries in the order of L: column c has the entries e with starts[c] ≤ e < starts[c+1].
   struct Entries {
-    std::vector<int> starts, rows, places;  // their rows in L, and where they are among the values
+    std::vector<int> starts, rows, places;  // rows in L, and indices of the values
   };
   struct Sizes {
     std::size_t largest_front = 0, stack = 0;
@@ -74,17 +74,17 @@ class MultifrontalCholesky {
   void add_child(int child, const double* left);
 
   Supernodes tree_;
-  std::vector<int> children_;  // of each supernode, how many
+  std::vector<int> children_;  // number of children of each supernode
   Entries matrix_;
   Panels factor_;
   std::size_t entries_ = 0;
   double operations_ = 0;
 
   std::optional<DenseFront> front_;
-  std::vector<double> stack_;     // what is left for fronts to come
-  std::vector<int> waiting_;      // whose that is
-  std::vector<int> place_;        // of a row of L in the front at work
-  std::vector<int> child_rows_;   // those of a child
+  std::vector<double> stack_;     // update matrices for later fronts
+  std::vector<int> waiting_;      // their supernodes
+  std::vector<int> place_;        // rows of L to rows of the current front
+  std::vector<int> child_rows_;   // rows of a child in the current front
   std::vector<double> solution_;  // see Kernels::solve_double
 };
 

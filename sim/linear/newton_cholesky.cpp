@@ -8,14 +8,14 @@
 namespace drape {
 namespace {
 
-// Of the largest entry of the diagonal: what is added to it where the matrix is indefinite by rounding.
+// Initial shift of an indefinite matrix due to rounding, as a fraction of the largest diagonal entry.
 constexpr double first_shift = 1e-14;
-// Shares of the negative eigenvalues below this are not tried.
+// Smallest fraction of the negative eigenvalues to try.
 constexpr double least_concavity = 1.0 / 64;
 
 using Index = std::size_t;
 
-/// Every entry replaced by a 3×3 block, those of the diagonal by their lower triangle.
+/// Returns the pattern with every entry replaced by a 3×3 block; on the diagonal by its lower triangle.
 LowerPattern expanded(const LowerPattern& blocks) {
   LowerPattern result;
   result.starts.push_back(0);
@@ -31,7 +31,7 @@ LowerPattern expanded(const LowerPattern& blocks) {
   return result;
 }
 
-/// An order of 3×3 blocks as one of their rows.
+/// Returns an order of 3×3 blocks as one of scalar rows.
 std::vector<int> expanded(const std::vector<int>& order) {
   std::vector<int> result;
   for (const int block : order) {
@@ -166,7 +166,7 @@ bool NewtonCholesky::factorize(const Vertices& x, double most) {
 }
 
 bool NewtonCholesky::factorize_positive() {
-  // Positive definite in exact arithmetic; what rounding has spoilt, a multiple of the identity mends (Nocedal and
+  // The matrix is positive definite in exact arithmetic; a multiple of the identity compensates rounding (Nocedal and
   // Wright 2006, algorithm 3.3).
   double largest = 0;
   for (const int start : column_starts_) largest = std::max(largest, values_[Index(start)]);

@@ -11,10 +11,10 @@
 namespace drape {
 namespace {
 
-constexpr double worth_a_tree = 2.5e5;  // numbers of a triangle that is solved in parts: about 8000 rows of a cloth's
-constexpr double least_of_a_leaf = 2.5e4;  // some microseconds
-constexpr double most_leaves = 128;        // about; two for each of 64 threads
-constexpr double tiny = 1.0 / 16;          // of a leaf: a subtree that its parent's part computes itself
+constexpr double worth_a_tree = 2.5e5;     // numbers of a triangle worth dividing: about 8000 rows of a cloth's
+constexpr double least_of_a_leaf = 2.5e4;  // takes some microseconds
+constexpr double most_leaves = 128;        // approximate; two for each of 64 threads
+constexpr double tiny = 1.0 / 16;          // fraction of a leaf: smaller subtrees join their parent's part
 
 constexpr int none = -1;
 
@@ -29,11 +29,11 @@ void wait_for(const Threads& threads, const std::atomic<unsigned>& done, unsigne
 }  // namespace
 
 struct SolveTree::Plan {
-  std::vector<std::size_t> row;     // of each panel, where its rows begin, and where the last one's end
-  std::vector<int> panel_of_row;    // whose column it is
-  std::vector<int> parent;          // of each panel in the elimination tree: that of its first row below
-  std::vector<double> work;         // numbers of the subtree of each panel
-  std::vector<int> large_children;  // of each panel, with more work than a leaf may have
+  std::vector<std::size_t> row;     // start of each panel's rows, then the end of the last
+  std::vector<int> panel_of_row;    // panel that contains the row's column
+  std::vector<int> parent;          // of each panel in the elimination tree: the panel of its first row below
+  std::vector<double> work;         // numbers in the subtree of each panel
+  std::vector<int> large_children;  // number of each panel's children above the size of a leaf
   double largest_leaf = 0;
 
   Plan(const std::vector<Panel>& panels, const std::vector<int>& rows, int row_count)
@@ -79,7 +79,7 @@ SolveTree::SolveTree(std::vector<Panel>& panels, std::vector<int>& rows, int row
 }
 
 void SolveTree::make_parts(const Plan& plan, std::vector<int>& part_of) {
-  int loose = none;  // the part of whatever is small and hangs on nothing
+  int loose = none;  // part of all small trees without a parent
   for (int p = static_cast<int>(part_of.size()) - 1; p >= 0; --p) {
     const int q = plan.parent[at(p)];
     const bool small = plan.work[at(p)] < tiny * plan.largest_leaf;
@@ -97,7 +97,7 @@ void SolveTree::make_parts(const Plan& plan, std::vector<int>& part_of) {
 }
 
 void SolveTree::sort_parts(std::vector<int>& part_of) {
-  for (std::size_t part = parts_.size(); part-- > 0;) {  // children have come after their parents
+  for (std::size_t part = parts_.size(); part-- > 0;) {  // children come after their parents here
     const int parent = parts_[part].parent;
     if (parent != none) parts_[at(parent)].height = std::max(parts_[at(parent)].height, parts_[part].height + 1);
   }
@@ -159,7 +159,7 @@ void SolveTree::renumber(const Plan& plan, std::vector<Panel>& panels, std::vect
       border[row] = part.place + part.own + k;
       whose[row] = number;
     }
-    // A row above a part is in its border: no column has rows that its parent has not (Liu 1990).
+    // A row above a part is in its border: no column has rows that its parent lacks (Liu 1990).
     const auto place_in_part = [&](int row) {
       const int place = places_[at(row)];
       if (place >= part.place && place < part.place + part.own) return place;

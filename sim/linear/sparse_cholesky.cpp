@@ -50,7 +50,7 @@ struct SparseCholesky::Implementation {
 };
 
 void require_surface(double rows, double operations, double always) {
-  // A surface's takes about 20 n^1.5 (George 1973), with bending 200.
+  // A surface's factor takes about 20 n^1.5 operations (George 1973), with bending 200.
   constexpr double per_row = 2000;
   if (operations <= std::max(always, per_row * rows * std::sqrt(rows))) return;
   throw UnlikeASurface(
@@ -66,7 +66,7 @@ SparseCholesky::SparseCholesky(const LowerPattern& pattern, double caller_bytes)
   i.common.final_ll = 1;
   i.matrix.xtype = CHOLMOD_PATTERN;
   i.factor = cholmod_analyze(&i.matrix, &i.common);
-  // CHOLMOD's int version numbers entries up to 2³¹; a factor beyond that would not fit anywhere near this limit.
+  // CHOLMOD's int version numbers up to 2³¹ entries. A larger factor counts with the memory of at least that many.
   constexpr double largest = 2147483647.0;
   constexpr double entry = sizeof(double) + sizeof(int);
   const bool too_large = i.common.status == CHOLMOD_TOO_LARGE || i.common.lnz > largest;
@@ -75,7 +75,7 @@ SparseCholesky::SparseCholesky(const LowerPattern& pattern, double caller_bytes)
                  "use a coarser cloth or another method");
   if (too_large) throw UsageError("a sparse factor of this cloth has more than 2³¹ entries: use conjugate gradients");
   i.require(i.factor != nullptr);
-  // A minute or two.
+  // Takes a minute or two.
   require_surface(pattern.size(), i.common.fl, 5e10);
   i.matrix.xtype = CHOLMOD_REAL;
 }

@@ -7,8 +7,8 @@
 
 namespace drape {
 
-/// The lower triangle of a symmetric n×n matrix by columns: the rows of column c are rows[starts[c]] to
-/// rows[starts[c+1]−1], ascending and beginning with c itself.
+/// The lower triangle of a symmetric n×n matrix by columns. The rows of column c are rows[starts[c]] to
+/// rows[starts[c+1]−1], ascending from c itself.
 struct LowerPattern {
   std::vector<int> starts;  ///< n+1
   std::vector<int> rows;
@@ -17,16 +17,16 @@ struct LowerPattern {
   [[nodiscard]] int entries() const { return starts.back(); }
 };
 
-/// What takes far longer to factor than a surface: it depends on the cloth alone, unlike whether a factor fits into
-/// memory.
+/// Thrown for a factor that takes far longer than that of a surface. It depends on the cloth alone, not on the
+/// machine's memory.
 class UnlikeASurface : public UsageError {
  public:
   using UsageError::UsageError;
 };
 
-/// Refuses the factor of a graph that is no surface's before minutes go by without a sign.
-/// @param operations it takes, multiplications and additions
-/// @param always     so many are allowed for any graph
+/// Rejects the factor of a graph unlike a surface's, which could take minutes without any progress report.
+/// @param operations multiplications and additions for the factor
+/// @param always     number of operations that any graph may take
 /// @throws UnlikeASurface
 void require_surface(double rows, double operations, double always);
 
@@ -35,8 +35,8 @@ void require_surface(double rows, double operations, double always);
 class SparseCholesky {
  public:
   /// Analyses the pattern, and chooses a permutation.
-  /// @param caller_bytes that the caller will keep for each entry of the factor
-  /// @throws UsageError if the factor cannot fit into memory, or takes far longer than one of a surface
+  /// @param caller_bytes kept by the caller for each entry of the factor
+  /// @throws UsageError if the factor cannot fit into memory, or takes far longer than that of a surface
   explicit SparseCholesky(const LowerPattern& pattern, double caller_bytes = 0);
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;
@@ -46,10 +46,10 @@ class SparseCholesky {
   /// @return false if it is not positive definite to working precision
   [[nodiscard]] bool factorize(const double* values);
 
-  /// The order that the rows were brought into, n numbers: row r of L belongs to row permutation()[r] of A.
+  /// Returns the order of the rows, n numbers: row r of L is row permutation()[r] of A.
   [[nodiscard]] const int* permutation() const;
 
-  /// The factor itself: L by columns, the diagonal first in each.
+  /// The factor L by columns, with the diagonal first in each.
   struct Columns {
     const int* starts;  ///< n
     const int* counts;  ///< n

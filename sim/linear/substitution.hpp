@@ -4,7 +4,7 @@
 
 namespace drape {
 
-/// The kernels of a substitution in a number type.
+/// Kernels of a substitution in one number type.
 template <class T>
 struct Substitution;
 template <>

@@ -12,7 +12,7 @@
 namespace drape {
 namespace {
 
-/// CHOLMOD's settings and work space.
+/// CHOLMOD's settings and workspace.
 struct Analysis {
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
@@ -33,8 +33,8 @@ Supernodes find_supernodes(const LowerPattern& pattern, const std::vector<int>& 
   cholmod_common& common = analysis.common;
   common.print = 0;
   common.supernodal = CHOLMOD_SUPERNODAL;
-  // A tenth of the zeros that CHOLMOD allows in merged supernodes: they are solved with a hundred times as often as
-  // they are computed. Of a million vertices the entries are 12 % fewer and a solve takes a quarter less.
+  // A tenth of CHOLMOD's limit for zeros in merged supernodes, as a factor is solved a hundred times as often as it is
+  // computed. For a million vertices this saves 12 % of the entries and a quarter of the time of a solve.
   for (double& share : common.zrelax) share *= 0.1;
   if (!order.empty()) {
     common.nmethods = 1;
@@ -43,7 +43,7 @@ Supernodes find_supernodes(const LowerPattern& pattern, const std::vector<int>& 
   cholmod_sparse matrix{};
   matrix.nrow = matrix.ncol = static_cast<std::size_t>(pattern.size());
   matrix.nzmax = static_cast<std::size_t>(pattern.entries());
-  matrix.p = const_cast<int*>(pattern.starts.data());  // CHOLMOD only reads them
+  matrix.p = const_cast<int*>(pattern.starts.data());  // CHOLMOD only reads it
   matrix.i = const_cast<int*>(pattern.rows.data());
   matrix.stype = -1;
   matrix.itype = CHOLMOD_INT;
@@ -69,7 +69,7 @@ Supernodes find_supernodes(const LowerPattern& pattern, const std::vector<int>& 
   result.starts.reserve(f.nsuper + 1);
   result.rows.reserve(static_cast<std::size_t>(starts[f.nsuper] - static_cast<int>(f.n)));
   for (std::size_t s = 0; s < f.nsuper; ++s) {
-    const int width = first[s + 1] - first[s];  // its own columns come first among its rows
+    const int width = first[s + 1] - first[s];  // its rows begin with its own columns
     result.rows.insert(result.rows.end(), rows + starts[s] + width, rows + starts[s + 1]);
     result.starts.push_back(result.rows.size());
   }

@@ -7,13 +7,13 @@
 
 namespace drape {
 
-/// Which things meet at each vertex, in their order: so that what they add to their vertices can be computed by threads
-/// first, and then added up vertex by vertex in the order in which one thread would have added it.
+/// Lists of the items (such as springs or triangles) at each vertex, in their order. Threads first compute each item's
+/// contributions; these are then summed vertex by vertex in the order of a single thread.
 class Incidence {
  public:
   Incidence() = default;
-  /// @param vertices of one thing after another, as many of each
-  /// @param each     how many that are
+  /// @param vertices of all items, one item after another
+  /// @param each     number of vertices per item
   Incidence(std::span<const int> vertices, int each, int vertex_count)
       : begin_(static_cast<std::size_t>(vertex_count) + 1), things_(vertices.size()) {
     for (const int vertex : vertices) ++begin_[static_cast<std::size_t>(vertex) + 1];
@@ -30,7 +30,7 @@ class Incidence {
   }
 
  private:
-  std::vector<std::size_t> begin_;  // of each vertex, and where the last one's end
+  std::vector<std::size_t> begin_;  // start of each vertex's items, then the end of the last
   std::vector<int> things_;
 };
 

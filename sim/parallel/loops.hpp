@@ -9,27 +9,25 @@
 
 namespace drape {
 
-/// From how many vertices on a loop over them is divided, and sums are taken part by part: below, dividing would cost
-/// more than it gains. A sum's parts depend on its length alone, so that its bits are the same for any number of
-/// threads.
+/// Number of vertices from which loops are divided and sums are split into parts; below, division costs more than it
+/// gains. The parts of a sum depend on its length alone, so its bits are the same for any number of threads.
 inline constexpr int worth_dividing = 8192;
-inline constexpr Eigen::Index numbers_worth_dividing =
-    Eigen::Index{3} * worth_dividing;  ///< of loops over the vertices' coordinates
-inline constexpr int most_parts = 64;  ///< of a sum
+/// The same limit for loops over the vertices' coordinates.
+inline constexpr Eigen::Index numbers_worth_dividing = Eigen::Index{3} * worth_dividing;
+inline constexpr int most_parts = 64;  ///< in a sum
 
-/// The threads for loops over what belongs to so many vertices: where these are few, one.
+/// Returns the threads for loops over data of this many vertices: a single one if these are few.
 inline const Threads& for_so_many(const Threads& threads, Eigen::Index vertices) {
   return vertices < worth_dividing ? one_thread() : threads;
 }
 
-/// Where part `part` of `parts` begins, of `count` things: at multiples of eight, where cache lines of numbers begin.
+/// Returns the start of part `part` of `parts` in `count` items, at multiples of eight, the size of a cache line.
 constexpr Eigen::Index begin_of_part(Eigen::Index count, int part, int parts) {
   return part == parts ? count : count / 8 * part / parts * 8;
 }
 
-/// Calls use(first, count) for ranges of indices which together are all below `count`. For loops whose iterations do
-/// not depend on each other.
-/// @param least how many of them are worth dividing
+/// Calls use(first, count) for ranges of indices that together cover all below `count`. Iterations must be independent.
+/// @param least number of iterations worth dividing
 template <class Use>
 void for_ranges(const Threads& threads, Eigen::Index count, Use&& use, Eigen::Index least = worth_dividing) {
   if (threads.count() == 1 || count < least) {
@@ -43,7 +41,7 @@ void for_ranges(const Threads& threads, Eigen::Index count, Use&& use, Eigen::In
   });
 }
 
-/// Calls use(i) for all indices below `count`, likewise.
+/// Calls use(i) for all indices below `count`, under the same conditions.
 template <class Use>
 void for_all(const Threads& threads, Eigen::Index count, Use&& use, Eigen::Index least = worth_dividing) {
   for_ranges(
@@ -54,14 +52,14 @@ void for_all(const Threads& threads, Eigen::Index count, Use&& use, Eigen::Index
       least);
 }
 
-/// The results of part(first, count) for ranges of indices that depend on `count` alone, put together in their order:
-/// a sum, or whatever together(so far, next) makes of two.
+/// Combines the results of part(first, count) over ranges of indices, in order: as a sum, or by together(so far, next).
+/// The ranges depend on `count` alone.
 template <class Part, class Together>
 auto reduce(const Threads& threads, Eigen::Index count, Part&& part, Together&& together,
             Eigen::Index least = worth_dividing) {
   if (count < least) return part(Eigen::Index{0}, count);
   std::array<decltype(part(count, count)), most_parts> results{};
-  // A call for several parts of the sum, as one takes less time than handing it out.
+  // One call covers several parts of the sum, as a part takes less time than a call.
   const int shares = std::min(threads.count(), most_parts);
   threads.for_each(shares, [&](int share) {
     for (int p = most_parts * share / shares; p < most_parts * (share + 1) / shares; ++p) {

@@ -10,13 +10,12 @@
 
 namespace drape {
 
-/// What a loop finds of the things that it goes over, in their order, whoever computes it: a list for each part of the
-/// loop. The parts depend on how many things there are alone, and there are more of them than threads, as what is found
-/// is rarely spread evenly.
+/// Ordered results of a parallel loop, one list per part. The parts depend on the number of items alone. There are more
+/// parts than threads, as results are rarely distributed evenly.
 template <class Found>
 class PartLists {
  public:
-  /// Takes memory for one of each of `count` things, so that no step has to.
+  /// Reserves memory for one result per item, to avoid allocations in a step.
   void reserve(Eigen::Index count, Eigen::Index least = worth_dividing) {
     resize(count < least ? 1 : most_parts);
     for (int part = 0; part < parts_; ++part) {
@@ -25,8 +24,8 @@ class PartLists {
     }
   }
 
-  /// Replaces them by what find(i, list) appends to a list for all indices i below `count`.
-  /// @param least how many things are worth dividing
+  /// Replaces the results by those that find(i, list) appends for all indices i below `count`.
+  /// @param least number of items worth dividing
   template <class Find>
   void fill(const Threads& threads, Eigen::Index count, Find&& find, Eigen::Index least = worth_dividing) {
     resize(count < least ? 1 : most_parts);
@@ -36,7 +35,7 @@ class PartLists {
     });
   }
 
-  /// Replaces them by what find(others, list) appends to a list for each of those of other things.
+  /// Replaces the results by those that find(others, list) appends for each list of other results.
   template <class Other, class Find>
   void fill_from(const Threads& threads, const PartLists<Other>& others, Find&& find) {
     resize(static_cast<int>(others.lists().size()));
@@ -44,7 +43,7 @@ class PartLists {
             [&](int part, std::vector<Found>& found) { find(others.lists()[static_cast<std::size_t>(part)], found); });
   }
 
-  /// Leaves nothing but memory.
+  /// Clears the results and keeps the memory.
   void clear() {
     for (std::vector<Found>& list : used()) list.clear();
   }
@@ -55,7 +54,7 @@ class PartLists {
     return sum;
   }
 
-  /// Calls use(found) for all of them in their order.
+  /// Calls use(found) for all results in order.
   template <class Use>
   void for_each(Use&& use) {
     for (std::vector<Found>& list : used()) {
@@ -63,7 +62,7 @@ class PartLists {
     }
   }
 
-  /// Calls use(found) for all of them, of which none depends on another.
+  /// Calls use(found) for all results, which must be independent.
   template <class Use>
   void for_each(const Threads& threads, Use&& use) const {
     const int shares = size() < worth_dividing ? 1 : threads.count();
@@ -74,12 +73,12 @@ class PartLists {
     });
   }
 
-  /// Appends them to others in their order.
+  /// Appends the results to others in order.
   void append_to(std::vector<Found>& others) const {
     for (const std::vector<Found>& list : lists()) others.insert(others.end(), list.begin(), list.end());
   }
 
-  /// Of each part.
+  /// Returns one list per part.
   [[nodiscard]] std::span<const std::vector<Found>> lists() const {
     return {lists_.data(), static_cast<std::size_t>(parts_)};
   }
@@ -88,7 +87,7 @@ class PartLists {
   template <class Find>
   void replace(const Threads& threads, Find&& find) {
     threads.for_each(parts_, [&](int part) {
-      // By itself: the lists' ends lie side by side, where threads that push would write to one cache line.
+      // Use a local list: the lists' end pointers share cache lines, to which several threads would write.
       std::vector<Found> found = std::move(list(part));
       found.clear();
       find(part, found);

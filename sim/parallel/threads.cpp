@@ -16,13 +16,12 @@
 namespace drape {
 namespace {
 
-// Awake for about as long as waking takes, some tens of microseconds, and longer than what lies between two loops of a
-// step.
+// Awake for about the time of a wake-up, some tens of microseconds, which exceeds the time between two loops of a step.
 constexpr int give_way_at = 1000;
 constexpr int asleep_at = 1100;
 
-// What is left of a loop, in one number, so that a thread which comes late cannot take a part of the next one by
-// mistake: the loop's number and how many parts nobody has begun.
+// The rest of a loop in one number: the loop's number and the count of parts not begun. So a late thread cannot take a
+// part of the next loop by mistake.
 constexpr int bits_of_parts = 32;
 constexpr std::uint64_t one_loop = std::uint64_t{1} << bits_of_parts;
 constexpr std::uint64_t parts_mask = one_loop - 1;
@@ -44,7 +43,7 @@ bool Patience::wait() {
   return waits_ > asleep_at;
 }
 
-/// The others, and the loop that is divided.
+/// The other threads, and the current divided loop.
 class Threads::Crew {
  public:
   explicit Crew(int others) {
@@ -52,12 +51,12 @@ class Threads::Crew {
     try {
       for (int i = 0; i < others; ++i) members_.emplace_back([this] { serve(); });
     } catch (const std::system_error&) {
-      // The system has no more threads to give: those that there are will do.
+      // The system has no more threads; use those started.
     }
   }
   ~Crew() {
     ending_ = true;
-    left_.fetch_add(one_loop);  // a loop without parts, which wakes them
+    left_.fetch_add(one_loop);  // an empty loop, which wakes them
     left_.notify_all();
   }
   Crew(const Crew&) = delete;
@@ -77,14 +76,14 @@ class Threads::Crew {
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   }
 
-  /// Whether this thread divides the present loop.
+  /// Returns true if this thread divides the current loop.
   [[nodiscard]] bool divided_here() const { return divider_ == std::this_thread::get_id(); }
 
   Turnout turnout;
-  Turnout::Time waited{0};  // in the present loop, by who divides it
+  Turnout::Time waited{0};  // time that the dividing thread has waited in the current loop
 
  private:
-  /// Until all parts are done.
+  /// Waits until all parts are done.
   void wait(const Threads& threads, int parts) {
     int done = done_.load(std::memory_order_acquire);
     if (done == parts) return;
@@ -113,7 +112,7 @@ class Threads::Crew {
     std::uint64_t left = left_.load();
     while ((left & parts_mask) != 0) {
       if (!left_.compare_exchange_weak(left, left - 1)) continue;
-      // Whoever has a part keeps the loop from ending, so what is said of it stays as it is.
+      // A thread with an unfinished part keeps the loop from ending, so the loop's data do not change.
       const int part = parts_ - static_cast<int>(left & parts_mask);
       try {
         call_(given_, part);
@@ -133,7 +132,7 @@ class Threads::Crew {
     part_of_error_ = part;
   }
 
-  // On cache lines of their own: one is written by everybody for each part, and looked at all the time.
+  // On separate cache lines: all threads write one of them for each part and poll it.
   alignas(64) std::atomic<std::uint64_t> left_ = 0;
   alignas(64) std::atomic<int> done_ = 0;
   alignas(64) std::atomic<bool> ending_ = false;
@@ -144,7 +143,7 @@ class Threads::Crew {
   std::mutex mutex_;
   std::exception_ptr error_;
   int part_of_error_ = 0;
-  std::vector<std::jthread> members_;  // last: they end before the rest goes
+  std::vector<std::jthread> members_;  // last, so that the threads end before the other members are destroyed
 };
 
 Threads::Threads(int count, bool spare) : count_(std::max(1, count)), spare_(spare) {}

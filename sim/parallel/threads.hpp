@@ -6,25 +6,25 @@
 
 namespace drape {
 
-/// Lets a thread that waits for another one's next write spin for a moment, and then give way.
+/// Wait strategy of a thread for another one's next write: spin for a moment, then yield.
 class Patience {
  public:
-  /// @returns whether it has waited awake for long enough to sleep
+  /// Waits once. @returns true if it has been awake long enough to sleep
   bool wait();
 
  private:
   int waits_ = 0;
 };
 
-/// Threads that compute the parts of a loop together. How a loop is divided must not depend on how many there are, or
-/// its result not on how it is divided: then the bits are the same for any number of them.
+/// Threads that compute the parts of a loop together. The division of a loop must not depend on their number, or its
+/// result must not depend on the division. Then the bits are the same for any number of threads.
 ///
-/// They are started by the first loop that is divided, and wait for the next one awake for some microseconds, then
-/// asleep. One thread at a time may divide its loops among them; a part must not divide its own.
+/// They start with the first divided loop. Between loops they stay awake for some microseconds and then sleep. Only one
+/// thread at a time may divide loops among them; a part must not divide its own.
 class Threads {
  public:
-  /// @param count of threads, that which divides its loops included: with one, nothing is ever started
-  /// @param spare whether to do without the others for a while where a busy machine keeps them waiting, see Turnout
+  /// @param count number of threads including the dividing one; with one, none is started
+  /// @param spare true to fall back to one thread while a busy machine keeps the others waiting, see Turnout
   explicit Threads(int count = 1, bool spare = false);
   ~Threads();
   Threads(const Threads&) = delete;
@@ -32,9 +32,9 @@ class Threads {
 
   [[nodiscard]] int count() const { return count_; }
 
-  /// Calls work(part) once for every part from 0 on, and returns when all are done. A part begins after all before it
-  /// have begun, so it may wait for them. Takes nothing from the heap.
-  /// @throws what the first of the parts that threw has thrown; the others are computed all the same
+  /// Calls work(part) once for every part from 0 on, and returns when all are done. A part begins after all earlier
+  /// ones have begun, so it may wait for them. Allocates nothing.
+  /// @throws the exception of the lowest part that threw; the other parts are computed nevertheless
   template <class Work>
   void for_each(int parts, Work&& work) const {
     if (count_ == 1 || parts <= 1 || alone()) {
@@ -50,18 +50,18 @@ class Threads {
   class Crew;
   friend class Wait;
   void divide(int parts, void* given, void (*call)(void* given, int part)) const;
-  /// Whether it is a time to do without the others.
+  /// Returns true while running on one thread.
   [[nodiscard]] bool alone() const;
 
   int count_;
   bool spare_;
-  mutable std::unique_ptr<Crew> crew_;  // once it is needed
+  mutable std::unique_ptr<Crew> crew_;  // created on first use
 };
 
-/// Does all that is divided itself, for who asks for no threads.
+/// Returns an object without threads, which computes all parts itself.
 const Threads& one_thread();
 
-/// A thread's wait for what another one is about to write: awake for a moment, then giving way.
+/// A thread's wait for another one's write: awake for a moment, then yielding.
 class Wait {
  public:
   explicit Wait(const Threads& threads);
@@ -69,7 +69,7 @@ class Wait {
   Wait(const Wait&) = delete;
   Wait& operator=(const Wait&) = delete;
 
-  /// @returns whether it has waited awake for long enough to sleep
+  /// Waits once more. @returns true if it has been awake long enough to sleep
   bool go_on() { return patience_.wait(); }
 
  private:

@@ -12,7 +12,7 @@ using ConstRow = Eigen::Map<const Eigen::ArrayXd>;
 constexpr std::size_t most_dots = 8;
 using Dots = std::array<double, most_dots>;
 
-/// Calls use(first, count) for all numbers, a few at a time, which stay in the first-level cache.
+/// Calls use(first, count) for blocks of numbers that fit into the first-level cache.
 template <class Use>
 void for_blocks(const Threads& threads, Eigen::Index count, Use&& use) {
   constexpr Eigen::Index block = 2048;

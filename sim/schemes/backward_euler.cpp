@@ -26,7 +26,7 @@ double BackwardEuler::shed(bool held) {
   if (!contact_ || held) return books_.shed(point_, held);
   const Iterate end = point_;
   const double part = books_.shed(point_);
-  // The place of free fall may lie beyond an obstacle. The way back to the start of the step is clear.
+  // Free fall may lead beyond an obstacle. The path back to the start of the step is clear.
   if (!contact_->collides(point_.x)) return part;
   point_ = end;
   return books_.shed(point_, true);
@@ -64,7 +64,7 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   const bool touches = touched_ = contact_ && !contact_->contacts().empty();
   const bool held = touches && contact_->touches_obstacles();
   if (free_ && !held) balance_momentum(system_.cloth, objective_, point_);
-  // A step that a small change ended has been looked at, unless it has just been moved.
+  // The minimiser has checked a step that ended by small changes, unless it was just moved.
   const bool looked = !free_ && report.converged && solver_->accuracy().rule == StoppingRule::change;
   if (touches && books_.gains_in_contact(point_, contact_->work(point_.x, report.converged))) {
     if (!contact_->carried()) report.kept = shed(held);
@@ -76,7 +76,7 @@ StepReport BackwardEuler::advance(State& state, StepForces& forces) {
   }
   books_.end(point_);
   divided_difference(system_.threads, point_.x, state.x, system_.step, state.v);
-  // Where the solve is not over, what bounces is not known well enough to be given energy.
+  // An unconverged solve does not determine a bounce well enough to give it energy.
   if (touches && report.converged) contact_->rebound(of_the_moment_, state.v);
   system_.move(state, &point_.x);
   system_.correct(state);

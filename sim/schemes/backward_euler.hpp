@@ -10,13 +10,12 @@
 namespace drape {
 
 /// Backward (implicit) Euler as a minimisation: x' = argmin g, v' = (x' − x)/h, then the corrections. It gains no
-/// energy but what EnergyBooks tolerates.
+/// energy beyond the tolerance of EnergyBooks.
 ///
-/// Of a cloth that nothing holds every solve ends with balance_momentum().
+/// For a free cloth every solve ends with balance_momentum().
 class BackwardEuler final : public MinimisingScheme {
  public:
-  /// @param of_the_moment whether the velocities that it gets and leaves are those of the moment, not those with which
-  ///                      the cloth goes: of steps among those of another scheme
+  /// @param of_the_moment true if velocities are instantaneous, as in steps of SDIRK2; false if they are step means
   BackwardEuler(const System& system, const MakeSolver& make_solver, bool of_the_moment = false);
 
   StepReport advance(State& state, StepForces& forces) override;
@@ -25,24 +24,24 @@ class BackwardEuler final : public MinimisingScheme {
   [[nodiscard]] double error() override;
   [[nodiscard]] double unbalanced() override;
 
-  /// Returns true if something keeps a cloth from going straight from a state to x in the step that begins there. There
-  /// must be something that it can touch.
+  /// Returns true if contacts keep a cloth from moving straight from a state to x in the step that begins there.
+  /// Requires something that the cloth can touch.
   [[nodiscard]] bool is_hindered(const State& from, const Vertices& x);
 
  private:
-  /// Goes back until the step gains nothing, on a way that nothing is in; returns what part of it is left.
-  /// @param held whether contacts hold the cloth
+  /// Shortens the step until it gains no energy, along a path free of collisions. Returns the remaining fraction.
+  /// @param held true if contacts hold the cloth
   double shed(bool held);
 
   /// Minimises the objective from the point, under the contacts of a step that began at contact_->begin().
-  /// @param steady where cloth would go that keeps its velocities; empty without contacts
+  /// @param steady positions reached at constant velocities; empty without contacts
   StepReport solve_step(const Vertices& steady, const std::function<bool()>& may_end);
 
   bool of_the_moment_;
   EnergyBooks books_;
-  std::optional<ContactSolver> contact_;    // where the cloth can touch something
-  std::optional<ImplicitProblem> problem_;  // of contact, once there is any
-  bool touched_ = false;                    // whether the last step had any
+  std::optional<ContactSolver> contact_;    // if the cloth can touch anything
+  std::optional<ImplicitProblem> problem_;  // of contact, created on first use
+  bool touched_ = false;                    // true if the last step had contacts
 };
 
 }  // namespace drape

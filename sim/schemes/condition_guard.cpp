@@ -13,7 +13,7 @@ ConditionGuard::ConditionGuard(const System& system)
     : step_(system.step), condition_(condition_bound(system)), longest_pushed_(safe_step_of_pushes(system)) {}
 
 double ConditionGuard::longest_step() const {
-  // Twice as far from the bound as need be: it is found for this step and its terms round.
+  // Half the bound, as it is estimated for this step and its terms are rounded.
   return std::min(longest_pushed_, step_ * std::sqrt(largest_condition / condition_ / 2));
 }
 

@@ -4,14 +4,14 @@
 
 namespace drape {
 
-/// For schemes that solve for the end of a step, which is stable as far as double precision holds the inertia of a
-/// vertex beside what pulls at it, see condition_bound().
+/// Guard for implicit schemes. These are stable while double precision resolves a vertex's inertia beside the stiffness
+/// acting on it, see condition_bound().
 class ConditionGuard final : public StabilityGuard {
  public:
   explicit ConditionGuard(const System& system);
 
   [[nodiscard]] std::optional<std::string> problem() const override;
-  /// Pushes that are evaluated once in a step have one of their own.
+  /// Returns the longest step, which also respects the limit of pushes evaluated once per step [s].
   [[nodiscard]] double longest_step() const override;
   [[nodiscard]] std::string remedy() const override { return "; take a shorter [time] step, or weaker forces"; }
 

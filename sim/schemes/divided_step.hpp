@@ -7,11 +7,11 @@
 
 namespace drape {
 
-/// An explicit scheme that advances each step in equal substeps, those of its system: System::substeps of
-/// System::step seconds. A substep is a step in every respect but the number that State::step counts.
+/// An explicit scheme that divides each step into equal substeps: System::substeps of System::step seconds. A substep
+/// is a step in every respect except that State::step counts it differently.
 class DividedStep final : public Scheme {
  public:
-  /// @param scheme of the same system
+  /// @param scheme for the same system
   DividedStep(const System& system, std::unique_ptr<Scheme> scheme) : system_(system), scheme_(std::move(scheme)) {}
 
   StepReport advance(State& state, StepForces& forces) override;

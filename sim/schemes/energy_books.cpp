@@ -10,14 +10,15 @@
 namespace drape {
 namespace {
 
-// Of what the forces can do in a step, see EnergyBooks. The homework's loosest tolerance gains up to 0.081 of it and
-// stops after two iterations all the same.
+// Fraction of the forces' largest work, see EnergyBooks. The homework's loosest tolerance gains up to 0.081 of it and
+// still stops after two iterations.
 constexpr double tolerated_share = 0.1;
 constexpr double least_kept = 1e-10;
-constexpr double noticed =
-    1e-9;  // of the kinetic energy, in steps with contact: a velocity is a difference of rounded places
+// Fraction of the kinetic energy that is noticed in steps with contact: velocities are differences of rounded
+// positions.
+constexpr double noticed = 1e-9;
 
-/// Σ m a·b over the rows of n×3 expressions.
+/// Returns Σ m a·b over the rows of n×3 expressions.
 double inner(const Threads& threads, const Eigen::VectorXd& m, const auto& a, const auto& b) {
   return sum_of(threads, m.size(), [&](Eigen::Index first, Eigen::Index count) {
     const auto part = [&](const auto& column) { return column.segment(first, count).array(); };
@@ -27,8 +28,7 @@ double inner(const Threads& threads, const Eigen::VectorXd& m, const auto& a, co
   });
 }
 
-/// What no vertex is further than at one of these places from where it is at the other: √3 times the largest difference
-/// of a coordinate.
+/// Returns an upper bound on the distance between corresponding vertices: √3 times the largest coordinate difference.
 double largest_distance(const Threads& threads, const Vertices& a, const Vertices& b) {
   const double component = reduce(
       threads, a.size(),
@@ -52,7 +52,7 @@ void balance_momentum(const Cloth& cloth, const StepObjective& objective, Iterat
   const Eigen::RowVector3d shift = mean(cloth, objective.y()) - mean(cloth, point.x);
   const double inertial = objective.inertial_value(point.x);
   point.x.rowwise() += shift;
-  point.value += objective.inertial_value(point.x) - inertial;  // what it solves for is the same everywhere
+  point.value += objective.inertial_value(point.x) - inertial;  // translation does not change the energy
   point.gradient.noalias() += objective.inertia() * shift;
 }
 
@@ -70,8 +70,8 @@ void EnergyBooks::begin(const State& state, const Vertices& last_end) {
   start_.value = objective_.inertial_value(state.x);
   start_exact_ = false;
   if (!steady_) return;
-  // Where the last step ended, if it came to its end, the energy is known, and nowhere is it below zero. A filter moves
-  // what it leaves alone there, too, but for rounding.
+  // The energy at the end of the last step is known if the step was completed, and is never negative. Filters change
+  // unaffected positions by rounding only.
   const double known = std::exchange(end_energy_, 0);
   const auto bytes = static_cast<std::size_t>(state.x.size()) * sizeof(double);
   if (std::memcmp(state.x.data(), last_end.data(), bytes) == 0) {
@@ -112,7 +112,7 @@ double EnergyBooks::gain(const Iterate& point) const {
 }
 
 double EnergyBooks::rounding(const Iterate& point) const {
-  // h⁻¹Δx·M v is at most K and what the inertia holds at either end together.
+  // |h⁻¹Δx·M v| is at most the sum of K and the inertial terms at both ends.
   return objective_.rounding(point.value) + objective_.rounding(start_.value) + objective_.rounding(start_kinetic_);
 }
 
@@ -150,7 +150,7 @@ double EnergyBooks::shed(Iterate& point, bool touches) {
   double length = 0.5;
   while (length > least_kept && gains_at(length)) length /= 2;
   if (length <= least_kept) length = 0;
-  // As much of the way as may be: the cloth is slow enough already.
+  // Keep as much of the path as possible, as the cloth is slow enough already.
   const double halved = length;
   for (double more = halved / 2; more > halved / 16; more /= 2) {
     if (!gains_at(length + more)) length += more;
@@ -162,7 +162,7 @@ double EnergyBooks::shed(Iterate& point, bool touches) {
 
 void EnergyBooks::end(const Iterate& point) {
   if (!steady_) return;
-  // A lower bound, so that a step which goes on from here comes to the same as one that starts here.
+  // Use the lower bound, so that a continued motion matches one that starts here.
   const double energy = point.value - objective_.inertial_value(point.x);
   end_energy_ = std::max(0.0, energy - objective_.rounding(point.value));
 }

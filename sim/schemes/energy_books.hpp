@@ -5,74 +5,71 @@
 
 namespace drape {
 
-/// Keeps the books of the energy in a step of backward Euler. Where an iteration stops ∇g is not quite zero, and with
-/// Δx = x' − x and v' = Δx/h the energy changes by
+/// Energy balance of a step of backward Euler. An iteration stops with a nonzero ∇g. With Δx = x' − x and v' = Δx/h the
+/// energy changes by
 ///   ΔK + ΔE = W − ½‖v' − v‖²_M − B + ∇g·Δx,   B = E(x) − E(x') − ∇E(x')·(x − x'),
-/// W the work of the forces (∇g written out, times Δx). That is positive where a step stops early (∇g·Δx) and may be
-/// where springs end compressed, so that E is concave (B < 0). Such a step is not over, however small the changes have
-/// become; and at the cap it goes back towards x until nothing is gained. So a method that is far from its minimum, as
-/// liu13 is with very stiff springs, or has found one of a crumpled cloth, loses energy and gains none.
+/// where W is the work of the forces (∇g written out, times Δx). A gain is possible if a step stops early (∇g·Δx) or if
+/// springs end compressed, where E is concave (B < 0). Such a step continues even after its changes have become small.
+/// At the iteration cap it is shortened towards x until it gains nothing. So a method far from its minimum, like liu13
+/// with very stiff springs, or at a minimum of a crumpled cloth, loses energy and never gains any.
 ///
-/// One gain is tolerated where the tolerance is met, since the homework's tolerances stop there: a tenth of the most
-/// that the forces can do in a step, ‖h M⁻¹f‖_M ‖v'‖_M, provided that the step loses as much otherwise, ½‖v' − v‖²_M,
-/// or that the forces take as much, −W. In proportion to speed it is what a tenth of the forces' size would give if it
-/// pushed along the way; it has no share in what the cloth has, so it cannot compound. Who stops at a gradient
-/// is given what that can do, tolerance·‖Δx‖, and who stops at an error δ what the forces that it leaves can do,
-/// Σ m/h² δ ‖Δxᵢ‖.
+/// One gain is tolerated if the tolerance is met, since the homework's tolerances stop there. It is a tenth of the
+/// largest work of the forces in a step, ‖h M⁻¹f‖_M ‖v'‖_M. In return the step must lose as much elsewhere, ½‖v' −
+/// v‖²_M, or the forces must take as much, −W. This gain is proportional to the speed and independent of the cloth's
+/// energy, so it cannot compound. The gradient rule tolerates the work of its residual, tolerance·‖Δx‖. The error rule,
+/// with the error δ, tolerates that of its residual forces, Σ m/h² δ ‖Δxᵢ‖.
 class EnergyBooks {
  public:
   EnergyBooks(const System& system, const StepObjective& objective, const Minimiser& minimiser);
 
-  /// Notes what the cloth has at the start of a step, whose y the objective has.
-  /// @param state must stay as it is until the step ends
-  /// @param last_end where end() was told that the last step ended
+  /// Stores the energy at the start of a step, whose y the objective has.
+  /// @param state must not change until the step ends
+  /// @param last_end positions passed to end() for the last step
   void begin(const State& state, const Vertices& last_end);
-  /// Whether ΔK + ΔE − W at the point, where contacts have done this work on the cloth [J], is more than rounding
-  /// explains.
+  /// Returns true if ΔK + ΔE − W at the point, minus the work of the contacts [J], exceeds rounding.
   [[nodiscard]] bool gains_in_contact(const Iterate& point, double work);
-  /// Whether ΔK + ΔE − W at the point is more than rounding explains.
-  /// @param tolerant and more than is tolerated
+  /// Returns true if ΔK + ΔE − W at the point exceeds rounding.
+  /// @param tolerant true to subtract the tolerated gain
   [[nodiscard]] bool gains(const Iterate& point, bool tolerant);
-  /// Goes back from a point that gains towards where the step started until it gains nothing; returns the part of the
-  /// way that is left. A cloth that nothing holds goes back to where it would be as a whole.
-  /// @param touches whether contacts hold the cloth
+  /// Moves a point that gains energy towards the start of the step until it gains nothing. Returns the remaining
+  /// fraction of the path. A free cloth moves towards its rigid translation instead.
+  /// @param touches true if contacts hold the cloth
   double shed(Iterate& point, bool touches = false);
-  /// Notes what the cloth has where the step ends.
+  /// Stores the energy at the end of the step.
   void end(const Iterate& point);
 
  private:
   /// Computes g at the start exactly.
   void evaluate_start();
-  /// ΔK + ΔE − W of a point [J], or an upper bound of it as long as start_ is not exact.
+  /// Returns ΔK + ΔE − W of a point [J], or an upper bound while start_ is not exact.
   [[nodiscard]] double gain(const Iterate& point) const;
-  /// The error that rounding can be expected to make in it [J].
+  /// Returns the expected rounding error of the gain [J].
   [[nodiscard]] double rounding(const Iterate& point) const;
-  /// ½‖v' − v‖²_M [J].
+  /// Returns ½‖v' − v‖²_M [J].
   [[nodiscard]] double lost(const Iterate& point) const;
-  /// What a step that meets its tolerance may gain, see above [J].
+  /// Returns the gain that a step within its tolerance may have, see above [J].
   [[nodiscard]] double tolerated(const Iterate& point) const;
 
   const System& system_;
   const StepObjective& objective_;
   const Minimiser& minimiser_;
   const State* state_ = nullptr;  // at the start of the step
-  Iterate start_;                 // its x with its pins where they are when the step ends, and g there…
-  bool start_exact_ = false;      // …or, where it has not been needed, a lower bound of g and nothing else
+  Iterate start_;                 // x with the pins' final positions, with the value and gradient of g
+  bool start_exact_ = false;      // false while start_ holds only a lower bound of g
   double start_kinetic_ = 0;      // ½‖v‖²_M [J]
-  double end_energy_ = 0;         // a lower bound of E where the last step ended [J]
-  bool steady_;                   // E is at the start of a step what it was there when the last one ended…
-  bool springs_;                  // …and nothing but that of springs
+  double end_energy_ = 0;         // lower bound of E at the end of the last step [J]
+  bool steady_;                   // E at the start of a step equals E at the end of the last one
+  bool springs_;                  // E consists only of springs
 };
 
-/// The mean of n×3 numbers, weighted by mass.
+/// Returns the mass-weighted mean of n×3 numbers.
 Eigen::RowVector3d mean(const Cloth& cloth, const Vertices& v);
 
-/// Whether nothing holds the cloth and nothing that it is solved with pushes it.
+/// Returns true if the cloth has no pins and no velocity fields.
 bool is_free(const System& system);
 
-/// Moves a cloth that nothing holds as a whole to where Σ∇g = 0. There Σ∇g = Σ m(x' − y)/h², since what it solves for
-/// pulls with opposite forces. Every exact solve makes that zero; what the rounding of a factor leaves of it is taken
-/// out by a translation, which keeps the momentum to rounding.
+/// Translates a free cloth to where Σ∇g = 0. There Σ∇g = Σ m(x' − y)/h², as internal forces cancel. An exact solve
+/// makes this sum zero. The translation removes the rounding of a factor and so conserves momentum to rounding.
 void balance_momentum(const Cloth& cloth, const StepObjective& objective, Iterate& point);
 
 }  // namespace drape

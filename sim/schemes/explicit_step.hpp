@@ -4,13 +4,13 @@
 
 namespace drape {
 
-/// What the explicit schemes share.
+/// Helpers of the explicit schemes.
 
-/// −h/m of each vertex, 0 on pins [s/kg]: by how much a gradient changes a velocity in a step.
+/// Returns −h/m of each vertex, 0 on pins [s/kg]: the change of velocity in a step per unit of gradient.
 Eigen::VectorXd explicit_pull(const System& system);
 
-/// `force` with that of the energies at x and a time [N].
-/// @param scratch holds the sum, if there are any
+/// Returns `force` plus the forces of the energies at x and a time [N].
+/// @param scratch holds the sum if there are energies
 const Vertices& with_energies(const System& system, const Vertices& x, double time, const Vertices& force,
                               Vertices& scratch);
 

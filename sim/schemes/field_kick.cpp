@@ -8,7 +8,7 @@ namespace drape {
 namespace {
 
 constexpr double relative_error = 1e-12;  // of the speeds
-constexpr double contraction = 0.1;       // what an iteration leaves of the error at most, unless it takes the slopes
+constexpr double contraction = 0.1;       // ratio of successive errors above which the iteration uses slopes
 constexpr int most_kick_iterations = 40;
 
 double largest_speed(const Vertices& v) { return v.rowwise().norm().maxCoeff(); }

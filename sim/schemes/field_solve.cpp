@@ -7,11 +7,11 @@ namespace drape {
 namespace {
 
 constexpr int most_field_rounds = 60;
-// Share of a solve's tolerance that c may still be wrong by. An error of a force adds up over the steps, where that of
-// a solve is made good in the next, and another round costs no more than one or two iterations.
+// Error of c, as a fraction of the solve's tolerance. A force error adds up over the steps, while a solve's error is
+// corrected in the next one; another round costs only one or two iterations.
 constexpr double share_of_tolerance = 0.01;
 constexpr int rounds_with_a_slope = 8;
-// After so many rounds the tolerance itself will do: what the solves leave may be more than that share of it.
+// Rounds after which the full tolerance suffices, as errors of the solves may exceed the fraction.
 constexpr int thorough_rounds = 12;
 
 }  // namespace
@@ -30,7 +30,7 @@ void FieldSolve::begin(const State& from, double end) {
   history_.clear();
   rounds_ = 0;
   over_ = converged_ = false;
-  // The slopes and the first c are those of where the cloth would be by its velocity.
+  // Slopes and the first c use the positions predicted by the velocities.
   state_.x = from.x + t * from.v;
   system_.place_pins(end, state_.x);
   state_.v = from.v;
@@ -86,7 +86,7 @@ void FieldSolve::advance(Vertices& x) {
     x = best_x_;
   }
   before_ = c_ - before_;
-  drag_.add_way(before_, x);  // a point that is within the tolerance of the next minimum would not be moved
+  drag_.add_way(before_, x);  // a point within the tolerance of the next minimum would not be moved
 }
 
 bool FieldSolve::negligible(const Vertices& x, const Minimiser& minimiser) {

@@ -7,35 +7,35 @@
 
 namespace drape {
 
-/// Solves for what velocity fields do at the end of an implicit step of τ seconds. With FieldDrag in g and m c for the
-/// rest of their force, the step ends at x(c) = argmin g; there the fields' acceleration is a(x, (x − x₀)/τ), and c is
-/// right where
+/// Solver for the effect of velocity fields at the end of an implicit step of τ seconds. g contains FieldDrag, and m c
+/// for the rest of their force, so the step ends at x(c) = argmin g. There the fields' acceleration is a(x, (x −
+/// x₀)/τ), and c is the solution of
 ///   c = T(c) = a + Q (x(c) − x₀).
-/// This is iterated with Anderson's acceleration, each time from where the last minimum was, until the change of c
-/// moves no vertex by more than the tolerance. Q is taken where the cloth would be by its velocity, and anew where the
-/// first minimum is and after every few more. Of a free vertex T' = τ²(G + Q) is what of the fields has no potential
-/// that takes energy (the Lorentz or Coriolis force, say), and of others less.
+/// The fixed point is iterated with Anderson acceleration, each time from the last minimum. It stops when the change of
+/// c moves no vertex by more than the tolerance. Q is evaluated at the positions predicted by the velocities, again at
+/// the first minimum, and after every few more. For a free vertex T' = τ²(G + Q): the part of the fields without a
+/// dissipative potential, such as the Lorentz or Coriolis force. For others it is smaller.
 class FieldSolve {
  public:
   FieldSolve(const System& system, const StepObjective& objective);
 
-  /// Begins a step from a state that ends at a time [s].
+  /// Begins a step that starts at a state and ends at a time [s].
   void begin(const State& from, double end);
-  /// The fields' part of the force beside `others`, m c + others, n×3 [N]. Holds until the next call.
+  /// Returns the sum of the fields' force and `others`, m c + others, n×3 [N]. Valid until the next call.
   const Vertices& force_with(const Vertices& others);
-  /// Takes note of the minimum that followed, and returns whether another is needed, with another c. Moves it to where
-  /// that would be without springs, or to where nothing is a number if the fields are none there. Where c is not found,
-  /// the last minimum is the one of the c that was nearest.
+  /// Processes the minimum x and returns true if another with an updated c is needed. Moves x to the next minimum
+  /// without springs, or to NaN if the fields are not finite there. Without convergence the last minimum uses the best
+  /// c.
   bool improve(Vertices& x, const Minimiser& minimiser);
-  /// Returns whether c is right to the tolerance.
+  /// Returns true if c is within the tolerance.
   [[nodiscard]] bool converged() const { return converged_; }
-  /// Ends the step. Returns what the fields gave at its end, n×3 [N].
+  /// Ends the step. Returns the fields' force at its end, n×3 [N].
   const Vertices& end();
 
  private:
-  /// Makes error_ how far a change of c by the residual would move a free vertex; returns whether that is negligible.
+  /// Sets error_ to the move of a free vertex if c changed by the residual. Returns true if that is negligible.
   [[nodiscard]] bool negligible(const Vertices& x, const Minimiser& minimiser);
-  /// Replaces c by what is nearer, and moves x with it.
+  /// Replaces c by the next iterate and moves x accordingly.
   void advance(Vertices& x);
 
   const System& system_;
@@ -45,10 +45,10 @@ class FieldSolve {
   AndersonHistory history_;
   State state_;                                // at the end of the step
   Vertices start_, c_, acceleration_, force_;  // x₀; [m/s²], [m/s²], [N]
-  Vertices residual_, before_;                 // T(c) − c, and the c before [m/s²]
-  Vertices best_c_, best_x_;                   // where an error was the least…
+  Vertices residual_, before_;                 // T(c) − c, and the previous c [m/s²]
+  Vertices best_c_, best_x_;                   // iterate with the least error so far
   double time_ = 0;
-  double error_ = 0, least_error_ = 0;  // …of this size [m], or [N] by a rule of the gradient
+  double error_ = 0, least_error_ = 0;  // current and least error [m], or [N] with the gradient rule
   int rounds_ = 0;
   bool over_ = false, converged_ = false;
 };

@@ -11,15 +11,14 @@
 namespace drape {
 namespace {
 
-// Of the size of what the scenes of scenes/ take [s].
+// Typical times for the scenes in scenes/ [s].
 constexpr double spring_of_substep = 3e-9, spring_of_iteration = 16e-9, substep = 0.5e-6;
-// Quasi-Newton's iterations of a step grow with the frequency of the springs, and no longer once some of them are
-// Newton's steps.
+// Quasi-Newton's iterations grow with the frequency of the springs, up to the point where Newton steps take over.
 constexpr double iterations_per_substep = 2, most_iterations = 60;
 constexpr double steps_of_backward_euler = 2;  // for an error of a hundredth of the cloth's size
 constexpr double worth_of_contact = 10;
 
-/// Returns true if the effects allow a method, as far as the settings alone tell.
+/// Returns true if the effects allow a method, as far as the settings tell.
 bool allowed(SimulationSettings settings, Method method, int substeps) {
   settings.integrator.method = method;
   settings.integrator.substeps = substeps;

@@ -7,37 +7,37 @@
 
 namespace drape {
 
-/// The method that a simulation takes whose settings name none.
+/// The method chosen for settings that name none.
 struct MethodChoice {
   Method method = Method::quasi_newton;  ///< velocity Verlet or quasi-Newton
-  int substeps = 1;                      ///< of a step by velocity Verlet, the fewest that are stable
-  double verlet = 0;                     ///< estimated cost of a step by velocity Verlet, see estimated_step() [s]
-  double quasi_newton = 0;               ///< estimated cost of two of quasi-Newton's, half as long [s]
-  std::string reason;                    ///< ends a sentence that begins with "as": "the cheaper"
-  bool only = false;                     ///< whether no other method can be taken
+  int substeps = 1;                      ///< stable substeps per step of velocity Verlet, as few as possible
+  double verlet = 0;                     ///< estimated time of a step of velocity Verlet, see estimated_step() [s]
+  double quasi_newton = 0;               ///< estimated time of two half steps of quasi-Newton [s]
+  std::string reason;                    ///< completes a sentence after "as": "the cheaper"
+  bool only = false;                     ///< true if no other method is possible
 
-  /// Has the settings name it.
+  /// Sets the method in the settings.
   void apply(SimulationSettings& settings) const;
 };
 
-/// Chooses between velocity Verlet in the fewest stable substeps of each step, and quasi-Newton. Verlet's error is far
-/// below a hundredth of the cloth's size then (docs/accuracy.md); backward Euler's is about that with half the usual
-/// step, so the cheaper of Verlet's step and twice quasi-Newton's is taken. Where the cloth can touch something,
-/// impulses of an implicit step stretch stiff springs, which short steps avoid: there Verlet may cost ten times as
-/// much. The choice follows from counted work alone, and is the same on every machine.
-/// @param settings valid, but for their method
+/// Chooses between quasi-Newton and velocity Verlet with the fewest stable substeps. With these, Verlet's error is far
+/// below a hundredth of the cloth's size (docs/accuracy.md). Backward Euler needs half the usual step to reach a
+/// hundredth, so Verlet's step competes with two steps of quasi-Newton and the cheaper is taken. In contact, impulses
+/// of an implicit step stretch stiff springs and short steps avoid this; then Verlet may cost ten times as much. The
+/// choice depends only on counted work and is the same on every machine.
+/// @param settings valid except for their method
 MethodChoice choose_method(const SimulationSettings& settings);
 
-/// The method that settings imply which name none, but say how a step is solved: quasi-Newton, or implicit where it is
-/// a linear solver that they name. Nothing where they do not.
+/// Returns the method implied by solver settings: implicit for a linear solver, otherwise quasi-Newton. Returns nothing
+/// without such settings.
 std::optional<Method> implied_method(const IntegratorSettings& integrator);
 
-/// The settings with the method that they name or imply, or else the one that is chosen.
+/// Returns the settings with their named, implied or chosen method.
 SimulationSettings with_method(SimulationSettings settings);
 
-/// The time that a step takes on a processor as they were in 2022, within a factor of about three [s].
-/// @param substeps of a step by an explicit method
-/// @param stiffness of the springs: how many substeps would be stable, for the number of iterations
+/// Returns the time for a step on a processor of 2022, within a factor of about three [s].
+/// @param substeps per step, for explicit methods
+/// @param stiffness of the springs, as the number of stable substeps; determines the number of iterations
 double estimated_step(const SimulationSettings& settings, Method method, double substeps, double stiffness);
 
 }  // namespace drape

@@ -14,8 +14,8 @@
 
 namespace drape {
 
-/// What schemes share that minimise a StepObjective, once or several times in a step: the solver, and what its last
-/// minimisation, with which a step ends, has left.
+/// Base of schemes that minimise a StepObjective once or more per step. Holds the solver and the result of the last
+/// minimisation, which ends the step.
 class MinimisingScheme : public Scheme {
  public:
   using MakeSolver = std::function<std::unique_ptr<Minimiser>(const StepObjective& objective)>;
@@ -27,7 +27,7 @@ class MinimisingScheme : public Scheme {
   [[nodiscard]] std::optional<Accuracy> accuracy() const override { return solver_->accuracy(); }
 
  protected:
-  /// @param duration that one minimisation covers [s]
+  /// @param duration time covered by one minimisation [s]
   MinimisingScheme(const System& system, double duration, const MakeSolver& make_solver)
       : system_(system),
         objective_(system, duration),
@@ -38,11 +38,11 @@ class MinimisingScheme : public Scheme {
     if (system.drag != nullptr) fields_.emplace(system, objective_);
   }
 
-  /// Begins the objective of a step from a state under these forces, n×3 [N], and sets the point to where it is
-  /// minimised, once and again until velocity fields do what they do there.
+  /// Begins the objective from a state under forces, n×3 [N], and minimises it. Repeats this until velocity fields are
+  /// consistent with the minimum.
   /// @param expected see choose_point()
-  /// @param begun    called whenever the objective has begun
-  /// @param minimise minimises it from the point
+  /// @param begun    called each time the objective has begun
+  /// @param minimise minimises from the point
   template <class Begun, class Minimise>
   StepReport solve_with_fields(const State& from, const Vertices& force, double end, const Vertices* expected,
                                const Begun& begun, const Minimise& minimise) {
@@ -74,7 +74,7 @@ class MinimisingScheme : public Scheme {
   struct Expected {
     const Vertices *early = nullptr, *late = nullptr;
   };
-  /// What the step that begins expects, and no other will, even if this one does not come to its end.
+  /// Returns the expected accelerations and clears them, so that they serve this step only.
   Expected take_expected() { return std::exchange(expected_, {}); }
 
   /// Begins a step's minimisations at choose_point().
@@ -88,12 +88,12 @@ class MinimisingScheme : public Scheme {
   std::unique_ptr<Minimiser> solver_;
   Iterate point_;
   bool free_;                         // see is_free()
-  std::optional<FieldSolve> fields_;  // where there are velocity fields
+  std::optional<FieldSolve> fields_;  // if there are velocity fields
 
  private:
-  /// Sets the point to where a minimisation begins from a state: where an acceleration leads, or if null to the
-  /// objective's y, and from there to where the vertices go that nothing holds back. One that stops at an error begins
-  /// where the forces of the start lead, if g is lower there: at rest that is the end.
+  /// Sets the initial guess of a minimisation from a state. It follows the expected acceleration, or else starts at the
+  /// objective's y with the restraint's acceleration added. With the error rule it uses the end of the step under
+  /// constant initial forces if g is lower there, which is exact at rest.
   void choose_point(const State& from, const Vertices* expected) {
     const double t = objective_.duration();
     const Vertices& held_back = from.restraint.acceleration;
@@ -117,7 +117,7 @@ class MinimisingScheme : public Scheme {
   }
 
   Expected expected_;
-  Iterate other_;  // than y, where a minimisation may begin
+  Iterate other_;  // alternative initial guess
 };
 
 }  // namespace drape

@@ -11,30 +11,28 @@
 
 namespace drape {
 
-/// What a method is made of.
+/// Factories of a method.
 struct MethodType {
   Method method;
-  /// Refers to the system. @throws UsageError if something acts in it that the scheme cannot evaluate, or a matrix
-  /// would not fit into memory or cannot be factored to working precision
+  /// Makes the scheme, which refers to the system. @throws UsageError if the scheme cannot evaluate an effect, or a
+  /// matrix does not fit into memory or cannot be factored to working precision
   std::unique_ptr<Scheme> (*make)(const IntegratorSettings& settings, const System& system);
   std::unique_ptr<StabilityGuard> (*make_guard)(const IntegratorSettings& settings, const System& system);
 };
 
-/// The only list of what each method is.
+/// Returns the entry of the only list of methods.
 const MethodType& method_type(Method method);
 
-/// The guard of a motion with these settings, with an accuracy a SubstepGuard.
+/// Returns the guard for these settings; with an accuracy, a SubstepGuard.
 std::unique_ptr<StabilityGuard> make_guard(const SimulationSettings& settings, const System& system);
 
-/// What takes the steps of a motion with these settings: the method's scheme, and nothing else unless an accuracy is
-/// asked for; then a SubstepScheme.
-/// @param guard of the motion @param make_system with steps of another length [s], for an accuracy
+/// Returns the scheme for these settings; with an accuracy, a SubstepScheme.
+/// @param guard of the motion @param make_system makes a system with another step length [s], for an accuracy
 /// @throws UsageError as MethodType::make does
 std::unique_ptr<Scheme> make_scheme(const SimulationSettings& settings, const System& system,
                                     const StabilityGuard& guard, const std::function<System(double step)>& make_system);
 
-/// Why the motion cannot be computed with these settings, in a sentence: the step is beyond what the method's guard
-/// allows. Nothing where it can.
+/// Returns the reason, as a sentence, if the step exceeds the limit of the method's guard; otherwise nothing.
 std::optional<std::string> stability_problem(const SimulationSettings& settings, const System& system);
 
 }  // namespace drape

@@ -10,8 +10,8 @@ namespace drape {
 
 SafeStepGuard::SafeStepGuard(std::string_view scheme, const System& system)
     : scheme_(scheme), step_(system.step), safe_step_(safe_step(system)) {
-  // Below the safe step a cloth can only gain energy little by little, and looking costs nothing. What pins and filters
-  // do to it is no force; beyond the safe step that does not count.
+  // Below the safe step energy can only grow slowly, and the check is cheap. The work of pins and filters is unknown;
+  // beyond the safe step it is negligible.
   const double limit = BlowUpWatch::limit(step_ / safe_step_);
   if (step_ > safe_step_) {
     watch_.emplace(system, limit, 1);

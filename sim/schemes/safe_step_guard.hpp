@@ -7,11 +7,11 @@
 
 namespace drape {
 
-/// For schemes that are stable up to a step of their own, safe_step(), and may gain energy beyond it.
+/// Guard for schemes that are stable up to safe_step() and may gain energy beyond it.
 class SafeStepGuard final : public StabilityGuard {
  public:
-  /// Finds the safe step, which takes a while for a large cloth.
-  /// @param scheme what it is called in a sentence
+  /// Computes the safe step, which takes a while for a large cloth.
+  /// @param scheme name of the scheme in messages
   SafeStepGuard(std::string_view scheme, const System& system);
 
   [[nodiscard]] std::optional<std::string> problem() const override;
@@ -25,7 +25,7 @@ class SafeStepGuard final : public StabilityGuard {
  private:
   std::string_view scheme_;
   double step_, safe_step_;           // [s]
-  std::optional<BlowUpWatch> watch_;  // where it makes sense to keep the books
+  std::optional<BlowUpWatch> watch_;  // if energy is meaningful for this motion
 };
 
 }  // namespace drape

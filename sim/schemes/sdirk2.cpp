@@ -8,7 +8,7 @@ namespace {
 namespace tableau {
 
 constexpr double gamma = Sdirk2::gamma;
-constexpr double rest = (1 - gamma) / gamma;  // what is left of the step after stage 1, in stages
+constexpr double rest = (1 - gamma) / gamma;  // remaining time after stage 1, in stages
 constexpr double delta = 1 - 1 / (2 * gamma);
 
 }  // namespace tableau
@@ -83,7 +83,7 @@ void Sdirk2::find_second_forces(double time, StepForces& forces) {
   system_.drive_pins(time, stage_.v);
   forces.of_velocity(stage_, time, of_stage_);
   force_ -= of_start_;
-  // v₂ has (1 − γ)h of the first stage's forces, and γh of these are to come.
+  // v₂ contains (1 − γ)h of the first stage's forces; γh of these are added here.
   of_stage_ = tableau::delta * of_start_ + (1 - tableau::delta) * of_stage_;
   forces.note(of_stage_);
   force_ += (of_stage_ - (1 - tableau::gamma) * of_start_) / tableau::gamma;

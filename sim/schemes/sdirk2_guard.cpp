@@ -3,7 +3,7 @@
 namespace drape {
 
 Sdirk2Guard::Sdirk2Guard(const System& system) : condition_(system) {
-  constexpr int interval = 16;  // a look costs about as much as an iteration
+  constexpr int interval = 16;  // a check costs about as much as an iteration
   const bool forces_only = system.pin_motions.empty() && system.filters.empty() && system.contacts.empty();
   if (forces_only) watch_.emplace(system, limit, interval);
 }

@@ -5,11 +5,11 @@
 
 namespace drape {
 
-/// For SDIRK2, which can be computed as far as backward Euler, but promises nothing about energy. Measured, with steps
-/// up to 46 ms a motion whose stages are solved tightly never has more than 1.6 times what the cloth had and was given,
-/// and that only where it starts crumpled into a line or a point. But where a stiff cloth crumples within a step of 0.1
-/// s it has had 38 times that, and an error δ of a loose solve puts k δ² into a spring, while the second stage begins
-/// where it is five times as large. Beyond ten times what is explained it is no motion of this cloth.
+/// Guard for SDIRK2, which shares the limits of backward Euler but may gain energy. In tests with steps up to 46 ms and
+/// tight solves, a motion never exceeded 1.6 times its initial and supplied energy. Even that occurred only if it
+/// started crumpled into a line or a point. But a stiff cloth that crumples within a step of 0.1 s reached 38 times.
+/// Also, an error δ of a loose solve puts k δ² into a spring, and the second stage starts with five times the error.
+/// Beyond ten times the explained energy the motion is not physical.
 class Sdirk2Guard final : public StabilityGuard {
  public:
   static constexpr double limit = 10;
@@ -26,7 +26,7 @@ class Sdirk2Guard final : public StabilityGuard {
 
  private:
   ConditionGuard condition_;
-  std::optional<BlowUpWatch> watch_;  // where nothing gives the cloth energy but forces
+  std::optional<BlowUpWatch> watch_;  // if only forces give the cloth energy
 };
 
 }  // namespace drape

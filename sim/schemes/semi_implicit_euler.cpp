@@ -15,7 +15,7 @@ StepReport SemiImplicitEuler::advance(State& state, StepForces& forces) {
   system_.begin(state);
   const double start = system_.time(state.step);
   const Vertices& force = with_energies(system_, state.x, start, forces.all(state, start), force_);
-  // Where nothing changes the velocity in between, both updates are one pass.
+  // Do both updates in one pass if nothing changes the velocity in between.
   const bool at_once =
       !fields_ && system_.corrections.empty() && system_.filters.empty() && system_.pin_motions.empty();
   if (fields_) before_ = state.v;

@@ -11,7 +11,7 @@ namespace drape {
 /// Symplectic (semi-implicit) Euler: v += h·a(x), velocity fields by FieldKick, the corrections, x += h·v.
 class SemiImplicitEuler final : public Scheme {
  public:
-  /// @throws UsageError if the system has energies that are solved for
+  /// @throws UsageError if the system has energies that only implicit methods support
   explicit SemiImplicitEuler(const System& system);
   StepReport advance(State& state, StepForces& forces) override;
 
@@ -19,8 +19,8 @@ class SemiImplicitEuler final : public Scheme {
   const System& system_;
   SpringNetwork springs_;
   Eigen::VectorXd pull_;  // −h/m of each vertex, 0 on pins [s/kg]
-  Vertices force_;        // with that of energies; empty without [N]
-  Vertices before_;       // the velocities before the kick, where fields act [m/s]
+  Vertices force_;        // plus those of energies; empty without [N]
+  Vertices before_;       // velocities before the kick, if there are fields [m/s]
   std::optional<FieldKick> fields_;
 };
 

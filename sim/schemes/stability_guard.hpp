@@ -9,39 +9,38 @@
 
 namespace drape {
 
-/// Stands between a scheme and the motions that it cannot compute: says so beforehand where that is known, and
-/// recognises them in a step that has ended where it is not. What it finds out about a system holds for the motion,
-/// whichever pins are released in it.
+/// Guard against motions that a scheme cannot compute. It rejects them beforehand if that is known, otherwise by
+/// detecting a blow-up after a step. Its limits hold for the whole motion, including the release of pins.
 class StabilityGuard {
  public:
   virtual ~StabilityGuard() = default;
 
-  /// Why the motion cannot be computed, in a sentence that says what to change; nothing where it can.
+  /// Returns the reason, as a sentence with a remedy, if the motion cannot be computed; otherwise nothing.
   [[nodiscard]] virtual std::optional<std::string> problem() const = 0;
 
-  /// The longest step that the scheme itself may take [s].
+  /// Returns the longest step that the scheme itself may take [s].
   [[nodiscard]] virtual double longest_step() const = 0;
 
-  /// K + E of the present state [J]; called only where it is needed.
+  /// Function that returns K + E of the present state [J]; called only if needed.
   using EnergyNow = std::function<double()>;
 
-  /// Begins to watch a motion, or goes on from another state of it.
+  /// Begins to watch a motion, or restarts from another state of it.
   virtual void begin(const State& /*state*/, const EnergyNow& /*energy*/) {}
 
-  /// Watches a step that has ended in a state whose `step` is counted already.
-  /// @param push the forces of the step, n×3 [N]; @param constant whether they are those of every step
-  /// @returns how many times the energy that is explained the cloth has, if that is too much
+  /// Checks a step that ended in a state, after its `step` was advanced.
+  /// @param push forces of the step, n×3 [N]; @param constant true if they are the same in every step
+  /// @returns the ratio of the cloth's energy to the explained energy, if it is too large
   virtual std::optional<double> look(const State& /*state*/, const Vertices& /*push*/, bool /*constant*/,
                                      const EnergyNow& /*energy*/) {
     return std::nullopt;
   }
 
-  /// What it remembers of the motion, where that is anything: whoever goes on with it elsewhere needs it.
+  /// Returns the checkpoint state of the watch, if any.
   [[nodiscard]] virtual std::optional<BlowUpWatch::Books> books() const { return std::nullopt; }
-  /// Goes on with a motion of which it remembered this.
+  /// Restores the checkpoint state of a motion.
   virtual void go_on(const BlowUpWatch::Books& /*books*/) {}
 
-  /// What to change about a motion that blew up: the end of a message.
+  /// Returns the advice for a motion that blew up, as the end of a message.
   [[nodiscard]] virtual std::string remedy() const = 0;
 };
 

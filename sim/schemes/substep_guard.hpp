@@ -7,17 +7,17 @@
 
 namespace drape {
 
-/// For steps that are cut into substeps, see SubstepScheme: another guard says how short these have to be. What goes
-/// wrong in a step needs no watch, since two motions that differ in their substeps would not agree about it.
+/// Guard for steps divided into substeps, see SubstepScheme; another guard gives the longest substep. No blow-up watch
+/// is needed, as two unstable motions with different substeps would disagree.
 class SubstepGuard final : public StabilityGuard {
  public:
-  /// More than 2^20 substeps are not begun with.
+  /// Limit above which a motion is rejected.
   static constexpr double most_substeps = 1 << 20;
 
-  /// @param guard of the scheme @param step that is cut [s]
+  /// @param guard of the scheme @param step to divide [s]
   SubstepGuard(std::unique_ptr<StabilityGuard> guard, double step);
 
-  /// Into how many substeps a step has to be cut until they are no longer than another [s]; no more than are allowed.
+  /// Returns the number of substeps no longer than `longest` [s] that divide a step, capped at the limit.
   static std::int64_t fewest_substeps(double step, double longest);
 
   [[nodiscard]] std::optional<std::string> problem() const override;

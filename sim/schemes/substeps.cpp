@@ -14,41 +14,40 @@
 namespace drape {
 namespace {
 
-constexpr std::int64_t fewest_solved = 4;         // substeps of an implicit scheme, two beside them
-constexpr std::int64_t solved_to_look_with = 64;  // where a step takes about the same time however it is cut
-constexpr std::size_t most_kept = 4;              // attempts
+constexpr std::int64_t fewest_solved = 4;         // substeps of an implicit scheme; the companion has two
+constexpr std::int64_t solved_to_look_with = 64;  // below this number, a step takes about the same time
+constexpr std::size_t most_kept = 4;              // number of attempts
 
-// How wrong the shorter substeps are, of how far the two motions are apart, and what is accepted of what is asked; see
-// docs/accuracy.md for the measurement.
+// Ratios of the error of the shorter substeps to the difference of the motions, and the accepted fraction of the
+// accuracy; measured in docs/accuracy.md.
 constexpr double error_of_verlet = 1.0 / 3, error_of_sdirk2 = 0.7, error_of_backward_euler = 1;
 constexpr double accepted = 0.8;
-constexpr double solve_share = 0.1;  // of the accuracy, that the solves of both motions together may do wrong
+constexpr double solve_share = 0.1;  // fraction of the accuracy for the solver errors of both motions
 constexpr double most_default_errors = 10;
 
-/// Settings of both motions: of second order, with the method that is asked for.
+/// Returns settings of both motions: the requested method with a second-order scheme.
 IntegratorSettings of_second_order(IntegratorSettings integrator) {
   if (is_explicit(integrator.method)) integrator.method = Method::verlet;
   integrator.scheme = TimeScheme::sdirk2;
   return integrator;
 }
 
-/// What the longer substeps are of: solved by the method that is fastest with long steps. Where they end does not
-/// depend on it.
+/// Returns settings of the longer substeps: the fastest method for long steps, as it does not affect the result.
 IntegratorSettings beside(IntegratorSettings integrator) {
   if (!is_explicit(integrator.method)) integrator.method = Method::quasi_newton;
   integrator.max_iterations.reset();
   return integrator;
 }
 
-/// With how many substeps the alternation of liu13 is fastest: its iterations of a step are so many more the stiffer
-/// the springs are beside the inertia that shorter steps are the cheaper ones, until they are about as stiff.
+/// Returns the number of substeps that is fastest for liu13. Its iterations grow with the ratio of stiffness to
+/// inertia, so shorter steps are cheaper until both are about equal.
 std::int64_t fastest_for_local_global(const System& system) {
   constexpr double as_stiff = 3;
   const double count = std::sqrt(std::max(1.0, (condition_bound(system) - 1) / as_stiff));
   return static_cast<std::int64_t>(std::min<double>(count, SubstepScheme::most_substeps));
 }
 
-/// Infinite where a place is not finite.
+/// Returns the largest distance; infinite if a position is not finite.
 double largest_distance(const Vertices& a, const Vertices& b) {
   const double distance = std::sqrt((a - b).rowwise().squaredNorm().maxCoeff());
   return std::isfinite(distance) && std::isfinite(norm(a)) ? distance : std::numeric_limits<double>::infinity();
@@ -56,10 +55,10 @@ double largest_distance(const Vertices& a, const Vertices& b) {
 
 }  // namespace
 
-/// A scheme with steps of another length.
+/// A motion with another step length.
 struct SubstepScheme::Motion {
-  /// @param count        of substeps in a step
-  /// @param acceleration that a solve may leave out of a substep [m/s²]
+  /// @param count        number of substeps in a step
+  /// @param acceleration residual acceleration allowed in a solve [m/s²]
   Motion(const SubstepScheme& owner, std::int64_t count, IntegratorSettings integrator, const State& start)
       : system(owner.make_system_(owner.step_ / static_cast<double>(count))), forces(system, start), state(start) {
     system.whole_step = owner.step_;
@@ -81,7 +80,7 @@ struct SubstepScheme::Motion {
     known_ = false;
   }
 
-  /// @param early, late what to expect, see Scheme::expect(); or both null
+  /// @param early, late expected accelerations, see Scheme::expect(); or both null
   StepReport advance(const Vertices* early, const Vertices* late) {
     system.stop.look();
     if (late != nullptr) scheme->expect(*early, *late);
@@ -94,7 +93,7 @@ struct SubstepScheme::Motion {
     known_ = true;
     return report;
   }
-  /// Of the last substep, if there is one and it solves for where it ends [m/s²].
+  /// Returns the mean acceleration of the last substep, if it was implicit [m/s²]; otherwise null.
   [[nodiscard]] const Vertices* acceleration() const { return known_ ? &acceleration_ : nullptr; }
 
   System system;
@@ -107,7 +106,7 @@ struct SubstepScheme::Motion {
   bool known_ = false;
 };
 
-/// Two motions through a step, one in an even number of substeps and beside it one in half as many.
+/// Two motions through a step, with an even number of substeps and with half as many.
 class SubstepScheme::Attempt {
  public:
   Attempt(const SubstepScheme& owner, const State& start, std::int64_t count)
@@ -125,7 +124,7 @@ class SubstepScheme::Attempt {
     apart_ = 0;
   }
 
-  /// Goes on by one of the longer substeps.
+  /// Advances by one of the longer substeps.
   void advance(StepReport& report) {
     add(shorter_.advance(shorter_.acceleration(), shorter_.acceleration()), report);
     if (shorter_.acceleration() != nullptr) early_ = *shorter_.acceleration();
@@ -136,9 +135,9 @@ class SubstepScheme::Attempt {
   }
 
   [[nodiscard]] bool over() const { return 2 * done_ == substeps; }
-  /// The error, as far as the motions have come [m].
+  /// Returns the error estimate so far [m].
   [[nodiscard]] double estimate() const { return apart_ * error_per_apart_; }
-  /// What it is at the end of the step if it grows in proportion to time.
+  /// Returns the estimate extrapolated linearly to the end of the step [m].
   [[nodiscard]] double projected() const {
     return estimate() * static_cast<double>(substeps) / static_cast<double>(2 * done_);
   }
@@ -159,9 +158,9 @@ class SubstepScheme::Attempt {
   }
 
   Motion shorter_, longer_;
-  Vertices early_;  // acceleration of the first of the shorter substeps beside one of the longer ones [m/s²]
+  Vertices early_;  // acceleration of the first shorter substep within a longer one [m/s²]
   double error_per_apart_;
-  std::int64_t done_ = 0;  // of the longer substeps
+  std::int64_t done_ = 0;  // number of longer substeps done
   double apart_ = 0;       // [m]
 };
 
@@ -223,7 +222,7 @@ StepReport SubstepScheme::advance(State& state, StepForces& /*forces*/) {
       now->begin(state);
     }
     const auto holds = [&] { return now->estimate() <= accepted * accuracy_; };
-    // No number of shorter substeps makes finite what is not.
+    // More substeps would not make a non-finite estimate finite.
     while (!now->over() && (holds() || (next == most_ && std::isfinite(now->estimate())))) now->advance(report);
     report.converged = holds();
     if (report.converged || next == most_) break;

@@ -11,49 +11,49 @@
 
 namespace drape {
 
-/// Cuts each step into equal substeps of a scheme of second order, with the smallest number that it finds for which no
-/// vertex ends further than an accuracy from where it would without error of time stepping and solve. The scheme is
-/// velocity Verlet's for explicit methods, and SDIRK2 for implicit ones.
+/// A second-order scheme that divides each step into equal substeps. It uses the smallest number it finds for which no
+/// vertex ends further than the accuracy from the solution without time-stepping and solver errors. The scheme is
+/// velocity Verlet for explicit methods, and SDIRK2 for implicit ones.
 ///
-/// **The error** is estimated by a second motion beside it, of the same scheme in half as many substeps (solved by
-/// quasi-Newton where it is implicit, which is the fastest with long steps). With order p the two part by 2^p − 1 times
-/// what the shorter substeps do wrong: three times by Verlet's; SDIRK2 has an order between 2 and 1 where springs are
-/// stiff, and 1/0.7 is taken. Accepted is what is four fifths of the accuracy. Both motions advance together, so one
-/// that parts too soon is given up where it does.
+/// **Error estimate**: a companion motion uses the same scheme with half as many substeps. If implicit, it is solved by
+/// quasi-Newton, the fastest method for long steps. With order p the two differ by 2^p − 1 times the error of the
+/// shorter substeps: three times for Verlet. SDIRK2 has an order between 2 and 1 for stiff springs; 1/0.7 is used. A
+/// step is accepted below four fifths of the accuracy. Both motions advance together, so that an attempt stops once
+/// they differ too much.
 ///
-/// **The number** is even, and follows from the state alone. What the first two of the shorter substeps of some number
-/// do, in proportion to the step, says with which number to begin; where that is not accurate enough, what has parted
-/// by then says with which to go on. An implicit scheme takes 4, 6, 8, 12, 16 …, so that factors can be kept, since
-/// fewer do not show what stiff springs do. The cap is 4096 substeps; a step that needs more ends with these and has
-/// not converged. liu13 begins with more than it needs where shorter substeps are the cheaper ones.
+/// **Number of substeps**: even, and determined by the state alone. A trial of two of the shorter substeps gives the
+/// initial number from the error per time. If that is not accurate enough, the difference so far gives the next number.
+/// Implicit schemes use 4, 6, 8, 12, 16 … to reuse factors; fewer do not resolve stiff springs. The cap is 4096
+/// substeps. A step that needs more ends with these and has not converged. liu13 starts with more than needed if
+/// shorter substeps are cheaper.
 ///
-/// **The solve**: a residual force r on a vertex that is the same in every substep moves it by r/m·h²/2 in the step,
-/// whatever the number. The tolerance of each solve allows a twentieth of the accuracy for that; but no more than ten
-/// times 0.3 % of the weight: where steps are short, hardly anything would be solved otherwise.
+/// **Solver tolerance**: a constant residual force r on a vertex moves it by r/m·h²/2 in the step for any number of
+/// substeps. Each solve may use a twentieth of the accuracy for that, up to ten times 0.3 % of the weight. Without this
+/// limit short steps would hardly be solved at all.
 ///
-/// A solve begins where the acceleration of the substep before leads, and one of the longer ones where those beside it
-/// do: that takes half of the iterations.
+/// Initial guesses follow the last acceleration; those of the longer substeps follow the accelerations of the shorter
+/// ones. This saves half of the iterations.
 ///
-/// A substep is a step of a system of its own, in which pins, colliders, corrections and filters act as they do in a
-/// step; which vertices are pinned is the step's affair.
+/// A substep is a step of its own system: pins, colliders, corrections and filters act as in a step. The set of pinned
+/// vertices is constant during a step.
 class SubstepScheme final : public Scheme {
  public:
-  /// What acts on the cloth, with steps of another length [s].
+  /// Function that makes the system with another step length [s].
   using MakeSystem = std::function<System(double step)>;
 
-  /// Into how many substeps a step is cut at most, unless stability asks for more.
+  /// Maximum number of substeps per step, unless stability requires more.
   static constexpr std::int64_t most_substeps = 4096;
 
-  /// @param settings whose accuracy is given
-  /// @param fewest_stable substeps with which the inner scheme is stable, see SubstepGuard
+  /// @param settings with an accuracy
+  /// @param fewest_stable stable number of substeps of the inner scheme, see SubstepGuard
   /// @throws UsageError as MethodType::make does
   SubstepScheme(const SimulationSettings& settings, std::int64_t fewest_stable, MakeSystem make_system);
   ~SubstepScheme() override;
 
-  /// Of the report's iterations, those of all attempts are counted.
+  /// Advances by a step. The report's iterations include all attempts.
   StepReport advance(State& state, StepForces& forces) override;
 
-  // Of the last substep.
+  // Values of the last substep.
   [[nodiscard]] double residual() override;
   [[nodiscard]] double error() override;
   [[nodiscard]] double unbalanced() override;
@@ -63,19 +63,20 @@ class SubstepScheme final : public Scheme {
   struct Motion;
   class Attempt;
 
-  /// The attempt with so many substeps. Some are kept, because each has its factors.
+  /// Returns the attempt with this number of substeps. Recent ones are kept, as each has its own factors.
   Attempt& attempt(std::int64_t substeps, const State& start);
-  /// The least number from there on that is tried.
+  /// Returns the next number of substeps to try, at least `substeps`.
   [[nodiscard]] std::int64_t worthwhile(std::int64_t substeps) const;
-  /// With how many to go on when the estimate with so many is this.
+  /// Returns the number of substeps to continue with, from the estimate for another number.
   [[nodiscard]] std::int64_t substeps_for(double estimate, std::int64_t substeps) const;
 
   double step_, accuracy_;  // [s], [m]
   IntegratorSettings integrator_;
   MakeSystem make_system_;
-  double acceleration_;                            // that the solves may leave out [m/s²]
-  std::int64_t fewest_, most_ = 0, first_ = 0;     // substeps of the shorter motion: of attempts, and to look with
-  std::deque<std::unique_ptr<Attempt>> attempts_;  // the last used first
+  double acceleration_;  // residual acceleration allowed in a solve [m/s²]
+  // Numbers of substeps of the shorter motion: limits, and for the first trial.
+  std::int64_t fewest_, most_ = 0, first_ = 0;
+  std::deque<std::unique_ptr<Attempt>> attempts_;  // most recently used first
 };
 
 }  // namespace drape

@@ -51,8 +51,7 @@ bool Verlet::kick_of_velocity(State& state, double time, StepForces& forces) {
   before_ = start_v_;
   bool found = fields_->kick(state.x, time, before_, state.v);
   if (others) {
-    // The other forces depend on what fields have done, and the other way round: to second order each needs no more
-    // than an estimate of the other.
+    // Fields and other forces depend on each other. For second order each needs only an estimate of the other.
     add_of_velocity(state, time, forces);
     state.v += pull_.asDiagonal() * fields_->force();
     found = fields_->kick(state.x, time, before_, state.v);

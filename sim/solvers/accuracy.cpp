@@ -9,11 +9,11 @@
 namespace drape {
 namespace {
 
-constexpr double visible = 1e-4;                  // of the cloth's size
-constexpr double tolerated = 0.003;               // of the way that forces move a vertex in a step
-constexpr std::array share_of_forces{0.1, 0.05};  // of the way by forces, by the order of the scheme
+constexpr double visible = 1e-4;                  // fraction of the cloth's size
+constexpr double tolerated = 0.003;               // fraction of the largest displacement by forces in a step
+constexpr std::array share_of_forces{0.1, 0.05};  // fraction of the displacement by forces, by order of the scheme
 constexpr double share_of_way = 0.01;
-constexpr double customary = 1e-3;  // for a rule that is given without a tolerance [m] or [N]: the homework's
+constexpr double customary = 1e-3;  // the homework's tolerance for a rule given without one [m] or [N]
 
 double longest(const Vertices& v) { return v.rowwise().stableNorm().maxCoeff(); }
 
@@ -21,7 +21,7 @@ StoppingRule rule_of(const IntegratorSettings& settings) {
   return settings.stop.value_or(settings.tolerance ? StoppingRule::change : StoppingRule::error);
 }
 
-/// The forces of the springs as the cloth starts, n×3 [N].
+/// Returns the forces of the springs at the start, n×3 [N].
 Vertices spring_forces(const System& system) {
   const Vertices& x = system.cloth.positions;
   Vertices force = Vertices::Zero(x.rows(), 3);
@@ -36,7 +36,7 @@ Vertices spring_forces(const System& system) {
   return force;
 }
 
-/// How far a vertex is moved in a step by what moves the cloth, at most [m]; 0 if nothing does.
+/// Returns the largest displacement of a vertex in a step by forces or velocities [m]; 0 if nothing moves.
 double way_in_a_step(const System& system, const Eigen::VectorXd& inertia) {
   const State start{.x = system.cloth.positions, .v = system.cloth.velocities, .step = 0};
   const auto moved = [&](Vertices force) {

@@ -14,7 +14,7 @@ void AndersonHistory::clear() {
 }
 
 void AndersonHistory::observe(const Vertices& residual, const Vertices& c) {
-  constexpr double dependent = 1e-6;  // what is left of a difference that the others make up
+  constexpr double dependent = 1e-6;  // relative norm of a difference that the others span
   Pair& added = pairs_[(oldest_ + count_) % most_pairs];
   if (count_ == most_pairs) {
     oldest_ = (oldest_ + 1) % most_pairs;
@@ -37,7 +37,7 @@ void AndersonHistory::observe(const Vertices& residual, const Vertices& c) {
 }
 
 bool AndersonHistory::advance(const Vertices& residual, Vertices& c) {
-  constexpr double grown = 10;  // an iteration that does not contract grows at first
+  constexpr double grown = 10;  // allows for the initial growth of an iteration that does not contract
   const double norm = residual.norm();
   if (begun_ && !(norm <= grown * best_)) {
     count_ = oldest_ = 0;

@@ -7,18 +7,18 @@
 
 namespace drape {
 
-/// Anderson's acceleration of a fixed-point iteration c = T(c) (Walker and Ni 2011), n×3. The last few differences of
-/// the residuals T(c) − c are kept orthonormal, and with each the difference of c that made it, so that the combination
-/// whose residual is least follows from products with them (as in the GCR method, which this is where T is linear).
-/// A residual that has grown is gone back from.
+/// Anderson acceleration of a fixed-point iteration c = T(c) (Walker and Ni 2011), n×3. Keeps the last few differences
+/// of the residuals T(c) − c in orthonormal form, together with the matching differences of c. Inner products with
+/// these give the combination of least residual (for linear T this is the GCR method). If the residual grows, the
+/// iteration returns to the best point.
 class AndersonHistory {
  public:
   /// @param unknowns n
   explicit AndersonHistory(Eigen::Index unknowns);
 
-  /// Begins another iteration.
+  /// Resets for another iteration.
   void clear();
-  /// Replaces c, whose residual is given, by where to go next. Returns false where it has gone back.
+  /// Replaces c, given its residual, by the next iterate. Returns false if it returned to the best point.
   bool advance(const Vertices& residual, Vertices& c);
 
  private:
@@ -27,15 +27,15 @@ class AndersonHistory {
   };
   static constexpr std::size_t most_pairs = 12;
 
-  /// Makes a pair of the last two points.
+  /// Stores the difference of the last two points.
   void observe(const Vertices& residual, const Vertices& c);
 
   std::array<Pair, most_pairs> pairs_;
   std::size_t count_ = 0, oldest_ = 0;
-  Vertices last_residual_, last_c_;  // of the last point, and of the one with the least residual…
-  Vertices best_residual_, best_c_;  // …once begun_
-  double best_ = 0;                  // the norm of its residual
-  double length_ = 1;                // of a step from there, once it has been gone back to
+  Vertices last_residual_, last_c_;  // of the last point, if begun_
+  Vertices best_residual_, best_c_;  // of the point with the least residual, if begun_
+  double best_ = 0;                  // norm of its residual
+  double length_ = 1;                // step length from the best point after a return
   bool begun_ = false;
 };
 

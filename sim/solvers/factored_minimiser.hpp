@@ -8,7 +8,7 @@
 
 namespace drape {
 
-/// A minimisation that knows the Hessian by Liu13's factored matrix A alone.
+/// A minimiser whose only Hessian model is Liu13's factored matrix A.
 class FactoredMinimiser : public Minimiser {
  public:
   FactoredMinimiser(const System& system, const StepObjective& objective, const IntegratorSettings& settings,
@@ -22,7 +22,7 @@ class FactoredMinimiser : public Minimiser {
  private:
   const System& system_;
   ConstantFactor factor_;
-  std::unique_ptr<ConjugateGradients> newton_;  // once it is asked for
+  std::unique_ptr<ConjugateGradients> newton_;  // created on first use
 };
 
 }  // namespace drape

@@ -30,7 +30,7 @@ void LbfgsHistory::moved(const Vertices& direction, double length, double slope)
   pending_ = length > 0;
   if (!pending_) return;
   if (count_ == capacity) {
-    std::rotate(order_.begin(), order_.begin() + 1, order_.end());  // forgets the oldest
+    std::rotate(order_.begin(), order_.begin() + 1, order_.end());  // drops the oldest pair
   } else {
     ++count_;
   }
@@ -44,11 +44,11 @@ void LbfgsHistory::observe(const Vertices& gradient, const Vertices& preconditio
   if (pending_) {
     Pair& pair = newest();
     subtract(threads_, preconditioned, last_preconditioned_, pair.preconditioned);
-    // Of the gradient before the move: A⁻¹q·∇g = ∇g_new·A⁻¹∇g_old − ∇g_old·A⁻¹∇g_old.
+    // Product with the gradient before the move: A⁻¹q·∇g = ∇g_new·A⁻¹∇g_old − ∇g_old·A⁻¹∇g_old.
     pair.preconditioned_gradient = dot(threads_, gradient, last_preconditioned_) - before;
   }
   measure(gradient);
-  // A pair without positive curvature says nothing about a minimum nearby; g has none only in exact arithmetic.
+  // Drop pairs without positive curvature. They carry no information about a nearby minimum.
   if (pending_ && !(newest().step_change[slot(count_ - 1)] > 0)) --count_;
   pending_ = false;
   copy(threads_, preconditioned, last_preconditioned_);

@@ -8,31 +8,31 @@
 
 namespace drape {
 
-/// The last few curvature pairs s = Δx, q = Δ∇g of a minimisation, and the L-BFGS direction that follows from them and
-/// an initial inverse Hessian γA⁻¹. As A⁻¹∇g is known at every point anyway, A⁻¹q is kept in place of q, and the
-/// two-loop recursion (Nocedal and Wright 2006, algorithm 7.4) runs on the pairs' inner products instead of on vectors:
-/// an iteration reads the kept vectors twice, whatever their number, and solves with A once.
+/// The last few curvature pairs s = Δx, q = Δ∇g of a minimisation. Computes the L-BFGS direction from them and an
+/// initial inverse Hessian γA⁻¹. As A⁻¹∇g is known at every point, A⁻¹q is kept instead of q. The two-loop recursion
+/// (Nocedal and Wright 2006, algorithm 7.4) runs on inner products of the pairs instead of vectors. An iteration reads
+/// the kept vectors twice, for any number of pairs, and solves with A once.
 class LbfgsHistory {
  public:
-  /// Pairs kept. Iterations to Newton's accuracy with 1, 3, 5, 8 pairs: 43, 40, 40, 39 (20×20, k = 180, ε = 1e-3).
+  /// Number of pairs. Iterations to Newton's accuracy with 1, 3, 5, 8 pairs: 43, 40, 40, 39 (20×20, k = 180, ε = 1e-3).
   static constexpr int capacity = 4;
 
-  /// @param threads that share its passes; they must outlive it
+  /// @param threads shared by its passes; must outlive it
   explicit LbfgsHistory(int vertex_count, const Threads& threads = one_thread());
 
   void clear();
 
-  /// Takes note of ∇g and A⁻¹∇g at the present point, and completes the pair of the last move.
+  /// Stores ∇g and A⁻¹∇g at the present point, and completes the pair of the last move.
   void observe(const Vertices& gradient, const Vertices& preconditioned);
 
-  /// direction = H⁻¹∇g at the observed point.
+  /// Computes direction = H⁻¹∇g at the observed point.
   void find_direction(const Vertices& preconditioned, Vertices& direction) const;
 
-  /// Takes note of the move from the observed point by −length·direction, where ∇g·direction is `slope`.
+  /// Stores the move from the observed point by −length·direction, where ∇g·direction is `slope`.
   void moved(const Vertices& direction, double length, double slope);
 
  private:
-  /// A pair, and its inner products with the gradient at the observed point and with the pairs kept, by slot.
+  /// A pair with its inner products with the gradient at the observed point and with all pairs, by slot.
   struct Pair {
     Vertices step;            // s
     Vertices preconditioned;  // A⁻¹q
@@ -41,7 +41,7 @@ class LbfgsHistory {
     std::array<double, capacity> preconditioned_change{};  // A⁻¹q·q of every other pair
   };
 
-  /// Pair k, 0 the oldest.
+  /// Returns pair k; 0 is the oldest.
   [[nodiscard]] Pair& pair(int k) { return pairs_[slot(k)]; }
   [[nodiscard]] const Pair& pair(int k) const { return pairs_[slot(k)]; }
   [[nodiscard]] std::size_t slot(int k) const { return order_[static_cast<std::size_t>(k)]; }
@@ -50,11 +50,11 @@ class LbfgsHistory {
 
   const Threads& threads_;
   std::array<Pair, capacity> pairs_;
-  std::array<std::size_t, capacity> order_{};  // every slot once: the pairs kept, oldest first, then the free ones
-  int count_ = 0;                              // pairs kept
-  bool pending_ = false;                       // the newest pair has its step only
+  std::array<std::size_t, capacity> order_{};  // all slots: used ones from the oldest, then free ones
+  int count_ = 0;                              // number of pairs
+  bool pending_ = false;                       // the newest pair lacks its change of gradient
   Vertices last_preconditioned_;               // A⁻¹∇g at the observed point
-  double gradient_norm_ = 0;                   // ∇g·A⁻¹∇g there
+  double gradient_norm_ = 0;                   // ∇g·A⁻¹∇g at that point
 };
 
 }  // namespace drape

@@ -10,10 +10,10 @@
 namespace drape {
 namespace {
 
-constexpr double sufficient_decrease = 1e-4;  // Armijo's constant, as usual (Nocedal and Wright 2006, section 3.1)
-constexpr double shortest_move = 1e-10;       // of a direction
-constexpr int patience = 20;                  // iterations that gain nothing where rounding hides the error
-constexpr double doubt = 2;                   // how much further the minimum may be than Newton's step leads
+constexpr double sufficient_decrease = 1e-4;  // Armijo's constant (Nocedal and Wright 2006, section 3.1)
+constexpr double shortest_move = 1e-10;       // least step length along a direction
+constexpr int patience = 20;                  // iterations without progress once rounding hides the error
+constexpr double doubt = 2;                   // largest ratio of the distance from the minimum to the Newton step
 
 }  // namespace
 
@@ -37,7 +37,7 @@ StepReport Minimiser::minimise(Iterate& point, const std::function<bool()>& may_
   start();
   StepReport report;
   if (std::isnan(point.value)) {
-    report.converged = false;  // of forces that are none: no iteration would lead anywhere
+    report.converged = false;  // from non-finite forces: iterations are useless
     return report;
   }
   double change = std::numeric_limits<double>::infinity();
@@ -57,7 +57,7 @@ StepReport Minimiser::minimise(Iterate& point, const std::function<bool()>& may_
       ++report.iterations;
       return report;
     }
-    // A line search that finds nothing has found what rounding leaves of a minimum, and would again.
+    // A failed line search has reached the minimum up to rounding and would fail again.
     if (accuracy_.rule == StoppingRule::error && change == 0) break;
   }
   report.converged = balanced(point, change);
@@ -67,7 +67,7 @@ StepReport Minimiser::minimise(Iterate& point, const std::function<bool()>& may_
 bool Minimiser::balanced(const Iterate& point, double change) {
   switch (accuracy_.rule) {
     case StoppingRule::change:
-      return false;  // a change says little about how far the minimum is: who asks for more gets it
+      return false;  // a small change does not prove convergence, so extra iterations are granted
     case StoppingRule::gradient:
       return norm(objective_.threads(), point.gradient) < accuracy_.tolerance;
     case StoppingRule::error:
@@ -76,7 +76,7 @@ bool Minimiser::balanced(const Iterate& point, double change) {
   const double error = objective_.error_bound(point.gradient);
   tolerance_ = accuracy_.tolerance_at(objective_, point.x, start_error_);
   if (std::min(error, newton_error_) <= tolerance_) return true;
-  // Where rounding hides the error, small iterations, or no progress, are all that can be had.
+  // If rounding hides the error, small iterations or no progress end the minimisation.
   in_vain_ = error < least_error_ ? 0 : in_vain_ + 1;
   least_error_ = std::min(least_error_, error);
   return (change <= tolerance_ || in_vain_ >= patience) && error <= objective_.error_rounding();
@@ -98,7 +98,7 @@ double Minimiser::descend(Iterate& point, const Vertices& direction, double slop
     if (length < 1) stop_.look();
     sum(objective_.threads(), point.x, -length, direction, trial_.x);
     trial_.value = objective_.evaluate(trial_.x, trial_.gradient);
-    // Near the minimum g changes by less than it can be computed to; the direction is trusted there.
+    // Near the minimum the decrease of g is below rounding; accept the direction there.
     const double highest = point.value - sufficient_decrease * length * slope + objective_.rounding(point.value);
     if (trial_.value <= highest) {
       std::swap(point, trial_);

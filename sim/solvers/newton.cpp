@@ -7,7 +7,7 @@ namespace drape {
 namespace {
 
 constexpr int newton_iterations = 20;  // the homework's
-constexpr double fast = 0.5;           // what an iteration leaves of ‖∇g‖ at most, unless it creeps
+constexpr double fast = 0.5;           // ratio of successive ‖∇g‖ above which negative eigenvalues are used
 
 std::unique_ptr<NewtonSolver> make_solver(LinearSolver choice, const System& system, const StepObjective& objective) {
   switch (choice) {

@@ -7,11 +7,11 @@
 
 namespace drape {
 
-/// Newton's method on g, with a backtracking line search. It begins with the Hessian without its negative eigenvalues,
-/// along whose directions g falls far from the minimum, too. Once an iteration has not halved ‖∇g‖, the minimisation
-/// goes on with as many of them as leave the Hessian positive definite: without them compressed cloth is too stiff, and
-/// iterations creep to the minimum; with them they converge quadratically. A step that ends at a change has the
-/// homework's iterations, which never have any.
+/// Newton's method on g, with a backtracking line search. It starts with the Hessian without its negative eigenvalues,
+/// whose directions also descend far from the minimum. After an iteration that did not halve ‖∇g‖, it keeps as many
+/// negative eigenvalues as leave the Hessian positive definite. Without them compressed cloth is too stiff and
+/// convergence slow; with them convergence is quadratic. The change rule uses the homework's iterations, which never
+/// have any.
 class Newton final : public Minimiser {
  public:
   Newton(const System& system, const StepObjective& objective, const IntegratorSettings& settings);

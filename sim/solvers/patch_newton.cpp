@@ -13,15 +13,15 @@
 namespace drape {
 namespace {
 
-// Around a vertex above the tolerance the patch has rings of neighbours, at least and at most, and as many as make it
-// worth the passes over the whole cloth that it takes: this share of all vertices. Wide ones move their rims less.
+// Rings of neighbours around vertices above the tolerance, at least and at most. They are added until the patches hold
+// this fraction of all vertices, which justifies the passes over the whole cloth. Wider patches move their rims less.
 constexpr int least_rings = 2, most_rings = 16;
 constexpr double worthwhile = 0.02;
-// What the first iterations leave is mostly at the rims, which more of them do not move.
+// After the first iterations the error is mostly at the rims, where more iterations do not help.
 constexpr int patch_iterations = 2;
-constexpr double margin = 0.5;  // that the tolerance leaves for the rims
-// So many vertices may be in patches, whatever memory the machine has, as the motion depends on it. Each takes up to
-// 5 kB: a factor's numbers, with what is needed to make it.
+constexpr double margin = 0.5;  // fraction of the tolerance, to leave some for the rims
+// Maximum number of vertices in patches, independent of the machine's memory as it affects the motion. Each takes up to
+// 5 kB for the factor and its construction.
 constexpr double most_vertices = 200'000, bytes_per_vertex = 5e3;
 
 std::size_t at(int number) { return static_cast<std::size_t>(number); }
@@ -33,7 +33,7 @@ Incidence springs_at(const System& system) {
   return {ends, 2, system.cloth.vertex_count()};
 }
 
-/// The rows of those vertices.
+/// Returns the rows of the given vertices.
 Vertices rows_of(const Vertices& all, const std::vector<int>& vertices) {
   Vertices some(static_cast<Eigen::Index>(vertices.size()), 3);
   for (Eigen::Index row = 0; const int vertex : vertices) some.row(row++) = all.row(vertex);
@@ -122,7 +122,7 @@ double PatchNewton::settle(Iterate& point, double share, double tolerance) {
   System system(cloth, system_.step, system_.threads);
   system.stop = system_.stop;
   StepObjective objective(system, objective_.duration());
-  // Without velocities and forces y is what is given as the start.
+  // Without velocities and forces, y equals the given start.
   Vertices y = rows_of(objective_.y(), vertices_);
   for (const int pin : cloth.pins) y.row(pin) = cloth.positions.row(pin);
   objective.begin(y, cloth.velocities, Vertices::Zero(y.rows(), 3), objective_.time());

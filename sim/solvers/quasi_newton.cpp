@@ -9,13 +9,13 @@ namespace {
 
 constexpr int quasi_newton_iterations = 500;
 
-// After so many iterations on the whole cloth there is one on patches, and while these are so small that it costs less
-// than those, some more.
+// Iterations on the whole cloth between patch iterations. A patch iteration is repeated while the patches are so small
+// that it is cheaper.
 constexpr int between_patches = 5;
 constexpr int most_rounds = 4;
 constexpr double next_share = 0.03;
-// One of Newton's on the whole cloth costs as much as some thirty others, and fewer of small cloth: the first where the
-// minimum may be near, and then ever fewer, as those say that it is still far.
+// A Newton step on the whole cloth costs as much as about thirty other iterations, or fewer for small cloth. The first
+// is taken once the minimum may be near, further ones at growing intervals.
 constexpr int before_look = 6, before_look_at_large = 12, between_looks = 6, most_between_looks = 96;
 
 }  // namespace
@@ -72,7 +72,7 @@ double QuasiNewton::iterate(Iterate& point) {
   history_.find_direction(preconditioned_, direction_);
   double slope = dot(threads, point.gradient, direction_);
   if (!(slope > 0)) {
-    // Rounding has spoilt the pairs; A⁻¹∇g itself always descends.
+    // Rounding has spoilt the pairs; A⁻¹∇g always descends.
     history_.clear();
     history_.observe(point.gradient, preconditioned_);
     direction_ = preconditioned_;
