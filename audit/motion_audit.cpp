@@ -67,7 +67,7 @@ MotionAudit::MotionAudit(AuditedCloth cloth, const AuditLimits& limits)
   }
 }
 
-void MotionAudit::add(const AuditedState& state) {
+void MotionAudit::add(const MotionState& state) {
   if (state.x.rows() != cloth_.rest.rows()) {
     throw std::invalid_argument(
         fmt::format("a state has {} vertices, and the cloth {}", state.x.rows(), cloth_.rest.rows()));
@@ -95,7 +95,7 @@ bool MotionAudit::clean() const {
   return std::ranges::all_of(found_, [](const CheckFindings& of) { return of.states == 0; });
 }
 
-void MotionAudit::note(Check check, const AuditedState& state, Finding finding) {
+void MotionAudit::note(Check check, const MotionState& state, Finding finding) {
   if (finding.count == 0) return;
   CheckFindings& all = found_[static_cast<std::size_t>(check)];
   if (all.states++ == 0) {
@@ -109,7 +109,7 @@ void MotionAudit::note(Check check, const AuditedState& state, Finding finding) 
       state.x,    state.colliders};
 }
 
-MotionAudit::Finding MotionAudit::crossings(const AuditedState& state) const {
+MotionAudit::Finding MotionAudit::crossings(const MotionState& state) const {
   Finding finding;
   Marked marked;
   const auto take = [&](const std::vector<Crossing>& found, const Topology& other) {
@@ -131,7 +131,7 @@ MotionAudit::Finding MotionAudit::crossings(const AuditedState& state) const {
   return finding;
 }
 
-MotionAudit::Finding MotionAudit::ways(const AuditedState& state) {
+MotionAudit::Finding MotionAudit::ways(const MotionState& state) {
   Finding finding;
   Marked marked;
   const auto take = [&](const std::vector<Passage>& found) {
@@ -159,7 +159,7 @@ MotionAudit::Finding MotionAudit::ways(const AuditedState& state) {
   return finding;
 }
 
-MotionAudit::Finding MotionAudit::inside(const AuditedState& state) {
+MotionAudit::Finding MotionAudit::inside(const MotionState& state) {
   Finding finding;
   double& largest = found_[static_cast<std::size_t>(Check::inside)].largest;
   const auto take = [&](const std::vector<Inside>& found) {
@@ -187,7 +187,7 @@ MotionAudit::Finding MotionAudit::inside(const AuditedState& state) {
   return finding;
 }
 
-MotionAudit::Finding MotionAudit::stretched(const AuditedState& state) {
+MotionAudit::Finding MotionAudit::stretched(const MotionState& state) {
   Finding finding;
   double& largest = found_[static_cast<std::size_t>(Check::stretch)].largest;
   for (const auto& [a, b] : topology_->edges) {

@@ -39,7 +39,7 @@ struct AuditedCloth {
 };
 
 /// A state of a motion.
-struct AuditedState {
+struct MotionState {
   std::int64_t step = 0;
   double time = 0;  ///< [s]
   const Vertices& x;
@@ -77,7 +77,7 @@ class MotionAudit {
   /// Audits the next state.
   /// @throws std::invalid_argument naming the vertex if a position is non-finite, or if the number of vertices differs
   ///         from the rest shape
-  void add(const AuditedState& state);
+  void add(const MotionState& state);
 
   [[nodiscard]] const CheckFindings& findings(Check check) const { return found_[static_cast<std::size_t>(check)]; }
   [[nodiscard]] std::int64_t states() const { return states_; }
@@ -92,11 +92,11 @@ class MotionAudit {
     std::vector<int> vertices;
   };
 
-  void note(Check check, const AuditedState& state, Finding finding);
-  [[nodiscard]] Finding crossings(const AuditedState& state) const;
-  [[nodiscard]] Finding ways(const AuditedState& state);
-  [[nodiscard]] Finding inside(const AuditedState& state);
-  [[nodiscard]] Finding stretched(const AuditedState& state);
+  void note(Check check, const MotionState& state, Finding finding);
+  [[nodiscard]] Finding crossings(const MotionState& state) const;
+  [[nodiscard]] Finding ways(const MotionState& state);
+  [[nodiscard]] Finding inside(const MotionState& state);
+  [[nodiscard]] Finding stretched(const MotionState& state);
 
   AuditedCloth cloth_;
   AuditLimits limits_;

@@ -13,7 +13,7 @@ namespace drape {
 /// @param simulation before its first step
 /// @param starts     first steps of the windows, and the last step, see window_starts()
 /// @throws DivergedError after the observers saw the last finite step
-void run_chained(Simulation& simulation, std::span<const std::int64_t> starts, const Quanta& quanta,
+void run_chained(Simulation& simulation, std::span<const std::int64_t> starts, const RoundingUnits& quanta,
                  std::span<StepObserver* const> observers, const std::stop_token& stop);
 
 }  // namespace drape

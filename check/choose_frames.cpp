@@ -37,7 +37,7 @@ class FrameChoice {
 
 void offer_contacts(const FilmFacts& film, FrameChoice& choice) {
   for (std::size_t body = 0; body < film.bodies.size(); ++body) {
-    const auto touches = [&](const FrameFacts& frame) { return (frame.touched >> body & 1) != 0; };
+    const auto touches = [&](const FrameProperties& frame) { return (frame.touched >> body & 1) != 0; };
     const auto first = std::find_if(film.frames.begin(), film.frames.end(), touches);
     if (first == film.frames.end()) continue;
     choice.offer(static_cast<int>(first - film.frames.begin()), "first contact with " + film.bodies[body]);
@@ -54,17 +54,17 @@ void offer_releases(const FilmFacts& film, FrameChoice& choice) {
 }
 
 void offer_extremes(const FilmFacts& film, FrameChoice& choice) {
-  const auto offer = [&](double FrameFacts::*fact, const char* most, const char* least) {
+  const auto offer = [&](double FrameProperties::*fact, const char* most, const char* least) {
     const auto [lowest, highest] = std::minmax_element(film.frames.begin(), film.frames.end(),
                                                        [&](const auto& a, const auto& b) { return a.*fact < b.*fact; });
     if (!((*lowest).*fact < (*highest).*fact)) return;  // constant
     choice.offer(static_cast<int>(highest - film.frames.begin()), most);
     if (least != nullptr) choice.offer(static_cast<int>(lowest - film.frames.begin()), least);
   };
-  offer(&FrameFacts::change, "the picture changes most", nullptr);
-  offer(&FrameFacts::kinetic, "most kinetic energy", nullptr);
-  offer(&FrameFacts::elastic, "most elastic energy", nullptr);
-  offer(&FrameFacts::area, "largest area on screen", "smallest area on screen");
+  offer(&FrameProperties::change, "the picture changes most", nullptr);
+  offer(&FrameProperties::kinetic, "most kinetic energy", nullptr);
+  offer(&FrameProperties::elastic, "most elastic energy", nullptr);
+  offer(&FrameProperties::area, "largest area on screen", "smallest area on screen");
 }
 
 }  // namespace

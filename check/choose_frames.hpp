@@ -7,7 +7,7 @@
 namespace drape {
 
 /// Properties of a film's frame for the choice of compared frames.
-struct FrameFacts {
+struct FrameProperties {
   std::uint64_t touched = 0;        ///< bit k: the cloth is within the contact range of body k
   std::size_t pins = 0;             ///< number of pinned vertices
   double kinetic = 0, elastic = 0;  ///< energies [J]
@@ -17,8 +17,8 @@ struct FrameFacts {
 
 /// Properties of all frames of a film.
 struct FilmFacts {
-  std::vector<std::string> bodies;  ///< "the sphere", "ground 2"
-  std::vector<FrameFacts> frames;   ///< from frame 0
+  std::vector<std::string> bodies;      ///< "the sphere", "ground 2"
+  std::vector<FrameProperties> frames;  ///< from frame 0
 };
 
 /// A frame to compare, with the reason.

@@ -32,7 +32,7 @@ FrameResult compare_frame(const GoldenFrame& golden, const std::filesystem::path
   result.difference = comparison.difference;
   if (result.difference.verdict == PictureVerdict::exact) return result;
   result.actual = encode_png(actual);
-  if (result.difference.verdict == PictureVerdict::changed) result.kind = name_difference(expected, actual);
+  if (result.difference.verdict == PictureVerdict::changed) result.kind = classify_difference(expected, actual);
   result.amplified = encode_png(amplified_difference(expected, actual, amplification(result.difference)));
   result.flip_map = encode_png(magma(comparison.flip));
   return result;

@@ -18,15 +18,16 @@ namespace drape {
 /// The result of a step of the golden motion.
 struct GoldenStep {
   std::uint32_t hash = 0;      ///< hash of every bit, see step_hash()
-  std::vector<double> bodies;  ///< positions of bodies and pins, see body_numbers(), rounded to Quanta::compared
+  std::vector<double> bodies;  ///< positions of bodies and pins, see body_numbers(), rounded to RoundingUnits::compared
 };
 
 /// A window of the golden motion: a state and the steps from it. It ends where the next one begins, apart from the
 /// rounding of that state.
 struct GoldenWindow {
-  State start;                    ///< rounded by Quanta, except in the first window
+  State start;                    ///< rounded by RoundingUnits, except in the first window
   std::vector<GoldenStep> steps;  ///< steps from start.step + 1 on; empty in the last window, which is the motion's end
-  Vertices middle;    ///< positions after half of the steps, rounded to Quanta::compared; empty below two steps [m]
+  Vertices
+      middle;  ///< positions after half of the steps, rounded to RoundingUnits::compared; empty below two steps [m]
   Energies energies;  ///< energies at the window's end [J]
 
   [[nodiscard]] std::int64_t last_step() const { return start.step + static_cast<std::int64_t>(steps.size()); }
@@ -39,7 +40,7 @@ struct GoldenFrame {
   double time = 0;          ///< time in the scene [s]
   std::string why;          ///< reason for its choice: "first contact with the sphere"
   View view = {};           ///< camera view, so that drawing does not need the whole motion
-  Vertices x;               ///< positions in the picture, rounded by Quanta [m]
+  Vertices x;               ///< positions in the picture, rounded by RoundingUnits [m]
   std::string pixels = {};  ///< hash of the picture, see pixel_hash(); set when it is written
 };
 
@@ -79,7 +80,7 @@ struct Golden {
   std::optional<GoldenFilm> film;      ///< absent in goldens of older versions
   std::optional<GoldenMethod> method;  ///< absent if the scene names one
   std::optional<GoldenTime> time;      ///< absent unless the scene's [check] had a `time`
-  Quanta quanta;
+  RoundingUnits quanta;
   Camera camera;                      ///< camera settings of the scene
   std::vector<View> frames_views;     ///< views if the compared frames were the whole motion, see views_of_frames()
   std::vector<GoldenWindow> windows;  ///< consecutive; the last one is the motion's end

@@ -201,7 +201,7 @@ std::string manifest_text(const Golden& golden, const std::string& motion_hash) 
   Json frames = Json::array(), frames_views = Json::array();
   for (const GoldenFrame& frame : golden.frames) frames.push_back(to_json(frame));
   for (const View& view : golden.frames_views) frames_views.push_back(to_json(view));
-  const Quanta& quanta = golden.quanta;
+  const RoundingUnits& quanta = golden.quanta;
   Json json{{"format", format_version},
             {"scene_hash", golden.scene_digest},
             {"date", golden.date},

@@ -28,7 +28,7 @@ std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value)
 
 /// Predicts a coordinate from earlier vertices: the previous one, corrected by the difference of the two neighbours in
 /// the row before, if there is one. Any vertex order gives a valid prediction.
-double foretold(const Vertices& values, Eigen::Index i, Eigen::Index axis, Eigen::Index row) {
+double predicted(const Vertices& values, Eigen::Index i, Eigen::Index axis, Eigen::Index row) {
   if (i == 0) return 0;
   const double before = values(i - 1, axis);
   if (row < 2 || i <= row) return before;
@@ -52,7 +52,7 @@ class FieldWriter {
     }
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       for (Eigen::Index i = 0; i < values.rows(); ++i) {
-        const double value = values(i, axis), guess = foretold(values, i, axis, row_);
+        const double value = values(i, axis), guess = predicted(values, i, axis, row_);
         // Differences are modulo 2⁶⁴, where all are reversible.
         const std::uint64_t difference = exact[static_cast<std::size_t>(i)]
                                              ? bits_of(value) - bits_of(guess)
@@ -79,7 +79,7 @@ class FieldReader {
     for (Eigen::Index i = 0; i < vertices_; i += 64) exact.push_back(reader_.bits());
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       for (Eigen::Index i = 0; i < vertices_; ++i) {
-        const double guess = foretold(values, i, axis, row_);
+        const double guess = predicted(values, i, axis, row_);
         const auto difference = static_cast<std::uint64_t>(reader_.whole());
         const auto at = static_cast<std::size_t>(i);
         if ((exact[at / 64] >> (at % 64) & 1) != 0) {
@@ -100,7 +100,7 @@ class FieldReader {
 };
 
 /// Predictor of the numbers of a step from the previous two, by linear extrapolation.
-class SteadyBodies {
+class LinearPredictor {
  public:
   std::vector<std::uint64_t> next(std::size_t count) {
     if (last_.size() != count) last_.assign(count, 0);
@@ -115,7 +115,7 @@ class SteadyBodies {
   std::vector<std::uint64_t> last_, before_;  // in quanta, modulo 2⁶⁴
 };
 
-void write_bodies(WordWriter& writer, const std::vector<double>& bodies, double quantum, SteadyBodies& steady) {
+void write_bodies(WordWriter& writer, const std::vector<double>& bodies, double quantum, LinearPredictor& steady) {
   const std::vector<std::uint64_t> guess = steady.next(bodies.size());
   std::vector<std::uint64_t> actual;
   for (const double number : bodies) actual.push_back(static_cast<std::uint64_t>(multiple(number, quantum)));
@@ -131,7 +131,7 @@ void write_bodies(WordWriter& writer, const std::vector<double>& bodies, double 
   steady.add(std::move(actual));
 }
 
-std::vector<double> read_bodies(WordReader& reader, const Golden& golden, SteadyBodies& steady) {
+std::vector<double> read_bodies(WordReader& reader, const Golden& golden, LinearPredictor& steady) {
   const auto count = static_cast<std::size_t>(reader.whole(0, golden.body_count));
   std::vector<std::uint64_t> numbers = steady.next(count);
   for (auto different = reader.whole(0, static_cast<std::int64_t>(count)); different > 0; --different) {
@@ -160,9 +160,9 @@ std::uint64_t most_words(const Golden& golden) {
 std::string pack_motion(const Golden& golden) {
   WordWriter writer;
   FieldWriter fields(writer, golden.row);
-  const Quanta& quanta = golden.quanta;
+  const RoundingUnits& quanta = golden.quanta;
   for (const GoldenWindow& window : golden.windows) {
-    const Quanta of = &window == &golden.windows.back() ? quanta.at_end() : quanta;
+    const RoundingUnits of = &window == &golden.windows.back() ? quanta.at_end() : quanta;
     fields.write(window.start.x, of.position);
     fields.write(window.start.v, of.velocity);
     if (window.middle.size() > 0) fields.write(window.middle, quanta.compared);
@@ -170,7 +170,7 @@ std::string pack_motion(const Golden& golden) {
       writer.number(energy);
     }
   }
-  SteadyBodies steady;
+  LinearPredictor steady;
   for (const GoldenWindow& window : golden.windows) {
     for (const GoldenStep& step : window.steps) writer.bits(step.hash);
     for (const GoldenStep& step : window.steps) write_bodies(writer, step.bodies, quanta.compared, steady);
@@ -189,7 +189,7 @@ void unpack_motion(std::string_view bytes, Golden& golden) {
   if (!bytes.starts_with(magic)) throw std::invalid_argument("is not a golden motion of this version of drape");
   WordReader reader(unpack_words(bytes.substr(magic.size()), most_words(golden)));
   FieldReader fields(reader, golden.row, golden.vertex_count);
-  const Quanta& quanta = golden.quanta;
+  const RoundingUnits& quanta = golden.quanta;
   reader.need(static_cast<std::uint64_t>(golden.step_count));
   const std::vector<std::int64_t> starts = window_starts(golden.step_count, golden.window_steps);
   golden.windows.clear();
@@ -197,14 +197,14 @@ void unpack_motion(std::string_view bytes, Golden& golden) {
     GoldenWindow& window = golden.windows.emplace_back();
     const std::int64_t steps = i + 1 < starts.size() ? starts[i + 1] - starts[i] : 0;
     window.start.step = starts[i];
-    const Quanta of = i + 1 == starts.size() ? quanta.at_end() : quanta;
+    const RoundingUnits of = i + 1 == starts.size() ? quanta.at_end() : quanta;
     window.start.x = fields.read(of.position);
     window.start.v = fields.read(of.velocity);
     if (steps > 1) window.middle = fields.read(quanta.compared);
     window.energies = {.kinetic = reader.number(), .gravity = reader.number(), .elastic = reader.number()};
     window.steps.resize(static_cast<std::size_t>(steps));
   }
-  SteadyBodies steady;
+  LinearPredictor steady;
   for (GoldenWindow& window : golden.windows) {
     for (GoldenStep& step : window.steps) step.hash = static_cast<std::uint32_t>(reader.bits());
     for (GoldenStep& step : window.steps) step.bodies = read_bodies(reader, golden, steady);

@@ -154,7 +154,7 @@ std::string name_place(const Plane& expected, const Plane& actual) {
 
 }  // namespace
 
-std::string name_difference(const Image& expected, const Image& actual) {
+std::string classify_difference(const Image& expected, const Image& actual) {
   if (expected == actual) return {};
   const Plane a = luminance(expected), b = luminance(actual);
   for (const std::string& name :

@@ -10,7 +10,7 @@ namespace drape {
 /// Names the kind of difference between two pictures of one size: a shift, another brightness, other colours, other
 /// edges, or one place only.
 /// @returns empty if the pictures are equal, or no kind explains most of the difference
-std::string name_difference(const Image& expected, const Image& actual);
+std::string classify_difference(const Image& expected, const Image& actual);
 
 /// Names the differences of the recording machine that may change a picture or a bit: "with another renderer (…; here
 /// …)". Empty if there are none.

@@ -25,7 +25,7 @@ State PlayedMotion::state(std::int64_t step) {
 }
 
 void play_chained(PlayedMotion& motion, Simulation& simulation, std::span<const std::int64_t> starts,
-                  const Quanta& quanta, std::span<StepObserver* const> observers, const std::stop_token& stop) {
+                  const RoundingUnits& quanta, std::span<StepObserver* const> observers, const std::stop_token& stop) {
   simulation.restore(motion.state(0));
   std::int64_t step = 0;
   for (const std::int64_t end : starts.subspan(1)) {
@@ -35,7 +35,7 @@ void play_chained(PlayedMotion& motion, Simulation& simulation, std::span<const 
       simulation.restore(motion.state(++step));
       for (StepObserver* observer : observers) observer->after_step(simulation, {}, 0);
     }
-    const Quanta next = end == starts.back() ? quanta.at_end() : quanta;
+    const RoundingUnits next = end == starts.back() ? quanta.at_end() : quanta;
     simulation.restore(rounded(simulation.state(), simulation.cloth().pins, next));
   }
   for (StepObserver* observer : observers) observer->begin(simulation);

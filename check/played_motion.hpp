@@ -38,7 +38,7 @@ class PlayedMotion {
 /// stop is requested.
 /// @param simulation of the motion's scene; it takes each state without computing a step
 void play_chained(PlayedMotion& motion, Simulation& simulation, std::span<const std::int64_t> starts,
-                  const Quanta& quanta, std::span<StepObserver* const> observers, const std::stop_token& stop);
+                  const RoundingUnits& quanta, std::span<StepObserver* const> observers, const std::stop_token& stop);
 
 /// Returns the compared positions of a golden window and those of a recorded motion, like rerun_window().
 std::vector<WindowPositions> played_window(PlayedMotion& motion, const Golden& golden, std::size_t window);

@@ -29,7 +29,7 @@ FilmExtent whole_film(const Scene& scene) {
 class Recorder final : public StepObserver {
  public:
   /// @param recorded source of the energies; null: the simulation
-  Recorder(const std::vector<std::int64_t>& starts, const Quanta& quanta, PlayedMotion* recorded)
+  Recorder(const std::vector<std::int64_t>& starts, const RoundingUnits& quanta, PlayedMotion* recorded)
       : starts_(starts), quanta_(quanta), recorded_(recorded) {}
 
   void begin(const Simulation& simulation) override {
@@ -60,7 +60,7 @@ class Recorder final : public StepObserver {
   }
 
   const std::vector<std::int64_t>& starts_;
-  Quanta quanta_;
+  RoundingUnits quanta_;
   PlayedMotion* recorded_;
 };
 

@@ -16,7 +16,7 @@ namespace drape {
 struct RecordPlan {
   std::vector<ChosenFrame> frames;  ///< frames to compare, ascending
   std::int64_t window_steps = 1;
-  Quanta quanta;
+  RoundingUnits quanta;
 };
 
 /// Plans the recording by the scene's [check] table. Without frames in it, runs the motion and chooses significant

@@ -55,7 +55,7 @@ struct FrameResult {
   std::string why;     ///< reason for its choice: "first contact with the sphere"
   bool judged = true;  ///< false: shown only, see CheckSettings::ignore_frames
   PictureDifference difference;
-  std::string kind;  ///< kind of difference, see name_difference(); empty: none or unnamed
+  std::string kind;  ///< kind of difference, see classify_difference(); empty: none or unnamed
   Png expected;      ///< the golden picture
   Png actual;        ///< this and the next two are empty for equal bytes
   Png amplified;     ///< absolute difference, brightened so that the largest is white

@@ -30,8 +30,8 @@ double nearest(double value, double quantum) {
 
 }  // namespace
 
-Quanta quanta_for(const SimulationSettings& settings, double motion_tolerance) {
-  Quanta quanta;
+RoundingUnits quanta_for(const SimulationSettings& settings, double motion_tolerance) {
+  RoundingUnits quanta;
   quanta.compared = power_below(std::max(compared_part * motion_tolerance, least_quantum));
   const bool exact = std::any_of(settings.effects.begin(), settings.effects.end(), [](const Effect& effect) {
     return std::find(exact_effects.begin(), exact_effects.end(), effect.name()) != exact_effects.end();
@@ -40,7 +40,7 @@ Quanta quanta_for(const SimulationSettings& settings, double motion_tolerance) {
   const double extent = settings.cloth.positions.size() == 0 ? 1 : settings.cloth.positions.cwiseAbs().maxCoeff();
   const double fine = power_below(std::max(extent, 1e-200) * std::exp2(1 - position_bits));
   quanta.position = std::min(fine, quanta.compared);
-  quanta.velocity = Quanta::velocity_factor * quanta.position;
+  quanta.velocity = RoundingUnits::velocity_factor * quanta.position;
   return quanta;
 }
 
@@ -56,7 +56,7 @@ std::vector<double> rounded(std::vector<double> numbers, double quantum) {
   return numbers;
 }
 
-State rounded(const State& state, const std::vector<int>& pins, const Quanta& quanta) {
+State rounded(const State& state, const std::vector<int>& pins, const RoundingUnits& quanta) {
   return {
       .x = rounded(state.x, quanta.position, pins), .v = rounded(state.v, quanta.velocity, pins), .step = state.step};
 }

@@ -8,15 +8,15 @@
 namespace drape {
 
 /// The rounding units of a golden's numbers: powers of two, so that rounding is exact and repeatable. 0: no rounding.
-struct Quanta {
+struct RoundingUnits {
   double position = 0;  ///< quantum of states at the start of windows, and of pictures [m]
   double velocity = 0;  ///< quantum of these states [m/s]
   double compared = 0;  ///< quantum of data that are only compared [m]
 
-  bool operator==(const Quanta&) const = default;
+  bool operator==(const RoundingUnits&) const = default;
 
   /// Returns the quanta for the end of the motion, from which no step begins.
-  [[nodiscard]] Quanta at_end() const { return {compared, velocity_factor * compared, compared}; }
+  [[nodiscard]] RoundingUnits at_end() const { return {compared, velocity_factor * compared, compared}; }
 
   static constexpr double velocity_factor = 16;  ///< velocity quantum per position quantum [1/s]
 };
@@ -27,7 +27,7 @@ constexpr double least_quantum = 0x1p-34;
 /// Returns the quanta of a motion. A position has about 30 bits; the velocity quantum moves a vertex by one position
 /// quantum in 1/16 s. Both quanta are 0 if rounding could violate a constraint: contact of layers, or strain limits.
 /// Compared data are rounded to a tenth of the tolerance, too fine to affect a verdict.
-Quanta quanta_for(const SimulationSettings& settings, double motion_tolerance);
+RoundingUnits quanta_for(const SimulationSettings& settings, double motion_tolerance);
 
 /// Rounds every coordinate to the nearest multiple, except in some rows.
 Vertices rounded(const Vertices& values, double quantum, const std::vector<int>& exact_rows = {});
@@ -36,6 +36,6 @@ Vertices rounded(const Vertices& values, double quantum, const std::vector<int>&
 std::vector<double> rounded(std::vector<double> numbers, double quantum);
 
 /// Rounds the start state of a window; pins keep their positions.
-State rounded(const State& state, const std::vector<int>& pins, const Quanta& quanta);
+State rounded(const State& state, const std::vector<int>& pins, const RoundingUnits& quanta);
 
 }  // namespace drape

@@ -17,7 +17,7 @@
 namespace drape {
 namespace {
 
-constexpr std::size_t most_bodies = 64;  // bits in FrameFacts::touched
+constexpr std::size_t most_bodies = 64;  // bits in FrameProperties::touched
 
 /// Returns "the sphere", or "sphere 2" if there are several.
 std::vector<std::string> names_of(const std::vector<Collider>& colliders) {
@@ -62,7 +62,7 @@ class Surveyor {
       : simulation_(simulation), triangles_(scene.simulation.cloth.triangles), towards_(towards_camera(scene)) {}
 
   void see(const Frame& frame) {
-    FrameFacts facts;
+    FrameProperties facts;
     for (std::size_t k = 0; k < std::min(frame.colliders.size(), most_bodies); ++k) {
       facts.touched |= std::uint64_t{touches(frame.positions, frame.colliders[k])} << k;
     }
@@ -99,7 +99,7 @@ class Surveyor {
 
 }  // namespace
 
-std::optional<FilmFacts> survey_motion(const Scene& scene, std::int64_t window_steps, const Quanta& quanta,
+std::optional<FilmFacts> survey_motion(const Scene& scene, std::int64_t window_steps, const RoundingUnits& quanta,
                                        const std::stop_token& stop, Progress& progress, PlayedMotion* recorded) {
   Simulation simulation(scene.simulation);
   Surveyor surveyor(scene, simulation);

@@ -15,7 +15,7 @@ namespace drape {
 /// @param recorded the motion to read; null: the scene is simulated
 /// @returns nothing if stopped
 /// @throws DivergedError
-std::optional<FilmFacts> survey_motion(const Scene& scene, std::int64_t window_steps, const Quanta& quanta,
+std::optional<FilmFacts> survey_motion(const Scene& scene, std::int64_t window_steps, const RoundingUnits& quanta,
                                        const std::stop_token& stop, Progress& progress,
                                        PlayedMotion* recorded = nullptr);
 

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "core/text.hpp"
-#include "run/slow_run.hpp"
+#include "run/slow_run_warning.hpp"
 #include "scene/problems.hpp"
 #include "scene/table_reader.hpp"
 #include "sim/make_system.hpp"
@@ -26,7 +26,7 @@ class Advice {
       : scene_(scene), document_(document), problems_(scene.file, {}), system_(make_system(scene.simulation)) {}
 
   std::vector<std::string> all() && {
-    std::vector<std::string> said = scene_.doubts;
+    std::vector<std::string> said = scene_.warnings;
     without_effect();
     camera();
     steps();

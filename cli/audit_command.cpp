@@ -16,7 +16,7 @@
 #include "cli/number_option.hpp"
 #include "cli/scene_files.hpp"
 #include "cli/terminal.hpp"
-#include "cli/watched.hpp"
+#include "cli/background_work.hpp"
 #include "core/atomic_file.hpp"
 #include "core/console.hpp"
 #include "core/shell.hpp"

@@ -8,7 +8,7 @@
 #include "cli/command_line.hpp"
 #include "cli/frame_list.hpp"
 #include "cli/motion_runs.hpp"
-#include "cli/watched.hpp"
+#include "cli/background_work.hpp"
 #include "core/console.hpp"
 #include "core/text.hpp"
 

@@ -16,7 +16,7 @@
 #include "cli/motion_runs.hpp"
 #include "cli/number_option.hpp"
 #include "cli/scene_files.hpp"
-#include "cli/watched.hpp"
+#include "cli/background_work.hpp"
 #include "core/atomic_file.hpp"
 #include "core/nearest.hpp"
 #include "core/parallel.hpp"
@@ -101,10 +101,10 @@ std::string run_options(const CheckArguments& arguments) {
 }
 
 /// Checker of scenes by index.
-class Judge {
+class SceneChecker {
  public:
-  Judge(const std::vector<Scene>& scenes, const std::vector<std::shared_ptr<MotionReader>>& recorded,
-        const CheckArguments& arguments, const CheckOptions& options)
+  SceneChecker(const std::vector<Scene>& scenes, const std::vector<std::shared_ptr<MotionReader>>& recorded,
+               const CheckArguments& arguments, const CheckOptions& options)
       : scenes_(scenes),
         recorded_(recorded),
         arguments_(arguments),
@@ -148,8 +148,8 @@ class Judge {
 
 /// Checks the scenes at these indices, in sequence or in parallel, and adds the results to the report.
 /// @returns true if interrupted
-bool check_all(const Judge& judge, const std::vector<std::size_t>& places, std::size_t jobs,
-               const CommonOptions& common, Verdicts& verdicts, CheckReport& report) {
+bool check_all(const SceneChecker& judge, const std::vector<std::size_t>& places, std::size_t jobs,
+               const CommonOptions& common, ResultPrinter& verdicts, CheckReport& report) {
   const auto add = [&](SceneResult result) {
     if (result.has_candidate()) report.accept_command = accept_command(judge.folder());
     tell(result, common, verdicts);
@@ -238,8 +238,8 @@ ExitCode check(const CheckArguments& arguments, const CommonOptions& common) {
   for (const std::string& scene : arguments.scenes) report.command += " " + shell_file(scene);
   report.command += command_options(arguments);
   report.run_options = run_options(arguments);
-  Verdicts verdicts;
-  const Judge judge(scenes, recorded, arguments, options);
+  ResultPrinter verdicts;
+  const SceneChecker judge(scenes, recorded, arguments, options);
   if (check_all(judge, part.places, arguments.jobs, common, verdicts, report)) {
     spdlog::error("interrupted: no report was written");
     return ExitCode::interrupted;

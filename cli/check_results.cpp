@@ -70,7 +70,7 @@ void write_reports(const CheckShard& shard, const std::filesystem::path& folder)
 }
 
 /// Writes the job summary and annotations at the scenes' files, under GitHub Actions.
-void tell_github(const CheckReport& report, Verdicts& verdicts) {
+void tell_github(const CheckReport& report, ResultPrinter& verdicts) {
   if (const char* file = std::getenv("GITHUB_STEP_SUMMARY"); file != nullptr && *file != '\0') {
     std::ofstream summary(file, std::ios::app);
     if (!(summary << github_summary(report) << std::flush)) spdlog::warn("cannot write {}, GitHub's summary", file);
@@ -83,7 +83,7 @@ void tell_github(const CheckReport& report, Verdicts& verdicts) {
 
 }  // namespace
 
-void Verdicts::print(const std::string& line) {
+void ResultPrinter::print(const std::string& line) {
   if (print_unescaped(stdout, line + "\n")) return;
   if (reason_.empty()) reason_ = std::generic_category().message(errno);
 }
@@ -92,7 +92,7 @@ std::string accept_command(const std::filesystem::path& report) {
   return "drape accept " + shell_word(report.string());
 }
 
-void tell(const SceneResult& result, const CommonOptions& common, Verdicts& verdicts) {
+void tell(const SceneResult& result, const CommonOptions& common, ResultPrinter& verdicts) {
   const bool good = result.passed();
   if (result.verdict == SceneVerdict::error) {
     spdlog::error(describe(result));
@@ -110,7 +110,7 @@ void tell(const SceneResult& result, const CommonOptions& common, Verdicts& verd
 }
 
 ExitCode conclude_check(const CheckShard& shard, const std::filesystem::path& folder, const CommonOptions& common,
-                        Verdicts& verdicts) {
+                        ResultPrinter& verdicts) {
   write_reports(shard, folder);
   if (!common.quiet) verdicts.print(shown(folder / check_report_files.front()));
   tell_github(shard.report, verdicts);

@@ -13,7 +13,7 @@ namespace drape {
 inline constexpr std::array<const char*, 3> check_report_files{"report.html", "report.json", "junit.xml"};
 
 /// Printer of results that records write errors.
-class Verdicts {
+class ResultPrinter {
  public:
   /// Prints a line. @param line escaped, see escape_controls()
   void print(const std::string& line);
@@ -26,7 +26,7 @@ class Verdicts {
 };
 
 /// Prints the result of a scene's check.
-void tell(const SceneResult& result, const CommonOptions& common, Verdicts& verdicts);
+void tell(const SceneResult& result, const CommonOptions& common, ResultPrinter& verdicts);
 
 /// Returns for example "drape accept out/check".
 std::string accept_command(const std::filesystem::path& report);
@@ -34,6 +34,6 @@ std::string accept_command(const std::filesystem::path& report);
 /// Writes the report of a check, or of one shard, and the summary for GitHub Actions.
 /// @returns the highest code of all scenes; interrupted if scenes are missing
 ExitCode conclude_check(const CheckShard& shard, const std::filesystem::path& folder, const CommonOptions& common,
-                        Verdicts& verdicts);
+                        ResultPrinter& verdicts);
 
 }  // namespace drape

@@ -125,7 +125,7 @@ void print_commands(const CLI::App& app) {
 }
 
 /// Returns the code, or the code of a write error if printed text was lost.
-ExitCode unless_lost(ExitCode code) {
+ExitCode code_or_write_error(ExitCode code) {
   const int error = lost_output();
   if (error == 0) return code;
   spdlog::error("cannot write to standard output: {}", std::generic_category().message(error));
@@ -211,16 +211,16 @@ ExitCode run_command_line(int argc, const char* const* argv) {
     const CLI::App& of = command_of_help(app);
     set_up_logging(common);
     print_help(of, full_name(of), common);
-    return unless_lost(ExitCode::ok);
+    return code_or_write_error(ExitCode::ok);
   } catch (const CLI::CallForVersion& version) {
     set_up_logging(common);
     print_text(stdout, std::string(version.what()) + "\n");
-    return unless_lost(ExitCode::ok);
+    return code_or_write_error(ExitCode::ok);
   } catch (const CLI::ParseError& error) {
     set_up_logging(common);
     if (argc <= 1) {
       print_commands(app);
-      return unless_lost(ExitCode::usage);
+      return code_or_write_error(ExitCode::usage);
     }
     spdlog::error(explain(app, error, std::span(argv, static_cast<std::size_t>(argc)).subspan(1)));
     return ExitCode::usage;
@@ -228,7 +228,7 @@ ExitCode run_command_line(int argc, const char* const* argv) {
 
   set_up_logging(common);
   const bool diagnosed = app.got_subcommand("doctor");  // doctor reports environment errors as findings
-  return unless_lost(reported([&] {
+  return code_or_write_error(reported([&] {
     if (!diagnosed) use_environment();
     return command();
   }));

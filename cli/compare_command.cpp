@@ -19,7 +19,7 @@
 #include "cli/scene_files.hpp"
 #include "cli/summary.hpp"
 #include "cli/terminal.hpp"
-#include "cli/watched.hpp"
+#include "cli/background_work.hpp"
 #include "compare/compare_scenes.hpp"
 #include "core/shell.hpp"
 #include "core/text.hpp"
@@ -151,7 +151,7 @@ ExitCode run_compare(const CompareArguments& arguments, const CommonOptions& com
   choose_moments(arguments, scenes, options);
   std::vector<RunOptions> files(scenes.size());
   files.front().outputs = options.outputs;
-  require_files_of_their_own(scenes, files);
+  require_distinct_files(scenes, files);
   inspect_backend(options.backend);
   require_comparison(scenes, options);
   for (std::size_t i = 0; i < scenes.size(); ++i) {

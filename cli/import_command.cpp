@@ -9,7 +9,7 @@
 #include "cli/line_option.hpp"
 #include "cli/motion_runs.hpp"
 #include "cli/number_option.hpp"
-#include "cli/watched.hpp"
+#include "cli/background_work.hpp"
 #include "core/atomic_file.hpp"
 #include "core/console.hpp"
 #include "core/error.hpp"

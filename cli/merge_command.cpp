@@ -88,7 +88,7 @@ ExitCode merge_checks(const std::vector<fs::path>& parts, const fs::path& folder
     if (interrupted()) return ExitCode::interrupted;
     take_over(part, folder, name);
   }
-  Verdicts verdicts;
+  ResultPrinter verdicts;
   for (SceneResult& result : whole.report.scenes) {
     if (result.has_candidate()) {
       whole.report.accept_command = accept_command(folder);

@@ -9,7 +9,7 @@
 
 #include "cli/film_times.hpp"
 #include "cli/scene_files.hpp"
-#include "cli/watched.hpp"
+#include "cli/background_work.hpp"
 #include "core/build_info.hpp"
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
@@ -34,7 +34,7 @@ struct OpenMotion {
 };
 
 struct GrowingMotion {
-  Resumption from;
+  ResumePoint from;
   MotionScene folder;
   Scene scene;
 
@@ -60,7 +60,7 @@ Scene with_look(Scene scene, const Scene& other) {
   scene.caption = other.caption;
   scene.caption_place = other.caption_place;
   scene.overlay = other.overlay;
-  scene.texture_place = other.texture_place;
+  scene.texture_location = other.texture_place;
   if (scene.uvs.empty()) scene.look.texture.clear();
   return scene;
 }
@@ -154,7 +154,7 @@ SceneToRun open_scene_of_motion(const std::string& file, const SceneOfMotion& of
     throw UsageError(fmt::format("{}: motion: {}", shown(file), error.what()));
   }
   if (!look.look.texture.empty() && imported->opened.scene.uvs.empty()) {
-    throw UsageError(look.texture_place + ": texture: the motion has no texture coordinates");
+    throw UsageError(look.texture_location + ": texture: the motion has no texture coordinates");
   }
   Scene scene = with_look(imported->opened.scene, look);
   scene.check = look.check;
@@ -162,7 +162,7 @@ SceneToRun open_scene_of_motion(const std::string& file, const SceneOfMotion& of
   scene.name = look.name;
   scene.digest = look.digest;
   scene.inputs = look.inputs;
-  scene.doubts = look.doubts;
+  scene.warnings = look.warnings;
   return with_scene(imported, std::move(scene));
 }
 
@@ -209,8 +209,8 @@ std::string motion_to_resume(std::string file) {
   throw UsageError(fmt::format("--resume {}: expected the name of a motion file, as in motion.drape", file));
 }
 
-std::optional<RunToGoOn> find_run_to_go_on(const std::string& file, const std::vector<std::string>& overrides,
-                                           const std::string& look) {
+std::optional<ResumableRun> find_resumable_run(const std::string& file, const std::vector<std::string>& overrides,
+                                               const std::string& look) {
   if (!std::filesystem::exists(growing_name(file)) && std::filesystem::exists(file)) return std::nullopt;
   const auto motion = std::make_shared<GrowingMotion>(file);
   motion->scene.file = file;
@@ -222,9 +222,9 @@ std::optional<RunToGoOn> find_run_to_go_on(const std::string& file, const std::v
   RunOptions options;
   options.motion = {.path = file, .recorded = header.recorded};
   options.steps = header.steps;
-  options.from = std::shared_ptr<const Resumption>(motion, &motion->from);
-  return RunToGoOn{std::shared_ptr<const Scene>(motion, &motion->scene), options,
-                   scene_to_draw(file, header, motion->folder, overrides, look)};
+  options.from = std::shared_ptr<const ResumePoint>(motion, &motion->from);
+  return ResumableRun{std::shared_ptr<const Scene>(motion, &motion->scene), options,
+                      scene_to_draw(file, header, motion->folder, overrides, look)};
 }
 
 RecordedSteps parse_every(const std::string& text, double step) {

@@ -39,7 +39,7 @@ void warn_of_gaps(const std::string& file, const MotionReader& motion, const Fil
 std::string motion_to_resume(std::string file);
 
 /// A run to resume.
-struct RunToGoOn {
+struct ResumableRun {
   std::shared_ptr<const Scene> scene;
   RunOptions options;
   Scene drawn;  ///< scene for drawing the complete motion
@@ -49,8 +49,8 @@ struct RunToGoOn {
 /// @param overrides, look as in open_motion(), for drawing
 /// @returns nothing if the motion is complete
 /// @throws UsageError if it cannot be resumed
-std::optional<RunToGoOn> find_run_to_go_on(const std::string& file, const std::vector<std::string>& overrides,
-                                           const std::string& look);
+std::optional<ResumableRun> find_resumable_run(const std::string& file, const std::vector<std::string>& overrides,
+                                               const std::string& look);
 
 /// Parses "N", "0.1s", or "frames" (no interval).
 /// @param step step of the scene [s]

@@ -91,7 +91,7 @@ class Clashes {
 
 }  // namespace
 
-void require_files_of_their_own(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options) {
+void require_distinct_files(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options) {
   Clashes clashes(scenes);
   std::string problems;
   for (std::size_t i = 0; i < scenes.size(); ++i) {

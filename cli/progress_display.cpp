@@ -58,7 +58,7 @@ void ProgressDisplay::update() {
   const auto filled = static_cast<std::size_t>(bar_width * done / total);
   std::string line = fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(bar_width - filled, ' '), text);
   if (line.size() >= width) line.resize(width - 1);  // a wrapped line could not be erased
-  show_passing_line(line);
+  show_transient_line(line);
 }
 
 void ProgressDisplay::clear() {

@@ -32,7 +32,7 @@ namespace {
 /// Validates all scenes before the first one runs: drawing is possible and files are writable.
 /// @throws Error with the problems of all scenes
 void look_ahead(const std::vector<Scene>& scenes, const std::vector<RunOptions>& options) {
-  require_files_of_their_own(scenes, options);
+  require_distinct_files(scenes, options);
   const bool drawn = std::any_of(options.begin(), options.end(), needs_drawing);
   const int largest_texture = drawn ? inspect_backend(options.front().backend).max_texture_size : 0;
   std::optional<ErrorKind> worst;
@@ -87,7 +87,7 @@ void require_something_to_make(const RunArguments& arguments) {
 ExitCode make_of_motion(const std::string& file, const RunArguments& arguments, const CommonOptions& common) {
   const SceneToRun found = open_motion(file, arguments.overrides, arguments.look);
   RunOptions options = run_options(arguments, found.scene, common.verbose);
-  require_files_of_their_own({found.scene}, {options});
+  require_distinct_files({found.scene}, {options});
   const RecordPaths records = std::exchange(options.records, {});
   limit_to_motion(file, found.recorded->last_step(), options);
   choose_frames(arguments.times, found.scene, options);
@@ -110,7 +110,7 @@ ExitCode go_on(const RunArguments& arguments, const CommonOptions& common) {
   }
   require_something_to_make(arguments);
   const std::string file = motion_to_resume(arguments.resume);
-  auto found = find_run_to_go_on(file, arguments.overrides, arguments.look);
+  auto found = find_resumable_run(file, arguments.overrides, arguments.look);
   if (!found) return make_of_motion(file, arguments, common);
 
   RunArguments rest = arguments, afterwards = arguments;

@@ -51,7 +51,7 @@ SceneRun::SceneRun(const Scene& scene, RunOptions options, const RunArguments& a
 
 void SceneRun::announce() const {
   spdlog::info(describe(scene_, options_));
-  for (const std::string& doubt : scene_.doubts) spdlog::warn(doubt);
+  for (const std::string& doubt : scene_.warnings) spdlog::warn(doubt);
   if (scene_.simulation.integrator.allow_unstable) {
     if (const auto problem = stability_problem(scene_.simulation, make_system(scene_.simulation))) {
       spdlog::warn("{}: {}", shown(scene_.file), *problem);
@@ -84,7 +84,7 @@ ExitCode SceneRun::end() {
   if (!common_.quiet && (result_.statistics.steps() > 0 || options_.recorded)) {
     print_wrapped(stderr, summarize(result_) + "\n");
   }
-  for (const std::string& doubt : doubts(result_)) spdlog::warn("{}: {}", shown(scene_.file), doubt);
+  for (const std::string& doubt : warnings(result_)) spdlog::warn("{}: {}", shown(scene_.file), doubt);
   return conclude();
 }
 

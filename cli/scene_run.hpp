@@ -5,9 +5,9 @@
 #include "cli/command_line.hpp"
 #include "cli/run_arguments.hpp"
 #include "cli/step_by_step.hpp"
-#include "cli/watched.hpp"
+#include "cli/background_work.hpp"
 #include "run/run_scene.hpp"
-#include "run/slow_run.hpp"
+#include "run/slow_run_warning.hpp"
 #include "scene/scene.hpp"
 
 namespace drape {
@@ -24,7 +24,7 @@ class SceneRun {
   void begin();
 
   /// Shows progress until every frame is drawn; the outputs may still need completion.
-  void wait_until_drawn() { work_->watch_until_others_may_begin(quiet_); }
+  void wait_until_drawn() { work_->wait_until_single_core(quiet_); }
 
   /// Shows progress until the end, then prints the result.
   /// @throws errors of run_scene()
@@ -39,9 +39,9 @@ class SceneRun {
   const CommonOptions& common_;
   bool quiet_;
   StepByStep pause_;
-  SlowRun slow_;
+  SlowRunWarning slow_;
   RunResult result_;
-  std::optional<WatchedWork> work_;  // last member: its destructor waits, and the others are still needed
+  std::optional<BackgroundWork> work_;  // last member: its destructor waits, and the others are still needed
 };
 
 }  // namespace drape

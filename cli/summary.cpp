@@ -23,10 +23,10 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} s", seconds);
 }
 
-std::string out_of_balance(const Exactness::Unbalanced& unbalanced) {
-  if (!unbalanced.of_weight) return fmt::format("{:.2g} N out of balance", unbalanced.force);
-  if (*unbalanced.of_weight >= 1) return fmt::format("{:.2g} times its weight out of balance", *unbalanced.of_weight);
-  return fmt::format("{:.2g} % of its weight out of balance", 100 * *unbalanced.of_weight);
+std::string out_of_balance(const ErrorMonitor::ResidualForce& residual_force) {
+  if (!residual_force.of_weight) return fmt::format("{:.2g} N out of balance", residual_force.force);
+  if (*residual_force.of_weight >= 1) return fmt::format("{:.2g} times its weight out of balance", *residual_force.of_weight);
+  return fmt::format("{:.2g} % of its weight out of balance", 100 * *residual_force.of_weight);
 }
 
 /// Returns the name of an output by its files.
@@ -100,8 +100,8 @@ std::string describe_end(const RunResult& result, const std::string& resume) {
   return text;
 }
 
-std::vector<std::string> doubts(const RunResult& result) {
-  const Exactness& exactness = result.statistics.exactness();
+std::vector<std::string> warnings(const RunResult& result) {
+  const ErrorMonitor& exactness = result.statistics.exactness();
   const char* remedy =
       exactness.asked()
           ? "use a smaller [time] accuracy"
@@ -111,9 +111,9 @@ std::vector<std::string> doubts(const RunResult& result) {
     found.push_back(fmt::format("the steps were solved only to about {}, more than a hundredth of the cloth's size: {}",
                                 readable_length(exactness.errors()->mean), remedy));
   }
-  if (const auto& unbalanced = exactness.unbalanced(); unbalanced && unbalanced->notable()) {
+  if (const auto& residual_force = exactness.residual_force(); residual_force && residual_force->notable()) {
     found.push_back(fmt::format("the cloth is at rest with {}, so this is not an equilibrium: {}",
-                                out_of_balance(*unbalanced), remedy));
+                                out_of_balance(*residual_force), remedy));
   }
   if (const auto rise = result.statistics.energy_rise(); rise && rise->notable()) {
     found.push_back(fmt::format(
@@ -162,8 +162,8 @@ std::string of_steps(const Statistics& s) {
     text += fmt::format(", estimated error {} per step (at most {})", readable_length(errors->mean),
                         readable_length(errors->largest));
   }
-  if (const auto& unbalanced = s.exactness().unbalanced()) {
-    text += fmt::format(", at rest with {}", out_of_balance(*unbalanced));
+  if (const auto& residual_force = s.exactness().residual_force()) {
+    text += fmt::format(", at rest with {}", out_of_balance(*residual_force));
   }
   text += fmt::format(", {} per step (median {})\n", duration(1e-6 * s.mean_microseconds()),
                       duration(1e-6 * s.median_microseconds()));

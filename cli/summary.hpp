@@ -18,7 +18,7 @@ std::string effect_shares(const Statistics& statistics);
 std::string describe_end(const RunResult& result, const std::string& resume = {});
 
 /// Returns the reasons to distrust the result of a run, a sentence each.
-std::vector<std::string> doubts(const RunResult& result);
+std::vector<std::string> warnings(const RunResult& result);
 
 /// Lists the files of each output with their sizes, a line each.
 std::string describe_files(const std::vector<std::vector<OutputFile>>& outputs);

@@ -10,7 +10,7 @@
 #include "cli/number_option.hpp"
 #include "cli/sweep_results.hpp"
 #include "cli/terminal.hpp"
-#include "cli/watched.hpp"
+#include "cli/background_work.hpp"
 #include "core/console.hpp"
 #include "core/installation.hpp"
 #include "core/names_in_folders.hpp"

@@ -87,7 +87,7 @@ void print_wrapped(std::FILE* stream, std::string_view lines) {
   print_unescaped(stream, wrapped(escape_controls(lines), terminal(stream, ColorMode::never).width, 2));
 }
 
-void show_passing_line(std::string_view line) {
+void show_transient_line(std::string_view line) {
   passing_line_shown = true;
   print_unescaped(stderr, "\r\x1b[K" + escape_controls(line));
 }

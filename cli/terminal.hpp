@@ -32,7 +32,7 @@ std::string inked(std::string_view text, Ink ink, const Terminal& where);
 void print_wrapped(std::FILE* stream, std::string_view lines);
 
 /// Shows a temporary line; the next one replaces it, and logging or clearing erases it.
-void show_passing_line(std::string_view line);
+void show_transient_line(std::string_view line);
 void clear_passing_line();
 
 /// Sends log messages to standard error as "drape: message", wrapped and with a prefix for the severity.

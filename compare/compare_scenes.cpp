@@ -7,7 +7,7 @@
 #include <cmath>
 #include <deque>
 
-#include "compare/in_step.hpp"
+#include "compare/synchronised_motions.hpp"
 #include "compare/page.hpp"
 #include "compare/panels.hpp"
 #include "core/error.hpp"
@@ -95,7 +95,7 @@ class Comparison {
   }
 
  private:
-  using Moment = MotionsInStep::Moment;
+  using Moment = SynchronisedMotions::Moment;
 
   /// Returns true if the motions must be known before the first picture is drawn.
   [[nodiscard]] bool look_ahead() const { return needs_motion(first_.camera) || colors_.needs_motion(); }
@@ -230,7 +230,7 @@ class Comparison {
   std::vector<VertexMatch> matches_;
   PanelColors colors_;
   PanelLayout layout_;
-  MotionsInStep motions_;
+  SynchronisedMotions motions_;
   Outputs outputs_;
   bool comparable_ = true;  // the motions have matching vertices
   std::vector<Renderer> renderers_;

@@ -27,7 +27,7 @@ struct CompareOptions {
   std::optional<SheetGrid> sheet;    ///< frames in a .png whose path lacks {frame}; absent: the last
   std::optional<std::int64_t> steps;
   std::optional<FrameRange> frames;
-  std::optional<FileLimit> largest_file;  ///< size limit of a film, see FittedFilm
+  std::optional<FileLimit> largest_file;  ///< size limit of a film, see SizeLimitedEncoder
   GlBackend backend = GlBackend::automatic;
   std::string command;  ///< the user's command, for the page
 };
@@ -67,8 +67,8 @@ FilmInfo comparison_info(const std::vector<Scene>& scenes, const CompareOptions&
 /// @throws Error as compare_scenes() would
 void require_comparison(const std::vector<Scene>& scenes, const CompareOptions& options);
 
-/// Draws the motions of scenes side by side, as MotionsInStep plays them. All use the first scene's camera, which has
-/// every motion in view.
+/// Draws the motions of scenes side by side, as SynchronisedMotions plays them. All use the first scene's camera, which
+/// has every motion in view.
 /// @param scenes at least two
 CompareResult compare_scenes(const std::vector<Scene>& scenes, const CompareOptions& options,
                              const std::stop_token& stop, Progress& progress);

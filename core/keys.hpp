@@ -29,7 +29,7 @@ struct Choice {
 
 /// A key whose value is of a kind of its own, such as a mesh or a file with a motion. Nothing here knows what it is:
 /// whoever describes the table and whoever reads it do.
-struct OwnForm {
+struct CustomValue {
   std::string form;  ///< for a reference page: "number or [x, y, z]"
   std::any target;   ///< a pointer to what is set if the key is given
 };
@@ -57,7 +57,7 @@ struct FormulaList {
 /// One key of a settings table: its name, the variable its value is written to, which values make sense, and one
 /// sentence that says what it means. Readers, error messages and the reference pages are all made from this.
 struct Key {
-  using Target = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice, OwnForm,
+  using Target = std::variant<bool*, int*, double*, std::string*, std::filesystem::path*, Rgb*, Choice, CustomValue,
                               KeyframeList, VertexSelection, FormulaList, Eigen::Vector2i*, Eigen::Vector3d*,
                               std::vector<int>*, std::optional<int>*, std::optional<double>*, std::optional<Rgb>*,
                               std::optional<Eigen::Vector2i>*, std::optional<Eigen::Vector3d>*>;

@@ -14,12 +14,12 @@ namespace {
 
 // Lengths in units of the drawing, which is scaled to the page.
 constexpr double width = 640, height = 340, left = 72, right = 24, top = 12, bottom = 50;
-constexpr double large = 19;         // font size in a narrow window, see chart.css
-constexpr double wide_letter = 0.6;  // letter width relative to the font size
-constexpr std::size_t styles = 6;    // colours and markers of the style sheet
-constexpr std::size_t deepest = 3;   // most distinguished levels of hidden curves
-constexpr double told_apart = 2.5;   // least distance of two distinct points
-constexpr std::size_t crowded = 60;  // points per series beyond which markers would cover the line
+constexpr double large = 19;              // font size in a narrow window, see chart.css
+constexpr double wide_letter = 0.6;       // letter width relative to the font size
+constexpr std::size_t styles = 6;         // colours and markers of the style sheet
+constexpr std::size_t deepest = 3;        // most distinguished levels of hidden curves
+constexpr double least_separation = 2.5;  // least distance of two distinct points
+constexpr std::size_t crowded = 60;       // points per series beyond which markers would cover the line
 
 struct Frame {
   AxisMap x, y;
@@ -43,8 +43,8 @@ Frame frame_of(const Chart& chart) {
 /// Finds ticks whose labels would overlap the previous label at the font size of a narrow window.
 /// @param room  length of the axis
 /// @param needs returns the length of a label along the axis
-std::vector<bool> spare_ticks(const std::vector<AxisMap::Tick>& ticks, double room,
-                              const std::function<double(const std::string&)>& needs) {
+std::vector<bool> overlapping_ticks(const std::vector<AxisMap::Tick>& ticks, double room,
+                                    const std::function<double(const std::string&)>& needs) {
   std::vector<bool> spare(ticks.size(), false);
   double taken = -INFINITY;
   for (std::size_t i = 0; i < ticks.size(); ++i) {
@@ -61,13 +61,13 @@ Markup axes(const Chart& chart, const Frame& frame) {
   const auto style = [](bool spare) { return spare ? Attributes{{"class", "spare"}} : Attributes{}; };
   const auto high = [](const std::string&) { return large; };
   const auto wide = [](const std::string& label) { return large * (wide_letter * letters(label) + 0.5); };
-  const std::vector<bool> spare_y = spare_ticks(frame.y.ticks(), rise, high);
+  const std::vector<bool> spare_y = overlapping_ticks(frame.y.ticks(), rise, high);
   for (std::size_t i = 0; i < spare_y.size(); ++i) {
     const double y = height - bottom - rise * frame.y.ticks()[i].place;
     parts += svg_line("grid", left, y, width - right, y) +
              svg_text(left - 8, y + 4, "end", frame.y.ticks()[i].label, style(spare_y[i]));
   }
-  const std::vector<bool> spare_x = spare_ticks(frame.x.ticks(), span, wide);
+  const std::vector<bool> spare_x = overlapping_ticks(frame.x.ticks(), span, wide);
   for (std::size_t i = 0; i < spare_x.size(); ++i) {
     const double x = left + span * frame.x.ticks()[i].place;
     parts += svg_line("grid", x, top, x, height - bottom) +
@@ -168,8 +168,8 @@ bool lies_under(const ChartSeries& lower, const ChartSeries& upper, const Frame&
   for (const ChartPoint& point : lower.points) {
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
     const auto same = [&](const ChartPoint& p) {
-      return std::abs(frame.across(p.x) - frame.across(point.x)) < told_apart &&
-             std::abs(frame.down(p.y) - frame.down(point.y)) < told_apart;
+      return std::abs(frame.across(p.x) - frame.across(point.x)) < least_separation &&
+             std::abs(frame.down(p.y) - frame.down(point.y)) < least_separation;
     };
     // Points of two curves mostly have the same order, so the search continues from the last match.
     other = std::find_if(other, upper.points.end(), same);

@@ -125,9 +125,11 @@ class ImportedScene {
 };
 
 /// Iterator over a motion's moments with velocities: those of its files, or central differences.
-class Differences {
+class VelocityEstimator {
  public:
-  Differences(MotionSource& source, const TimeGrid& grid) : source_(source), grid_(grid) { after_ = source.moment(0); }
+  VelocityEstimator(MotionSource& source, const TimeGrid& grid) : source_(source), grid_(grid) {
+    after_ = source.moment(0);
+  }
 
   /// Returns the next moment.
   ImportedMoment next() {
@@ -167,7 +169,7 @@ std::uint64_t write(const fs::path& file, const Scene& scene, MotionSource& clot
   header.imported = true;
   MotionFileWriter writer(file, header, scene);
   try {
-    Differences moments(cloth, grid);
+    VelocityEstimator moments(cloth, grid);
     std::int64_t step = 0;
     for (const std::int64_t own : grid.steps) {
       if (stop.stop_requested()) throw Interrupted();

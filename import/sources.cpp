@@ -18,9 +18,10 @@ constexpr std::array<std::string_view, 5> mesh_endings{".obj", ".ply", ".vtp", "
 constexpr std::array<std::string_view, 5> film_endings{".npz", ".pc2", ".pvd", ".usda", ".usd"};
 
 /// A motion converted to other coordinates.
-class Turned final : public MotionSource {
+class TransformedMotion final : public MotionSource {
  public:
-  Turned(std::shared_ptr<MotionSource> source, const ImportAxes& axes) : source_(std::move(source)), axes_(axes) {
+  TransformedMotion(std::shared_ptr<MotionSource> source, const ImportAxes& axes)
+      : source_(std::move(source)), axes_(axes) {
     mesh_ = source_->mesh();
     turn(mesh_.positions, axes_.scale);
   }
@@ -53,7 +54,7 @@ class Turned final : public MotionSource {
         }
       }
     }
-    for (auto& body : found.bodies) body = std::make_shared<Turned>(body, axes_);
+    for (auto& body : found.bodies) body = std::make_shared<TransformedMotion>(body, axes_);
     return found;
   }
 
@@ -78,9 +79,9 @@ Vertices stacked(const Vertices& above, const Vertices& below) {
 }
 
 /// Two motions with their meshes joined into one.
-class Joined final : public MotionSource {
+class JoinedMotion final : public MotionSource {
  public:
-  Joined(std::unique_ptr<MotionSource> first, std::unique_ptr<MotionSource> second)
+  JoinedMotion(std::unique_ptr<MotionSource> first, std::unique_ptr<MotionSource> second)
       : first_(std::move(first)), second_(std::move(second)) {
     if (first_->count() != second_->count()) {
       fail_import(second_->name(),
@@ -155,13 +156,13 @@ std::unique_ptr<MotionSource> open_motion_source(const fs::path& file, const fs:
 
 std::unique_ptr<MotionSource> with_axes(std::unique_ptr<MotionSource> source, const ImportAxes& axes) {
   if (!axes.y_up && axes.scale == 1) return source;
-  return std::make_unique<Turned>(std::move(source), axes);
+  return std::make_unique<TransformedMotion>(std::move(source), axes);
 }
 
 std::unique_ptr<MotionSource> joined(std::vector<std::unique_ptr<MotionSource>> sources) {
   std::unique_ptr<MotionSource> all = std::move(sources.front());
   for (std::size_t i = 1; i < sources.size(); ++i)
-    all = std::make_unique<Joined>(std::move(all), std::move(sources[i]));
+    all = std::make_unique<JoinedMotion>(std::move(all), std::move(sources[i]));
   return all;
 }
 

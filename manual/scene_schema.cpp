@@ -83,7 +83,7 @@ class ValueSchema {
     if (choice.initial) schema["default"] = choice.names[*choice.initial];
     return schema;
   }
-  Json operator()(const OwnForm& own) const {
+  Json operator()(const CustomValue& own) const {
     if (std::any_cast<std::shared_ptr<const MeshMotion>*>(&own.target) != nullptr) return reference("moving_mesh");
     if (std::any_cast<std::vector<PixelRectangle>*>(&own.target) != nullptr) {
       return list(tuple({{"type", "integer"}, {"minimum", 0}}, 4));
@@ -189,7 +189,7 @@ Json mesh_schema() {
                                   {"size", tuple({{"type", "number"}, {"exclusiveMinimum", 0}}, 2)}},
                                  {"grid"})};
   for (std::size_t i = 0; i < mesh_shape_names().size(); ++i) {
-    SheetShape shape{.kind = static_cast<SheetShape::Kind>(i)};
+    ParametricMesh shape{.kind = static_cast<ParametricMesh::Kind>(i)};
     forms.push_back(closed({{mesh_shape_names()[i], table_of(mesh_shape_keys(shape))}}, {mesh_shape_names()[i]}));
   }
   return text_and("A mesh file (OBJ or ASCII USD), or a shape.", any_of(std::move(forms)));

@@ -67,7 +67,7 @@ bool has_states_until(const MotionReader& partial, std::int64_t step) {
   return !every || static_cast<std::int64_t>(partial.states()) == step / *every + 1;
 }
 
-bool is_finite(const Resumption& found) {
+bool is_finite(const ResumePoint& found) {
   const Restraint& restraint = found.checkpoint.state.restraint;
   const std::optional<EnergyMemory>& books = found.checkpoint.books;
   const bool known =
@@ -77,7 +77,7 @@ bool is_finite(const Resumption& found) {
 }
 
 /// Reads the blocks after the first.
-void read_blocks(const BlockReader& blocks, std::uint64_t begin, Resumption& found) {
+void read_blocks(const BlockReader& blocks, std::uint64_t begin, ResumePoint& found) {
   const MotionHeader& header = found.partial->header();
   Restraint restraint;
   while (begin < blocks.size()) {
@@ -111,7 +111,7 @@ void read_blocks(const BlockReader& blocks, std::uint64_t begin, Resumption& fou
 
 }  // namespace
 
-const StepRow& Resumption::row(std::int64_t step) const {
+const StepRow& ResumePoint::row(std::int64_t step) const {
   const std::int64_t in_blocks = partial->rows();
   return step < in_blocks ? partial->row(step) : rows[static_cast<std::size_t>(step - in_blocks)];
 }
@@ -134,7 +134,7 @@ std::string pack_checkpoint(const Simulation::Checkpoint& checkpoint, double ste
   return bytes + block(times_tag, pack(bytes_of(microseconds)));
 }
 
-Resumption read_resumption(const fs::path& file) {
+ResumePoint read_resumption(const fs::path& file) {
   const fs::path growing = growing_name(file), checkpoint = checkpoint_name(file);
   if (!fs::exists(growing)) {
     throw UsageError(fmt::format("{}: nothing to resume: no {}", shown(file), shown(growing)));
@@ -147,7 +147,7 @@ Resumption read_resumption(const fs::path& file) {
   try {
     const Block size = blocks.block(std::string_view(checkpoint_magic).size());
     if (size.tag != length_tag) throw std::invalid_argument("does not begin as it should");
-    Resumption found;
+    ResumePoint found;
     found.length = ByteReader(size.payload).whole();
     found.partial = std::make_shared<MotionReader>(growing, found.length);
     if (found.partial->size() != found.length) throw std::invalid_argument("is of a longer file than there is");

@@ -11,7 +11,7 @@
 namespace drape {
 
 /// Data to resume a motion whose run ended early.
-struct Resumption {
+struct ResumePoint {
   std::shared_ptr<MotionReader> partial;  ///< reader of the valid part of the growing file
   std::uint64_t length = 0;               ///< length of that part [bytes]
   Simulation::Checkpoint checkpoint;
@@ -25,7 +25,7 @@ struct Resumption {
 /// Reads the checkpoint and the growing file of a run that ended early.
 /// @param file name of the complete motion
 /// @throws UsageError if there is no checkpoint, or it is damaged
-Resumption read_resumption(const std::filesystem::path& file);
+ResumePoint read_resumption(const std::filesystem::path& file);
 
 /// Returns the bytes of a checkpoint file.
 /// @param step   h [s]

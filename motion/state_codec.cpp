@@ -14,14 +14,14 @@ std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
 /// Returns the difference of bits modulo 2⁶⁴, which is invertible. Zigzag encoding maps small differences of either
 /// sign to small words: 0, −1, 1, −2, …
-std::uint64_t difference(double value, double foretold) {
-  const std::uint64_t d = bits(value) - bits(foretold);
+std::uint64_t difference(double value, double predicted) {
+  const std::uint64_t d = bits(value) - bits(predicted);
   return d << 1 ^ (d >> 63 == 0 ? 0 : ~std::uint64_t{0});
 }
 
-double undone(std::uint64_t word, double foretold) {
+double undone(std::uint64_t word, double predicted) {
   const std::uint64_t d = word >> 1 ^ ((word & 1) == 0 ? 0 : ~std::uint64_t{0});
-  const auto value = std::bit_cast<double>(d + bits(foretold));
+  const auto value = std::bit_cast<double>(d + bits(predicted));
   if (!std::isfinite(value)) throw std::invalid_argument("holds a number that is not finite");
   return value;
 }
@@ -42,7 +42,7 @@ std::array<double, StateCodec::most_known> StateCodec::weights(int order, std::i
 }
 
 template <class Use>
-void StateCodec::foretell(int how, bool velocities, const State& state, Eigen::Index stride, const Use& use) const {
+void StateCodec::predict(int how, bool velocities, const State& state, Eigen::Index stride, const Use& use) const {
   const Eigen::Index count = 3 * vertices_;
   const auto field = [&](const State& s) { return velocities ? s.v.data() : s.x.data(); };
   if (how == by_way || how == by_mean_way) {
@@ -76,8 +76,8 @@ int StateCodec::best(bool velocities, const State& state) const {
   for (int how = 0; how <= (velocities && known_ > 0 ? static_cast<int>(by_mean_way) : known_); ++how) {
     if (how > known_ && how < by_way) continue;
     std::int64_t cost = 0;
-    foretell(how, velocities, state, stride,
-             [&](Eigen::Index i, double foretold) { cost += std::bit_width(difference(values[i], foretold)); });
+    predict(how, velocities, state, stride,
+            [&](Eigen::Index i, double predicted) { cost += std::bit_width(difference(values[i], predicted)); });
     if (least >= 0 && cost >= least) continue;
     least = cost;
     best = how;
@@ -95,11 +95,11 @@ std::string StateCodec::encode(const State& state) {
   const auto count = static_cast<std::size_t>(3 * vertices_);
   std::vector<std::uint64_t> words(2 * count);
   const int places = best(false, state), velocities = best(true, state);
-  foretell(places, false, state, 1, [&](Eigen::Index i, double foretold) {
-    words[static_cast<std::size_t>(i)] = difference(state.x.data()[i], foretold);
+  predict(places, false, state, 1, [&](Eigen::Index i, double predicted) {
+    words[static_cast<std::size_t>(i)] = difference(state.x.data()[i], predicted);
   });
-  foretell(velocities, true, state, 1, [&](Eigen::Index i, double foretold) {
-    words[count + static_cast<std::size_t>(i)] = difference(state.v.data()[i], foretold);
+  predict(velocities, true, state, 1, [&](Eigen::Index i, double predicted) {
+    words[count + static_cast<std::size_t>(i)] = difference(state.v.data()[i], predicted);
   });
   next_place() = state;
   return ByteWriter()
@@ -126,11 +126,11 @@ const State& StateCodec::decode(std::string_view bytes) {
   const std::vector<std::uint64_t> words = unpack_planes(reader.rest(), 2 * count);
   state.x.resize(vertices_, 3);
   state.v.resize(vertices_, 3);
-  foretell(places, false, state, 1, [&](Eigen::Index i, double foretold) {
-    state.x.data()[i] = undone(words[static_cast<std::size_t>(i)], foretold);
+  predict(places, false, state, 1, [&](Eigen::Index i, double predicted) {
+    state.x.data()[i] = undone(words[static_cast<std::size_t>(i)], predicted);
   });
-  foretell(velocities, true, state, 1, [&](Eigen::Index i, double foretold) {
-    state.v.data()[i] = undone(words[count + static_cast<std::size_t>(i)], foretold);
+  predict(velocities, true, state, 1, [&](Eigen::Index i, double predicted) {
+    state.v.data()[i] = undone(words[count + static_cast<std::size_t>(i)], predicted);
   });
   return next_place() = std::move(state);
 }

@@ -30,7 +30,7 @@ class StateCodec {
   static constexpr int most_known = 4;  // number of earlier states used for prediction
 
   /// Method of prediction: an order of extrapolation, 0 (none) to 4, or for velocities one of these.
-  enum Foretelling { by_way = 5, by_mean_way = 6 };
+  enum Predictor { by_way = 5, by_mean_way = 6 };
 
   /// Returns the k-th state before the next one, from 1 on.
   [[nodiscard]] const State& before(int k) const {
@@ -39,7 +39,7 @@ class StateCodec {
   [[nodiscard]] std::array<double, most_known> weights(int order, std::int64_t step) const;
   /// Calls use(i, prediction) for every `stride`-th number of a field.
   template <class Use>
-  void foretell(int how, bool velocities, const State& state, Eigen::Index stride, const Use& use) const;
+  void predict(int how, bool velocities, const State& state, Eigen::Index stride, const Use& use) const;
   [[nodiscard]] int best(bool velocities, const State& state) const;
   /// Returns the storage for the next state, which replaces the oldest.
   State& next_place();

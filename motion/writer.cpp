@@ -72,7 +72,7 @@ MotionFileWriter::MotionFileWriter(fs::path file, MotionHeader header, const Sce
   blocks_.add(mesh_tag, pack_surface(scene.simulation.cloth.triangles, scene.uvs));
 }
 
-MotionFileWriter::MotionFileWriter(fs::path file, const Resumption& from)
+MotionFileWriter::MotionFileWriter(fs::path file, const ResumePoint& from)
     : file_(std::move(file)),
       blocks_(growing_name(file_), from.length),
       header_(from.partial->header()),

@@ -13,7 +13,7 @@
 
 namespace drape {
 
-struct Resumption;
+struct ResumePoint;
 
 /// Returns the name of a growing motion: "motion.drape.partial". Only a resumed run can use that file.
 std::filesystem::path growing_name(const std::filesystem::path& file);
@@ -35,7 +35,7 @@ class MotionFileWriter {
   /// @throws OutputError if it cannot be written
   MotionFileWriter(std::filesystem::path file, MotionHeader header, const Scene& scene);
   /// Resumes a file. @throws as above
-  MotionFileWriter(std::filesystem::path file, const Resumption& from);
+  MotionFileWriter(std::filesystem::path file, const ResumePoint& from);
 
   /// Adds the row of the next step, from 0 on.
   void add(const StepRow& row);

@@ -41,7 +41,8 @@ struct FilmInfo {
   int width = 64, height = 64;      ///< of the pictures, to try beforehand what can be tried [pixels]
   int bands = 0;                    ///< rows at the bottom of each picture that hold legend and curves
 
-  std::optional<FileLimit> largest_file = {};  ///< of a film that is drawn; it becomes smaller for it, see FittedFilm
+  std::optional<FileLimit> largest_file =
+      {};  ///< of a film that is drawn; it becomes smaller for it, see SizeLimitedEncoder
 
   /// The cloth before the first step, its texture coordinates as in Mesh, and what things look like. They outlive the
   /// sinks.

@@ -9,7 +9,7 @@
 #include "core/nearest.hpp"
 #include "output/beside.hpp"
 #include "output/contact_sheet.hpp"
-#include "output/fitted_film.hpp"
+#include "output/size_limited_encoder.hpp"
 #include "output/frame_files.hpp"
 #include "output/path_template.hpp"
 #include "output/registry.hpp"
@@ -25,7 +25,7 @@ struct AtFile {
   template <class Item>
   AnySink operator()(const FilmMaker<Item>& make) const {
     if constexpr (std::is_same_v<Item, Image>) {
-      if (film.largest_file) return std::make_unique<FittedFilm>(make, file, film);
+      if (film.largest_file) return std::make_unique<SizeLimitedEncoder>(make, file, film);
     }
     return make(file, film);
   }

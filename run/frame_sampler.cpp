@@ -54,10 +54,10 @@ FilmExtent::FilmExtent(const Video& video, double h, std::int64_t step_count,
   }
 }
 
-FrameTaker::FrameTaker(const FilmExtent& extent, Receiver receiver, FrameContents contents)
+FrameInterpolator::FrameInterpolator(const FilmExtent& extent, Receiver receiver, FrameContents contents)
     : extent_(extent), receiver_(std::move(receiver)), contents_(contents), next_(extent.frames.first) {}
 
-void FrameTaker::add(const Moment& moment) {
+void FrameInterpolator::add(const Moment& moment) {
   if (previous_.x.size() == 0) keep(moment);
   while (!done() && extent_.time(next_) <= time_of(moment.state.step) + rounding * extent_.step) {
     receiver_(frame(next_++, moment));
@@ -65,7 +65,7 @@ void FrameTaker::add(const Moment& moment) {
   keep(moment);
 }
 
-void FrameTaker::keep(const Moment& moment) {
+void FrameInterpolator::keep(const Moment& moment) {
   previous_.x = moment.state.x;
   previous_.step = moment.state.step;
   const bool soon = !done() && extent_.time(next_) < time_of(moment.next) - rounding * extent_.step;
@@ -74,7 +74,7 @@ void FrameTaker::keep(const Moment& moment) {
   previous_energies_ = moment.energies();
 }
 
-Frame FrameTaker::frame(int index, const Moment& moment) const {
+Frame FrameInterpolator::frame(int index, const Moment& moment) const {
   const double time = extent_.time(index), end = time_of(moment.state.step);
   const auto steps = static_cast<double>(std::max<std::int64_t>(1, moment.state.step - previous_.step));
   const double back = part_back(time, end, steps * extent_.step);

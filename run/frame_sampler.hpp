@@ -51,11 +51,11 @@ struct Moment {
 
 /// Interpolator of a film's frames, which hands out each frame of a range as soon as the motion has reached it.
 /// Positions, velocities and energies are interpolated linearly between two moments.
-class FrameTaker {
+class FrameInterpolator {
  public:
   using Receiver = std::function<void(Frame)>;
 
-  FrameTaker(const FilmExtent& extent, Receiver receiver, FrameContents contents = FrameContents::places);
+  FrameInterpolator(const FilmExtent& extent, Receiver receiver, FrameContents contents = FrameContents::places);
 
   /// Adds the next moment.
   void add(const Moment& moment);
@@ -80,7 +80,7 @@ class FrameTaker {
 /// Observer of a simulation that hands out its frames.
 class FrameSampler final : public StepObserver {
  public:
-  using Receiver = FrameTaker::Receiver;
+  using Receiver = FrameInterpolator::Receiver;
 
   FrameSampler(const FilmExtent& extent, Receiver receiver, FrameContents contents = FrameContents::places)
       : taker_(extent, std::move(receiver), contents) {}
@@ -91,7 +91,7 @@ class FrameSampler final : public StepObserver {
  private:
   void add(const Simulation& simulation, int iterations);
 
-  FrameTaker taker_;
+  FrameInterpolator taker_;
 };
 
 }  // namespace drape

@@ -26,7 +26,7 @@ class FrameSource {
 
   /// Hands out every frame in order. Returns early when a stop is requested.
   /// @throws OutputError if the system's temporary folder is full
-  void pass(const FrameTaker::Receiver& receiver, const std::stop_token& stop);
+  void pass(const FrameInterpolator::Receiver& receiver, const std::stop_token& stop);
 
   /// Returns true once a pass has reached the end of the motion. Then statistics() has its steps (with times only if it
   /// was simulated), and divergence() the message if the motion diverged.
@@ -35,8 +35,8 @@ class FrameSource {
   [[nodiscard]] const std::string& divergence() const { return divergence_; }
 
  private:
-  void simulate(const FrameTaker::Receiver& receiver, const std::stop_token& stop);
-  void read(const FrameTaker::Receiver& receiver, const std::stop_token& stop);
+  void simulate(const FrameInterpolator::Receiver& receiver, const std::stop_token& stop);
+  void read(const FrameInterpolator::Receiver& receiver, const std::stop_token& stop);
 
   const Scene& scene_;
   std::shared_ptr<MotionReader> recorded_;

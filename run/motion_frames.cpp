@@ -17,9 +17,9 @@ std::size_t last_before(const MotionReader& motion, double time, double h) {
 }  // namespace
 
 void sample_motion(MotionReader& motion, const Scene& scene, const FilmExtent& extent, FrameContents contents,
-                   const FrameTaker::Receiver& receiver, const std::stop_token& stop) {
+                   const FrameInterpolator::Receiver& receiver, const std::stop_token& stop) {
   const System system = make_system(scene.simulation);
-  FrameTaker taker(extent, receiver, contents);
+  FrameInterpolator taker(extent, receiver, contents);
   const std::size_t first = last_before(motion, extent.time(extent.frames.first), extent.step);
   // Begin one state earlier, so that a frame which falls on a state by rounding has its predecessor.
   for (std::size_t i = first > 0 ? first - 1 : 0; i < motion.states() && !taker.done() && !stop.stop_requested(); ++i) {

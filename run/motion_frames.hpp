@@ -12,7 +12,7 @@ namespace drape {
 /// that they need. Returns early when a stop is requested.
 /// @param scene of the motion, for its colliders
 void sample_motion(MotionReader& motion, const Scene& scene, const FilmExtent& extent, FrameContents contents,
-                   const FrameTaker::Receiver& receiver, const std::stop_token& stop);
+                   const FrameInterpolator::Receiver& receiver, const std::stop_token& stop);
 
 /// Returns the number of frames that fall between states more than one step apart; a simulation would give others.
 int frames_in_gaps(const MotionReader& motion, const FilmExtent& extent);

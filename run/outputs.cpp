@@ -84,7 +84,7 @@ void require_texture(const Scene& scene, int largest) {
   try {
     require_texture_image(scene.look.texture, largest);
   } catch (const UsageError& error) {
-    throw UsageError(scene.texture_place + ": " + error.what());
+    throw UsageError(scene.texture_location + ": " + error.what());
   }
 }
 

@@ -19,7 +19,7 @@
 #include "run/known_film.hpp"
 #include "run/motion_frames.hpp"
 #include "run/outputs.hpp"
-#include "run/reasons_to_run.hpp"
+#include "run/run_purposes.hpp"
 #include "run/run_steps.hpp"
 #include "run/thread_count.hpp"
 
@@ -54,7 +54,8 @@ class Pipeline {
     if (!outputs_.none()) result_.frames_wanted = extent_.frames.count();
     const Timing timing = options.time_effects ? Timing::effects : Timing::none;
     if (!options.recorded) {
-      simulation_.emplace(with_threads(scene.simulation, options.threads, drawn_), timing, heeding(stop_.get_token()));
+      simulation_.emplace(with_threads(scene.simulation, options.threads, drawn_), timing,
+                          make_stop(stop_.get_token()));
     }
     if (options.from && simulation_) require_whole(*options.from, *simulation_);
     if (!options.motion) return;
@@ -104,16 +105,17 @@ class Pipeline {
 
   void finish_motion() {
     result_.problems = outputs_.problems();
-    if ((!whole_ || cut_) && result_.outcome == Outcome::completed) result_.outcome = Outcome::interrupted;
+    if ((!all_steps_done_ || truncated_) && result_.outcome == Outcome::completed)
+      result_.outcome = Outcome::interrupted;
     if (!recorder_) return;
     const Simulation* last = result_.outcome == Outcome::diverged ? nullptr : &*simulation_;
-    result_.motion = recorder_->finish(whole_, last, result_.problems);
+    result_.motion = recorder_->finish(all_steps_done_, last, result_.problems);
   }
 
   void finish_records() {
     if (result_.outcome == Outcome::interrupted && result_.statistics.steps() == 0) return;
     result_.records = records_.finish(*simulation_, result_.statistics, outcome_name(result_.outcome),
-                                      whole_ ? Ending::complete : Ending::early, result_.problems);
+                                      all_steps_done_ ? Ending::complete : Ending::early, result_.problems);
   }
 
   void simulate() {
@@ -157,17 +159,18 @@ class Pipeline {
     observers.insert(observers.end(), {&sampler, &counter});
     progress_.begin("simulating", "steps", whole.steps);
     take_steps(observers);
-    if (whole_) run_on(scene_.simulation, simulation_->state(), whole.steps, {&sampler, &counter}, stop_.get_token());
-    cut_ = stop_.stop_requested();
+    if (all_steps_done_)
+      run_on(scene_.simulation, simulation_->state(), whole.steps, {&sampler, &counter}, stop_.get_token());
+    truncated_ = stop_.stop_requested();
     if (tape.count() == 0) return;
     place_camera(tape.count(), [&tape](const auto& visit) { tape.for_each(visit); });
     progress_.begin("drawing", "frames", std::min(extent_.frames.count(), tape.count()));
     const auto begin = Clock::now();
-    const bool until_here = cut_;
+    const bool until_here = truncated_;
     tape.for_each([&](const Frame& frame) {
       if (frame.index < extent_.frames.first || frame.index > extent_.frames.last) return;
-      cut_ = cut_ || stop_.stop_requested();
-      if (!cut_ || (until_here && seconds_since(begin) < longest_wait)) frames_.push(frame);
+      truncated_ = truncated_ || stop_.stop_requested();
+      if (!truncated_ || (until_here && seconds_since(begin) < longest_wait)) frames_.push(frame);
     });
   }
 
@@ -176,7 +179,7 @@ class Pipeline {
       run_steps(*simulation_, extent_.steps, observers, stop_.get_token(), options_.from.get());
       if (simulation_->state().step < extent_.steps) return;
       result_.statistics.finish(*simulation_);
-      whole_ = true;
+      all_steps_done_ = true;
     } catch (const Interrupted&) {  // during the error estimate of the last step
     } catch (const DivergedError& diverged) {
       result_.outcome = Outcome::diverged;
@@ -207,7 +210,7 @@ class Pipeline {
       }
       if (drawn_) place_camera(whole.frames.count(), [&](const auto& visit) { read(whole, visit); });
       read(extent_, [this](Frame frame) { send(std::move(frame)); });
-      whole_ = true;
+      all_steps_done_ = true;
     } catch (const Interrupted&) {  // the frames sent so far are drawn and written
     }
     close_queues();
@@ -246,7 +249,7 @@ class Pipeline {
   void paint(FilmPainter& painter, Frame frame) {
     const auto begin = Clock::now();
     std::optional<Image> image;
-    if (!undrawn_.stop_requested()) image.emplace(painter.paint(frame));
+    if (!stop_drawing_.stop_requested()) image.emplace(painter.paint(frame));
     result_.draw_seconds += seconds_since(begin);
     film_.push({std::move(frame), std::move(image)});
   }
@@ -257,13 +260,13 @@ class Pipeline {
       outputs_.add(*frame);
       result_.write_seconds += seconds_since(begin);
       if (outputs_.none()) return stop_writing();
-      if (!outputs_.drawn()) undrawn_.request_stop();
+      if (!outputs_.drawn()) stop_drawing_.request_stop();
       progress_.done = ++result_.frames;
     }
     if (const std::scoped_lock lock(mutex_); error_) return;
     if (options_.drawn) options_.drawn();
     const auto begin = Clock::now();
-    const bool complete = result_.frames == result_.frames_wanted && !cut_;
+    const bool complete = result_.frames == result_.frames_wanted && !truncated_;
     result_.outputs = outputs_.finish(complete ? Ending::complete : Ending::early);
     result_.write_seconds += seconds_since(begin);
     if (outputs_.none()) stop_writing();
@@ -284,7 +287,7 @@ class Pipeline {
   Outputs outputs_;
   const bool drawn_;  // true if any output needs rendering
   Records records_;
-  ReasonsToRun reasons_;
+  RunPurposes reasons_;
   std::optional<Annotations> annotations_;  // absent if nothing is drawn or the scene asks for none
   std::optional<MotionRecorder> recorder_;
   BoundedQueue<CameraPath> path_{1};
@@ -292,11 +295,11 @@ class Pipeline {
   BoundedQueue<FilmFrame> film_{queue_capacity};
   std::stop_source stop_;
   std::stop_callback<std::function<void()>> pass_on_;
-  std::stop_source undrawn_;  // stops the drawing when no output takes images any more
+  std::stop_source stop_drawing_;  // stops the drawing when no output takes images any more
   std::mutex mutex_;
   std::exception_ptr error_;
-  bool whole_ = false;  // every step was taken
-  bool cut_ = false;    // some frames are missing, or were drawn without the whole motion
+  bool all_steps_done_ = false;  // every step was taken
+  bool truncated_ = false;       // some frames are missing, or were drawn without the whole motion
   RunResult result_;
 };
 

@@ -21,15 +21,15 @@ namespace drape {
 
 /// Options of a run of a scene.
 struct RunOptions {
-  std::vector<std::string> outputs;        ///< films, frames and stills, see make_sink()
-  std::optional<MotionOptions> motion;     ///< the motion file to write, if any
-  std::shared_ptr<const Resumption> from;  ///< the checkpoint to resume from, of that motion file; null: the start
-  std::shared_ptr<MotionReader> recorded;  ///< the motion file to draw, instead of simulating
+  std::vector<std::string> outputs;         ///< films, frames and stills, see make_sink()
+  std::optional<MotionOptions> motion;      ///< the motion file to write, if any
+  std::shared_ptr<const ResumePoint> from;  ///< the checkpoint to resume from, of that motion file; null: the start
+  std::shared_ptr<MotionReader> recorded;   ///< the motion file to draw, instead of simulating
   RecordPaths records;
   std::optional<std::int64_t> steps;      ///< instead of the scene's duration
   std::optional<FrameRange> frames;       ///< frames to draw; the simulation ends with the last of them
   std::optional<std::int64_t> every;      ///< steps per frame; absent: as the scene's video says
-  std::optional<FileLimit> largest_file;  ///< size limit of a film, see FittedFilm
+  std::optional<FileLimit> largest_file;  ///< size limit of a film, see SizeLimitedEncoder
   bool poster = false;                    ///< write a picture beside each film, see Poster
   std::optional<SheetGrid> sheet;         ///< frames in a picture whose path lacks {frame}; absent: the last
   GlBackend backend = GlBackend::automatic;

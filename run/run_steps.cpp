@@ -22,7 +22,7 @@ class Watch final : public StepObserver {
 };
 
 /// Replays the earlier steps to the observers.
-void replay(const Resumption& from, double h, std::span<StepObserver* const> observers) {
+void replay(const ResumePoint& from, double h, std::span<StepObserver* const> observers) {
   if (from.checkpoint.state.step == 0) return;  // a new run
   for (std::int64_t step = 0; step <= from.checkpoint.state.step; ++step) {
     const StepRow& row = from.row(step);
@@ -34,7 +34,7 @@ void replay(const Resumption& from, double h, std::span<StepObserver* const> obs
 
 }  // namespace
 
-void require_whole(const Resumption& from, const Simulation& simulation) {
+void require_whole(const ResumePoint& from, const Simulation& simulation) {
   const Simulation::Checkpoint& kept = from.checkpoint;
   const System system = make_system(simulation.settings());
   Restraint expected;
@@ -52,12 +52,12 @@ void require_whole(const Resumption& from, const Simulation& simulation) {
                                shown(from.partial->file())));
 }
 
-Stop heeding(const std::stop_token& stop) {
+Stop make_stop(const std::stop_token& stop) {
   return Stop([stop] { return stop.stop_requested(); });
 }
 
 void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserver* const> observers,
-               const std::stop_token& stop, const Resumption* from) {
+               const std::stop_token& stop, const ResumePoint* from) {
   using Clock = std::chrono::steady_clock;
   if (from != nullptr) simulation.restore(from->checkpoint);
   for (StepObserver* observer : observers) observer->begin(simulation);
@@ -74,7 +74,7 @@ void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserve
     try {
       for (StepObserver* observer : observers) observer->after_step(simulation, report, seconds);
     } catch (const Interrupted&) {
-      return simulation.take_back();
+      return simulation.undo_step();
     }
   }
 }
@@ -90,7 +90,7 @@ void run_on(const SimulationSettings& settings, const State& state, std::int64_t
             const std::vector<StepObserver*>& observers, const std::stop_token& stop) {
   if (state.step >= steps) return;
   try {
-    Simulation simulation(settings, Timing::none, heeding(stop));
+    Simulation simulation(settings, Timing::none, make_stop(stop));
     simulation.restore(state);
     run_steps(simulation, steps, observers, stop);
   } catch (const DivergedError&) {

@@ -13,14 +13,14 @@
 namespace drape {
 
 /// Returns a Stop for a simulation that a stop request may end within a step.
-Stop heeding(const std::stop_token& stop);
+Stop make_stop(const std::stop_token& stop);
 
 /// Advances a simulation to step number `steps` and calls the observers in order. Returns early when a stop is
 /// requested. A simulation with a Stop ends within the step, in the state before it.
 /// @param from the checkpoint to resume from, if any
 /// @throws DivergedError after the observers saw the last finite step
 void run_steps(Simulation& simulation, std::int64_t steps, std::span<StepObserver* const> observers,
-               const std::stop_token& stop, const Resumption* from = nullptr);
+               const std::stop_token& stop, const ResumePoint* from = nullptr);
 
 /// Advances likewise, with one function as the observer.
 void run_steps(Simulation& simulation, std::int64_t steps, const std::stop_token& stop,
@@ -28,7 +28,7 @@ void run_steps(Simulation& simulation, std::int64_t steps, const std::stop_token
 
 /// Checks that a checkpoint has every part that the simulation would have saved.
 /// @throws UsageError if parts are missing
-void require_whole(const Resumption& from, const Simulation& simulation);
+void require_whole(const ResumePoint& from, const Simulation& simulation);
 
 /// Continues a state in a new simulation to step number `steps`. Ends early if that diverges.
 void run_on(const SimulationSettings& settings, const State& state, std::int64_t steps,

@@ -91,7 +91,7 @@ namespace {
 
 /// Returns null if no accuracy was given and nothing is minimised.
 nlohmann::ordered_json accuracy_json(const Statistics& statistics) {
-  const Exactness& exactness = statistics.exactness();
+  const ErrorMonitor& exactness = statistics.exactness();
   nlohmann::ordered_json json;
   if (const auto& asked = exactness.asked()) {
     json = {{"asked", *asked},
@@ -106,9 +106,9 @@ nlohmann::ordered_json accuracy_json(const Statistics& statistics) {
   if (const auto errors = exactness.errors()) {
     json["estimated_error"] = {{"mean", errors->mean}, {"largest", errors->largest}};
   }
-  if (const auto& unbalanced = exactness.unbalanced()) {
-    json["unbalanced_at_rest"] = {{"force", unbalanced->force}};
-    if (unbalanced->of_weight) json["unbalanced_at_rest"]["of_weight"] = *unbalanced->of_weight;
+  if (const auto& residual_force = exactness.residual_force()) {
+    json["unbalanced_at_rest"] = {{"force", residual_force->force}};
+    if (residual_force->of_weight) json["unbalanced_at_rest"]["of_weight"] = *residual_force->of_weight;
   }
   return json;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "run/energy_rise.hpp"
-#include "run/exactness.hpp"
+#include "run/error_monitor.hpp"
 
 namespace drape {
 
@@ -29,7 +29,7 @@ class Statistics final : public StepObserver {
   /// Returns the mean number of substeps per step.
   [[nodiscard]] double mean_substeps() const;
   [[nodiscard]] std::int64_t max_substeps() const { return max_substeps_; }
-  [[nodiscard]] const Exactness& exactness() const { return exactness_; }
+  [[nodiscard]] const ErrorMonitor& exactness() const { return exactness_; }
   [[nodiscard]] std::optional<EnergyRise::Rise> energy_rise() const { return energy_rise_.rise(); }
   /// Returns the time of each step [µs].
   [[nodiscard]] const std::vector<float>& microseconds() const { return microseconds_; }
@@ -64,7 +64,7 @@ class Statistics final : public StepObserver {
   int max_iterations_ = 0;
   std::size_t replayed_ = 0;  // number of steps
   double worst_residual_ = 0;
-  Exactness exactness_;
+  ErrorMonitor exactness_;
   EnergyRise energy_rise_;
 };
 

@@ -58,17 +58,17 @@ std::string difference(const Mesh& rest, const Mesh& mesh) {
 
 /// Returns warnings about a complete cloth.
 std::vector<std::string> doubts_of(const ClothTable& table, const ClothAndUvs& result) {
-  std::vector<std::string> doubts;
-  if (const auto doubt = shape_of(result.cloth).doubt()) doubts.push_back(*doubt);
+  std::vector<std::string> warnings;
+  if (const auto doubt = shape_of(result.cloth).doubt()) warnings.push_back(*doubt);
   const std::string* file = table.mesh->as<std::string>();  // a table may give the up axis
   const bool turned = !table.rotate.isZero(0);
   if (file != nullptr && !turned && is_obj(*file) && seems_y_up(result.mesh.positions)) {
-    doubts.push_back(
+    warnings.push_back(
         fmt::format("it looks as if y pointed up in it, and here z does: perhaps {{ file = \"{}\", up = "
                     "\"y\" }} is meant; up = \"z\" ends this hint",
                     *file));
   }
-  return doubts;
+  return warnings;
 }
 
 SelectableMesh selectable_mesh(const Mesh& mesh, const TomlValue& value, const std::filesystem::path& folder) {
@@ -206,7 +206,7 @@ std::optional<ClothAndUvs> read_cloth(const ClothTable& table, const TomlValue& 
     problems.add(place_of(value, "mass"), "mass: too small to be shared by so many vertices");
     return std::nullopt;
   }
-  result.doubts = doubts_of(table, result);
+  result.warnings = doubts_of(table, result);
   return result;
 }
 

@@ -19,7 +19,7 @@ struct ClothAndUvs {
   std::vector<std::array<float, 2>> uvs;      ///< see Mesh::uvs
   SelectableMesh mesh;                        ///< mesh before [cloth.transform]
   std::vector<std::filesystem::path> inputs;  ///< files that the cloth was read from
-  std::vector<std::string> doubts;            ///< warnings about the mesh, a sentence each
+  std::vector<std::string> warnings;          ///< warnings about the mesh, a sentence each
 };
 
 /// Makes the cloth that a [cloth] table describes.

@@ -29,7 +29,7 @@ struct ValueOfTarget {
   FieldValue operator()(const Choice& choice) const {
     return choice.initial ? choice.names[*choice.initial] : left_open;
   }
-  FieldValue operator()(const OwnForm&) const { return as_written(); }
+  FieldValue operator()(const CustomValue&) const { return as_written(); }
   FieldValue operator()(const KeyframeList&) const { return as_written(); }
   FieldValue operator()(const VertexSelection&) const { return as_written(); }
   FieldValue operator()(const FormulaList&) const { return as_written(); }

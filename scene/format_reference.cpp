@@ -20,7 +20,7 @@ struct Form {
     for (const std::string& name : choice.names) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
     return text;
   }
-  std::string operator()(const OwnForm& own) const { return own.form; }
+  std::string operator()(const CustomValue& own) const { return own.form; }
   std::string operator()(const KeyframeList& list) const {
     std::string form;
     for (const std::string& name : list.names) {

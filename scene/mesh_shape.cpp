@@ -75,7 +75,7 @@ Mesh make_strip(double length, double width, int across) {
 }
 
 /// Makes the side of a frustum, open at both ends, counterclockwise seen from outside.
-Mesh make_tube(const SheetShape& shape) {
+Mesh make_tube(const ParametricMesh& shape) {
   const double hem = shape.hem.value_or(shape.radius);
   const double slope = std::hypot(shape.length, hem - shape.radius);
   const double cell = std::numbers::pi * (hem + shape.radius) / shape.around;
@@ -116,8 +116,8 @@ const std::vector<std::string>& mesh_shape_names() {
   return names;
 }
 
-Keys mesh_shape_keys(SheetShape& shape) {
-  using Kind = SheetShape::Kind;
+Keys mesh_shape_keys(ParametricMesh& shape) {
+  using Kind = ParametricMesh::Kind;
   constexpr int most = 2000;
   Keys keys;
   switch (shape.kind) {
@@ -144,29 +144,29 @@ Keys mesh_shape_keys(SheetShape& shape) {
   return keys;
 }
 
-Mesh make_mesh_shape(const SheetShape& shape) {
+Mesh make_mesh_shape(const ParametricMesh& shape) {
   switch (shape.kind) {
-    case SheetShape::Kind::strip:
+    case ParametricMesh::Kind::strip:
       return make_strip(shape.length, shape.width, shape.across);
-    case SheetShape::Kind::tube:
+    case ParametricMesh::Kind::tube:
       return make_tube(shape);
-    case SheetShape::Kind::disc:
+    case ParametricMesh::Kind::disc:
       break;
   }
   return make_disc(shape.radius, shape.rings);
 }
 
-std::optional<SheetShape::Kind> mesh_shape_kind(const TomlValue& value) {
+std::optional<ParametricMesh::Kind> mesh_shape_kind(const TomlValue& value) {
   const TomlTable* table = value.as<TomlTable>();
   for (std::size_t i = 0; table != nullptr && i < mesh_shape_names().size(); ++i) {
-    if (table->find(mesh_shape_names()[i]) != nullptr) return static_cast<SheetShape::Kind>(i);
+    if (table->find(mesh_shape_names()[i]) != nullptr) return static_cast<ParametricMesh::Kind>(i);
   }
   return std::nullopt;
 }
 
 std::optional<Mesh> read_mesh_shape(const TomlValue& value, const std::string& name, Problems& problems) {
   const std::size_t before = problems.count();
-  SheetShape shape{.kind = *mesh_shape_kind(value)};
+  ParametricMesh shape{.kind = *mesh_shape_kind(value)};
   const std::string& kind = mesh_shape_names()[static_cast<std::size_t>(shape.kind)];
   for (const TomlEntry& entry : value.as<TomlTable>()->entries) {
     if (entry.name == kind) continue;

@@ -13,7 +13,7 @@
 namespace drape {
 
 /// A parametric mesh. All lengths in m.
-struct SheetShape {
+struct ParametricMesh {
   enum class Kind { disc, strip, tube };
 
   Kind kind = Kind::disc;
@@ -31,15 +31,15 @@ const std::vector<std::string>& mesh_shape_names();
 
 /// Returns the keys of the table for the shape's kind.
 /// @param shape must outlive the keys
-Keys mesh_shape_keys(SheetShape& shape);
+Keys mesh_shape_keys(ParametricMesh& shape);
 
 /// Makes the mesh of a shape around the origin, with texture coordinates that cover it once. A disc and a strip lie at
 /// z = 0; a tube's axis is z.
 /// @throws std::invalid_argument if it would have more than eight million triangles
-Mesh make_mesh_shape(const SheetShape& shape);
+Mesh make_mesh_shape(const ParametricMesh& shape);
 
 /// Returns the shape that a value names, { disc = … }; nothing for other values.
-std::optional<SheetShape::Kind> mesh_shape_kind(const TomlValue& value);
+std::optional<ParametricMesh::Kind> mesh_shape_kind(const TomlValue& value);
 
 /// Reads { disc = { radius = 1, rings = 16 } } and similar tables.
 /// @param value a value with a mesh_shape_kind()

@@ -69,7 +69,7 @@ std::string shape_text(const BodyShapeKey& key) {
 
 /// Returns text for a value in a custom form of an effect; nothing for other values.
 std::optional<std::string> own_text(const Key& key) {
-  const auto* form = std::get_if<OwnForm>(&key.target);
+  const auto* form = std::get_if<CustomValue>(&key.target);
   if (const auto* shape = form == nullptr ? nullptr : std::any_cast<BodyShapeKey>(&form->target)) {
     return shape_text(*shape);
   }
@@ -86,7 +86,7 @@ std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, 
     if (!table.name.starts_with("cloth") && table.name != "time" && table.name != "integrator") continue;
     for (const Key& key : table.keys.all()) {
       // The cloth itself records its mesh and the vertices selected from it.
-      if (std::holds_alternative<OwnForm>(key.target) || (table.name == "time" && key.name == "duration")) continue;
+      if (std::holds_alternative<CustomValue>(key.target) || (table.name == "time" && key.name == "duration")) continue;
       values.push_back({table.name + "." + key.name, value_text(key.target)});
     }
   }
@@ -97,7 +97,7 @@ std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, 
     Keys keys;
     effect.describe(keys);
     for (const Key& key : keys.all()) {
-      const auto* form = std::get_if<OwnForm>(&key.target);
+      const auto* form = std::get_if<CustomValue>(&key.target);
       if (form != nullptr && std::any_cast<BodyShapeKey>(&form->target) != nullptr && own_text(key)->empty()) continue;
       if (const auto text = own_text(key)) {
         values.push_back({paths[i] + "." + key.name, *text});
@@ -106,7 +106,7 @@ std::vector<SceneValue> physics_of_tables(const std::vector<TableType>& tables, 
       const TomlTable* table = effects[i].table->as<TomlTable>();
       const TomlValue* given = table == nullptr ? nullptr : table->find(key.name);
       const std::string* file = given == nullptr ? nullptr : given->as<std::string>();
-      const bool is_file = std::holds_alternative<OwnForm>(key.target) && file != nullptr;
+      const bool is_file = std::holds_alternative<CustomValue>(key.target) && file != nullptr;
       values.push_back({paths[i] + "." + key.name, is_file ? file_text(folder / *file) : value_text(key.target)});
     }
   }

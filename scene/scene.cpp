@@ -228,8 +228,8 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
       scene.uvs = std::move(cloth->uvs);
       mesh = std::move(cloth->mesh);
       cloth_inputs = std::move(cloth->inputs);
-      for (const std::string& doubt : cloth->doubts) {
-        scene.doubts.push_back(problems.text(place_of(*value, "mesh")) + ": mesh: " + doubt);
+      for (const std::string& doubt : cloth->warnings) {
+        scene.warnings.push_back(problems.text(place_of(*value, "mesh")) + ": mesh: " + doubt);
       }
       reader.set_mesh(&mesh);
       cloth_good = reader.good("cloth") && reader.good("cloth.transform");
@@ -239,10 +239,10 @@ Scene make_scene(TomlValue document, const std::filesystem::path& file, const st
   scene.inputs = reader.files();
   scene.inputs.insert(scene.inputs.end(), cloth_inputs.begin(), cloth_inputs.end());
   if (const TomlValue* look = find_path(document, "look")) {
-    scene.texture_place = problems.text(place_of(*look, "texture"));
+    scene.texture_location = problems.text(place_of(*look, "texture"));
     if (!scene.look.texture.empty() && find_path(*look, "color") != nullptr) {
-      scene.doubts.push_back(problems.text(place_of(*look, "color")) +
-                             ": color: it is not seen, because the texture covers the cloth: omit one of the two");
+      scene.warnings.push_back(problems.text(place_of(*look, "color")) +
+                               ": color: it is not seen, because the texture covers the cloth: omit one of the two");
     }
   }
 

@@ -48,7 +48,7 @@ struct Scene {
   OverlaySettings overlay;
   CheckSettings check;
   std::vector<std::filesystem::path> inputs;  ///< every file read: the scene itself, meshes, tracks, the texture
-  std::string texture_place;                  ///< place of the texture's name, for messages: "scene.toml:9:11"
+  std::string texture_location;               ///< place of the texture's name, for messages: "scene.toml:9:11"
   std::vector<SceneField> fields;             ///< every key with its value
   std::string caption_place;                  ///< place of the caption's text, for messages
   /// Hash of the file and the overrides, except [check], [caption] and [overlay]; 16 hexadecimal digits. Comments, the
@@ -56,7 +56,7 @@ struct Scene {
   std::string digest;
   std::vector<SceneValue> tables;      ///< values in the tables that affect the motion, see physics_values()
   PortableScene portable;              ///< the scene and all its input files
-  std::vector<std::string> doubts;     ///< warnings about valid but unlikely values: "scene.toml:2:8: …"
+  std::vector<std::string> warnings;   ///< warnings about valid but unlikely values: "scene.toml:2:8: …"
   std::optional<MethodChoice> choice;  ///< automatic choice of a method if none is named
   std::optional<Quality> quality;      ///< quality that its numbers were adjusted for
 

@@ -88,7 +88,7 @@ class KeyReader {
   void operator()(std::optional<Eigen::Vector3d>* target) const {
     assign(target, in_reach(read_vector(value_, key_.name, range_, problems_)));
   }
-  void operator()(const OwnForm& form) const {
+  void operator()(const CustomValue& form) const {
     if (auto* const* track = std::any_cast<std::shared_ptr<const SphereTrack>*>(&form.target)) {
       read_track(**track);
     } else if (auto* const* moving = std::any_cast<std::shared_ptr<const MeshMotion>*>(&form.target)) {

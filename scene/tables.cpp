@@ -7,8 +7,8 @@ namespace {
 
 Keys cloth_keys(ClothTable& cloth) {
   Keys keys;
-  keys.add("mesh", OwnForm{"mesh", &cloth.mesh}, "", "The shape that the cloth starts from.").must_be_given();
-  keys.add("rest", OwnForm{"mesh", &cloth.rest}, "",
+  keys.add("mesh", CustomValue{"mesh", &cloth.mesh}, "", "The shape that the cloth starts from.").must_be_given();
+  keys.add("rest", CustomValue{"mesh", &cloth.rest}, "",
            "The shape whose edge lengths are the springs' rest lengths, with the same vertices and triangles as "
            "`mesh`. Default: the starting shape.");
   keys.add("mass", &cloth.mass, "kg", "Total mass, shared equally by all vertices. Not with `density` or `material`.")
@@ -43,14 +43,14 @@ Keys cloth_keys(ClothTable& cloth) {
   keys.add("bend_stiffness", &cloth.bend_stiffness, "N/m",
            "With `spring = \"edges+bend\"`: stiffness between every other vertex. Default: `stiffness`.")
       .above(0);
-  keys.add("pins", OwnForm{"pins", &cloth.pins}, "", "Vertices that do not move.");
+  keys.add("pins", CustomValue{"pins", &cloth.pins}, "", "Vertices that do not move.");
   keys.add("velocity", &cloth.velocity, "m/s", "Initial velocity of every vertex that is not pinned.");
   return keys;
 }
 
 Keys transform_keys(ClothTable& cloth) {
   Keys keys;
-  keys.add("scale", OwnForm{"number or [x, y, z], above 0", &cloth.scale}, "",
+  keys.add("scale", CustomValue{"number or [x, y, z], above 0", &cloth.scale}, "",
            "Scales the mesh about its origin; applied first. Without `rest` the rest lengths scale too.");
   keys.add("rotate", &cloth.rotate, "degrees", "Rotates about the fixed x axis, then y, then z.");
   keys.add("translate", &cloth.translate, "m", "Moves the mesh; applied last.");
@@ -256,7 +256,7 @@ Keys check_keys(CheckSettings& check) {
            "Largest accepted ratio of the time of the first steps to that in the golden, both measured beside a "
            "calibration loop. Default: time is not compared.")
       .above(1);
-  keys.add("ignore", OwnForm{"[[x, y, width, height], …]", &check.ignore}, "pixels",
+  keys.add("ignore", CustomValue{"[[x, y, width, height], …]", &check.ignore}, "pixels",
            "Parts of the golden pictures that are shown but not judged, measured from the top left.");
   keys.add("ignore_frames", &check.ignore_frames, "", "Frames whose pictures are shown but not judged.").at_least(0);
   return keys;

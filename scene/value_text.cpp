@@ -22,7 +22,7 @@ struct WriteValue {
   std::string operator()(const Choice& choice) const {
     return choice.initial ? fmt::format("\"{}\"", choice.names[*choice.initial]) : "";
   }
-  std::string operator()(const OwnForm&) const { return ""; }
+  std::string operator()(const CustomValue&) const { return ""; }
   std::string operator()(const KeyframeList& list) const {
     std::string text;
     for (const Keyframe& keyframe : *list.keyframes) {

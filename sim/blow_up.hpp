@@ -31,10 +31,10 @@ class BlowUpWatch {
   void begin(const State& state, double energy);
 
   /// Checkpoint state.
-  using Books = EnergyMemory;
-  [[nodiscard]] const Books& books() const { return books_; }
+  using EnergyHistory = EnergyMemory;
+  [[nodiscard]] const EnergyHistory& books() const { return books_; }
   /// Restores a checkpoint state.
-  void go_on(const Books& books) { books_ = books; }
+  void go_on(const EnergyHistory& books) { books_ = books; }
 
   /// Adds the work of a step that has ended, and checks the energy after every interval, see StabilityGuard::look.
   std::optional<double> look(const State& state, const Vertices& push, bool constant,
@@ -45,7 +45,7 @@ class BlowUpWatch {
   double limit_;
   int interval_;
   double rounding_;  // rounding error of the energy due to the positions [J]
-  Books books_;
+  EnergyHistory books_;
 };
 
 /// Returns an error that names the step, the time, the worst vertex (the first non-finite, or else the fastest), the

@@ -29,7 +29,7 @@ struct BodyShape {
   bool operator==(const BodyShape&) const = default;
 };
 
-/// The key of a body that gives it a shape of this kind; the target of an OwnForm.
+/// The key of a body that gives it a shape of this kind; the target of an CustomValue.
 struct BodyShapeKey {
   BodyShape::Kind kind;
   std::optional<BodyShape>* shape;

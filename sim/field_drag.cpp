@@ -51,7 +51,7 @@ FieldDrag::FieldDrag(const System& system, double duration, bool bounded)
 }
 
 Matrix3d FieldDrag::drag(std::size_t vertex, double most) const {
-  const Matrix3d g = slopes_.of_velocity()[vertex] / duration_ + slopes_.of_place()[vertex];
+  const Matrix3d g = slopes_.velocity_forces()[vertex] / duration_ + slopes_.position_forces()[vertex];
   if (!g.allFinite()) return Matrix3d::Zero();
   const Matrix3d against = -(g + g.transpose()) / 2;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> parts(against);

@@ -28,8 +28,8 @@ class FieldSlopes {
   /// Computes the derivatives at a state and a time [s].
   void find(const State& state, double time);
 
-  [[nodiscard]] const std::vector<Eigen::Matrix3d>& of_place() const { return of_place_; }        ///< ∂a/∂x [1/s²]
-  [[nodiscard]] const std::vector<Eigen::Matrix3d>& of_velocity() const { return of_velocity_; }  ///< ∂a/∂v [1/s]
+  [[nodiscard]] const std::vector<Eigen::Matrix3d>& position_forces() const { return of_place_; }  ///< ∂a/∂x [1/s²]
+  [[nodiscard]] const std::vector<Eigen::Matrix3d>& velocity_forces() const { return of_velocity_; }  ///< ∂a/∂v [1/s]
 
  private:
   /// Computes the derivatives by one part of a state.

@@ -117,9 +117,9 @@ bool FormulaField::uses(std::span<const std::string_view> names) const {
   return std::ranges::any_of(names, [&](std::string_view name) { return parsers_->uses(name); });
 }
 
-bool FormulaField::of_place() const { return uses(places); }
+bool FormulaField::position_forces() const { return uses(places); }
 bool FormulaField::of_time() const { return uses(times); }
-bool FormulaField::of_velocity() const { return uses(speeds); }
+bool FormulaField::velocity_forces() const { return uses(speeds); }
 
 std::optional<std::string> FormulaField::problem(const std::string& formula) {
   FieldPoint point;

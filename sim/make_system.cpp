@@ -26,7 +26,7 @@ void install_effects(const SimulationSettings& settings, std::vector<double>* ef
   for (std::size_t i = 0; i < settings.effects.size(); ++i) {
     const SystemSizes before(system);
     settings.effects[i].install(system);
-    for (std::size_t f = before.filters; f < system.filters.size(); ++f) system.filters[f]->heed(stop);
+    for (std::size_t f = before.filters; f < system.filters.size(); ++f) system.filters[f]->set_stop(stop);
     if (effect_seconds != nullptr) time_additions(system, before, (*effect_seconds)[i]);
   }
   add_drag(settings.integrator, system);
@@ -35,7 +35,7 @@ void install_effects(const SimulationSettings& settings, std::vector<double>* ef
   const bool explicitly = is_explicit(settings.integrator.method);
   if (!explicitly && system.filters.empty()) return;
   system.filters.push_back(std::make_unique<ImpulseContact>(system.contacts, system.cloth, system.gravity));
-  system.filters.back()->heed(stop);
+  system.filters.back()->set_stop(stop);
   if (explicitly) system.contacts.clear();
 }
 

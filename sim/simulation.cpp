@@ -165,7 +165,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 StepReport Simulation::step() { return motion_->step(); }
 
-void Simulation::take_back() {
+void Simulation::undo_step() {
   if (motion_->may_be_interrupted()) motion_->restore(motion_->before);
 }
 
@@ -195,8 +195,8 @@ double Simulation::residual() const {
 double Simulation::error() const {
   return motion_->said([](Scheme& scheme) { return scheme.error(); });
 }
-double Simulation::unbalanced() const {
-  return motion_->said([](Scheme& scheme) { return scheme.unbalanced(); });
+double Simulation::residual_force() const {
+  return motion_->said([](Scheme& scheme) { return scheme.residual_force(); });
 }
 double Simulation::weight() const { return motion_->settings.cloth.masses.sum() * motion_->system->gravity.norm(); }
 std::optional<Accuracy> Simulation::accuracy() const {

@@ -54,7 +54,7 @@ class Simulation {
 
   /// Undoes the last step if a stop is possible; only once, and not after a restore. For an interruption while a
   /// finished step is examined.
-  void take_back();
+  void undo_step();
 
   /// Continues from another state of the same cloth, at any step.
   void restore(const State& state);
@@ -90,8 +90,8 @@ class Simulation {
   [[nodiscard]] double residual() const;
   /// Returns the estimated error of the last step's solve [m], see Scheme::error. @throws Interrupted
   [[nodiscard]] double error() const;
-  /// Returns the residual forces of the last step [N], see Scheme::unbalanced.
-  [[nodiscard]] double unbalanced() const;
+  /// Returns the residual forces of the last step [N], see Scheme::residual_force.
+  [[nodiscard]] double residual_force() const;
   /// Returns Σ m‖g‖ [N].
   [[nodiscard]] double weight() const;
   /// Returns the stopping criterion of a step; nothing for methods that minimise nothing.

@@ -28,23 +28,23 @@ const Vertices& StepForces::all(const State& state, double time) {
   return sum(state, time, [](const Force&) { return true; });
 }
 
-const Vertices& StepForces::of_place(const State& state, double time) {
-  return sum(state, time, [](const Force& force) { return !force.of_velocity(); });
+const Vertices& StepForces::position_forces(const State& state, double time) {
+  return sum(state, time, [](const Force& force) { return !force.velocity_forces(); });
 }
 
 bool StepForces::any_of_velocity() const {
-  return std::any_of(system_.forces.begin(), system_.forces.end(), [](const auto& f) { return f->of_velocity(); });
+  return std::any_of(system_.forces.begin(), system_.forces.end(), [](const auto& f) { return f->velocity_forces(); });
 }
 
-void StepForces::of_velocity(const State& state, double time, Vertices& force) const {
+void StepForces::velocity_forces(const State& state, double time, Vertices& force) const {
   force.setZero(state.x.rows(), 3);
   for (const auto& f : system_.forces) {
-    if (f->of_velocity()) f->add(state, time, force);
+    if (f->velocity_forces()) f->add(state, time, force);
   }
 }
 
-void StepForces::note(const Vertices& of_velocity) {
-  force_ = *push_ + of_velocity;
+void StepForces::note(const Vertices& velocity_forces) {
+  force_ = *push_ + velocity_forces;
   push_ = &force_;
 }
 

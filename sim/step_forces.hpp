@@ -15,14 +15,14 @@ class StepForces {
   const Vertices& all(const State& state, double time);
 
   /// Returns the sum of forces that do not depend on velocities.
-  const Vertices& of_place(const State& state, double time);
+  const Vertices& position_forces(const State& state, double time);
 
   /// Returns true if any force depends on velocities.
   [[nodiscard]] bool any_of_velocity() const;
   /// Sets force = the sum of forces that depend on velocities.
-  void of_velocity(const State& state, double time, Vertices& force) const;
+  void velocity_forces(const State& state, double time, Vertices& force) const;
   /// Records the mean of velocity-dependent forces in the step [N].
-  void note(const Vertices& of_velocity);
+  void note(const Vertices& velocity_forces);
 
   /// Returns the mean force in the last step, as far as evaluated and recorded, for the energy balance [N].
   [[nodiscard]] const Vertices& push() const { return *push_; }

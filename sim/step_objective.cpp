@@ -78,7 +78,7 @@ StepObjective::Way StepObjective::longest_way(const Vertices& x) const {
   return {.whole = std::sqrt(squares.whole), .by_forces = std::sqrt(squares.by_forces)};
 }
 
-void StepObjective::place_of_start_forces(Vertices& x, Vertices& gradient) const {
+void StepObjective::predict_with_start_forces(Vertices& x, Vertices& gradient) const {
   copy(threads(), *start_x_, x);
   for (const int pin : system_.cloth.pins) x.row(pin) = y_.row(pin);
   evaluate(x, gradient);

@@ -18,7 +18,8 @@ class StepObjective {
   StepObjective(const System& system, double duration);
 
   /// Begins another step: computes y.
-  /// @param x, v  initial positions and velocities, n×3 [m], [m/s]; longest_way() and place_of_start_forces() read them
+  /// @param x, v  initial positions and velocities, n×3 [m], [m/s]; longest_way() and predict_with_start_forces() read
+  /// them
   ///           again
   /// @param force f, n×3 [N]
   /// @param end   time at the end of the step [s]
@@ -36,7 +37,7 @@ class StepObjective {
 
   /// Sets x to the final positions under constant initial forces, including those of energies: y − τ² M⁻¹ ∇E(x₀), n×3
   /// [m]. Also computes ∇g(x₀).
-  void place_of_start_forces(Vertices& x, Vertices& gradient) const;
+  void predict_with_start_forces(Vertices& x, Vertices& gradient) const;
 
   /// Computes gradient = ∇g(x), n×3 and zero on pins [N], and returns g(x) [J], in one pass.
   double evaluate(const Vertices& x, Vertices& gradient) const;

@@ -22,7 +22,7 @@ struct Force {
   /// Returns true if it is the same at every time and in every state.
   [[nodiscard]] virtual bool constant() const { return false; }
   /// Returns true if it depends on velocities.
-  [[nodiscard]] virtual bool of_velocity() const { return false; }
+  [[nodiscard]] virtual bool velocity_forces() const { return false; }
   /// Returns true if it pushes the cloth away from an obstacle, see ColliderMotion.
   [[nodiscard]] virtual bool of_contact() const { return false; }
   /// Adds the force on every vertex at a time [s] [N].
@@ -124,11 +124,11 @@ struct MotionFilter {
   void note(bool settled) { settled_ = settled; }
 
   /// Sets the stop request that the loops of apply() check.
-  void heed(const Stop& stop) { stop_ = stop; }
+  void set_stop(const Stop& stop) { stop_ = stop; }
 
  protected:
   /// @throws Interrupted if a stop is requested
-  void look_at_stop() const { stop_.look(); }
+  void check_stop() const { stop_.look(); }
 
  private:
   Stop stop_;

@@ -16,7 +16,7 @@ namespace {
 constexpr double small_tolerance = 1e-9;
 
 /// Returns the case of a scene with its own method and the study's overrides.
-StudyCase bare_case(const std::string& file, const AccuracyOptions& options, std::string label) {
+StudyCase base_case(const std::string& file, const AccuracyOptions& options, std::string label) {
   StudyCase what;
   what.label = std::move(label);
   what.scene = file;
@@ -26,7 +26,7 @@ StudyCase bare_case(const std::string& file, const AccuracyOptions& options, std
 }
 
 StudyCase make_case(const std::string& file, const AccuracyOptions& options, StepMethod method, std::string label) {
-  StudyCase what = bare_case(file, options, std::move(label));
+  StudyCase what = base_case(file, options, std::move(label));
   what.overrides.push_back("integrator.method=" + method_name(method.method));
   if (!is_explicit(method.method)) what.overrides.push_back("integrator.scheme=" + scheme_name(method.scheme));
   return what;
@@ -48,7 +48,7 @@ bool is_stable(SimulationSettings settings, StepMethod method, double step) {
 
 /// Returns a case with the default tolerance: replaces the scene's [integrator] table.
 StudyCase by_default(const std::string& file, const AccuracyOptions& options, StepMethod method, std::string label) {
-  StudyCase what = bare_case(file, options, std::move(label));
+  StudyCase what = base_case(file, options, std::move(label));
   const std::string scheme =
       is_explicit(method.method) ? "" : fmt::format(",scheme=\"{}\"", scheme_name(method.scheme));
   what.overrides.push_back(fmt::format("integrator={{method=\"{}\"{}}}", method_name(method.method), scheme));

@@ -69,8 +69,8 @@ StabilityMap empty_map(StepMethod method, StabilityAxis axis, const StabilityDet
 }
 
 /// Returns the unmeasured limits of every map that has one.
-std::vector<StabilityBorder> empty_borders() {
-  std::vector<StabilityBorder> borders;
+std::vector<StabilityLimit> empty_borders() {
+  std::vector<StabilityLimit> borders;
   for (const double stiffness : {1e-2, 1.0, 1e2, 1e4, 1e6, 1e8}) {
     for (const Method method : {Method::semi_implicit, Method::verlet}) {
       borders.push_back({method, StabilityAxis::springs, stiffness});
@@ -98,7 +98,7 @@ void measure_part(StabilityStudy& study, std::size_t part, const std::stop_token
     part -= map.cells.size();
   }
   if (part < study.borders.size()) {
-    StabilityBorder& border = study.borders[part];
+    StabilityLimit& border = study.borders[part];
     border = stability_border(border.method, border.axis, border.stiffness);
   } else {
     measure_energy(study.energies.at(part - study.borders.size()), stop);
@@ -186,8 +186,8 @@ double stability_border(const std::function<bool(double factor)>& blows_up) {
   return stable;
 }
 
-StabilityBorder stability_border(StepMethod method, StabilityAxis axis, double stiffness) {
-  StabilityBorder border{method, axis, stiffness, stability_limit(method, axis, stiffness), 0};
+StabilityLimit stability_border(StepMethod method, StabilityAxis axis, double stiffness) {
+  StabilityLimit border{method, axis, stiffness, stability_limit(method, axis, stiffness), 0};
   border.measured = border.predicted * stability_border([&](double factor) {
                       return stability_cell(method, axis, factor * border.predicted, stiffness, 2000).outcome ==
                              StabilityOutcome::blown_up;
@@ -209,7 +209,7 @@ std::vector<double> stability_costs(const StabilityStudy& study) {
   for (const StabilityMap& map : study.maps) {
     costs.insert(costs.end(), map.cells.size(), study.detail.steps * cost_of_step(map.method));
   }
-  for (const StabilityBorder& border : study.borders) costs.push_back(border_steps * cost_of_step(border.method));
+  for (const StabilityLimit& border : study.borders) costs.push_back(border_steps * cost_of_step(border.method));
   for (const EnergyCurve& curve : study.energies) {
     costs.push_back(curve_vertices * static_cast<double>(step_count(curve)) * cost_of_step(curve.method));
   }

@@ -45,7 +45,7 @@ struct StabilityMap {
 };
 
 /// The measured stability limit of a method, beside the predicted one.
-struct StabilityBorder {
+struct StabilityLimit {
   StepMethod method = Method::semi_implicit;
   StabilityAxis axis = StabilityAxis::springs;
   double stiffness = 0;  ///< stiffness in the unit of the axis
@@ -62,7 +62,7 @@ struct StabilityDetail {
 struct StabilityStudy {
   StabilityDetail detail;
   std::vector<StabilityMap> maps;
-  std::vector<StabilityBorder> borders;
+  std::vector<StabilityLimit> borders;
   std::vector<EnergyCurve> energies;
   double seconds = 0;
 };
@@ -83,7 +83,7 @@ StabilityCell stability_cell(StepMethod method, StabilityAxis axis, double step,
 /// Returns the largest factor from 0.9 to 1.5 without a blow-up, by bisection to 0.002; 1.5 if that does not blow up.
 double stability_border(const std::function<bool(double factor)>& blows_up);
 /// Measures the stability limit of a map at a stiffness.
-StabilityBorder stability_border(StepMethod method, StabilityAxis axis, double stiffness);
+StabilityLimit stability_border(StepMethod method, StabilityAxis axis, double stiffness);
 
 /// Plans the study. Every method gets a map over h and k, and one over h and the stiffness of a ground's push.
 /// Stability limits and the energy over time follow. The order of the parts is: cells, map by map; limits; curves.

@@ -25,9 +25,9 @@ std::string tally(const StabilityMap& map) {
 }
 
 /// Returns measured over predicted.
-double ratio(const StabilityBorder& border) { return border.measured / border.predicted; }
+double ratio(const StabilityLimit& border) { return border.measured / border.predicted; }
 
-ResultTable border_table(const std::vector<StabilityBorder>& borders) {
+ResultTable border_table(const std::vector<StabilityLimit>& borders) {
   ResultTable table{
       .name = "border",
       .title = "Where a method becomes unstable",
@@ -35,7 +35,7 @@ ResultTable border_table(const std::vector<StabilityBorder>& borders) {
       .rows = {},
       .notes = {"Predicted: for explicit methods 2/√λ, with springs and pushes together at their stiffest; otherwise "
                 "2/√stiffness of the push. Measured: the longest step with which 2000 steps do not blow up."}};
-  for (const StabilityBorder& b : borders) {
+  for (const StabilityLimit& b : borders) {
     const bool springs = b.axis == StabilityAxis::springs;
     table.rows.push_back({step_method_name(b.method), springs ? "springs" : "push",
                           fmt::format("{:g} {}", b.stiffness, springs ? "N/m" : "1/s²"),
@@ -45,7 +45,7 @@ ResultTable border_table(const std::vector<StabilityBorder>& borders) {
   return table;
 }
 
-std::string headline(const std::vector<StabilityBorder>& borders) {
+std::string headline(const std::vector<StabilityLimit>& borders) {
   const auto [lowest, highest] = std::minmax_element(borders.begin(), borders.end(),
                                                      [](const auto& a, const auto& b) { return ratio(a) < ratio(b); });
   return fmt::format("Instability sets in at {:.2f}–{:.2f} times the predicted step", ratio(*lowest), ratio(*highest));

@@ -66,7 +66,7 @@ std::string studying_program() {
 }
 
 RunsKey key_of(const StabilityMap& map) { return {map_name(map), "map", {}, {}, {}}; }
-RunsKey key_of(const StabilityBorder& border, std::size_t place) {
+RunsKey key_of(const StabilityLimit& border, std::size_t place) {
   return {{}, "border", step_method_name(border.method), {}, std::to_string(place)};
 }
 RunsKey key_of(const EnergyCurve& curve, std::size_t place) {

@@ -94,7 +94,7 @@ void WatchSession::draw(const std::stop_token& stop) {
   publish([&](WatchedFilm& film) {
     film.errors = result.problems;
     if (!result.divergence.empty()) film.errors.push_back(file_.string() + ": " + result.divergence);
-    film.hints = scene.doubts;
+    film.hints = scene.warnings;
     film.summary = describe_(scene, options);
     if (!bytes.empty()) {
       film.film = std::move(bytes);

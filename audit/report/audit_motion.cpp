@@ -103,7 +103,7 @@ void audit_simulation(const Scene& scene, std::int64_t steps, EnergyBook& energi
   SimulatedAudit observer(report.findings, energies, progress);
   const std::array<StepObserver*, 1> observers{&observer};
   try {
-    Simulation simulation(scene.simulation, Timing::none, heeding(stop));
+    Simulation simulation(scene.simulation, Timing::none, make_stop(stop));
     run_steps(simulation, steps, observers, stop);
     report.duration = simulation.time();
   } catch (const DivergedError& diverged) {

@@ -54,17 +54,17 @@ class UsdComposer {
   };
 
   /// Replacement of a path's prefix `from` by `to`, its prefix in the referring file.
-  struct Renaming {
+  struct PathMapping {
     std::string from, to;
   };
 
   /// A spec of a prim with its context in the composition.
   struct Opinion {
     const UsdSpec* spec = nullptr;
-    const File* stack = nullptr;           // layer stack that resolves its paths
-    std::string site;                      // path of the prim in that stack
-    bool selected = true;                  // false within an unselected variant
-    std::vector<Renaming> renamings = {};  // from this stack's paths up to the stage's
+    const File* stack = nullptr;              // layer stack that resolves its paths
+    std::string site;                         // path of the prim in that stack
+    bool selected = true;                     // false within an unselected variant
+    std::vector<PathMapping> renamings = {};  // from this stack's paths up to the stage's
     TimeMap time = {};
   };
 
@@ -258,10 +258,10 @@ class UsdComposer {
   }
 
   /// Translates a relationship's targets to paths of the stage; drops targets outside of the referenced prim.
-  static UsdRelationship renamed(const UsdRelationship& relationship, const std::vector<Renaming>& renamings) {
+  static UsdRelationship renamed(const UsdRelationship& relationship, const std::vector<PathMapping>& renamings) {
     UsdRelationship result{relationship.name, {}};
     for (std::string target : relationship.targets) {
-      const bool known = std::all_of(renamings.begin(), renamings.end(), [&](const Renaming& renaming) {
+      const bool known = std::all_of(renamings.begin(), renamings.end(), [&](const PathMapping& renaming) {
         if (!is_within(target, renaming.from)) return false;
         target = renaming.to + target.substr(renaming.from.size());
         return true;

@@ -59,7 +59,7 @@ std::vector<UsdPath> within(const std::vector<UsdPath>& meshes, const UsdPath& p
 
 [[noreturn]] void fail_without_mesh(const UsdStage& stage) {
   if (stage.gaps().empty()) stage.source().fail("there is no Mesh in the file");
-  const UsdGap& gap = stage.gaps().front();
+  const UnresolvedReference& gap = stage.gaps().front();
   gap.place.fail("there is no Mesh in the file, and what this refers to is not read: " + gap.reason);
 }
 

@@ -30,7 +30,7 @@ struct UsdPrim {
 using UsdPath = std::vector<const UsdPrim*>;
 
 /// A referenced file or prim that could not be read.
-struct UsdGap {
+struct UnresolvedReference {
   SourcePlace place;
   std::string reason;
 };
@@ -53,7 +53,7 @@ class UsdStage {
   [[nodiscard]] const SourceText& source() const { return source_; }
   [[nodiscard]] const UsdLayer& layer() const { return files_.front().layer; }
   [[nodiscard]] const std::vector<UsdPrim>& prims() const { return root_.children; }
-  [[nodiscard]] const std::vector<UsdGap>& gaps() const { return gaps_; }
+  [[nodiscard]] const std::vector<UnresolvedReference>& gaps() const { return gaps_; }
 
   /// Returns the referenced files that were read.
   [[nodiscard]] std::vector<std::filesystem::path> referenced_files() const;
@@ -75,7 +75,7 @@ class UsdStage {
   std::deque<SourceText> texts_;  // texts of the files besides source_
   std::deque<File> files_;        // the first is that of source_
   std::deque<UsdAttribute> retimed_;
-  std::vector<UsdGap> gaps_;
+  std::vector<UnresolvedReference> gaps_;
   UsdPrim root_;
 };
 

@@ -107,7 +107,7 @@ void BodyCandidates::find_all(Find&& find) {
   const int parts = static_cast<int>(findings_.size());
   const auto count = static_cast<Eigen::Index>(groups_.size());
   threads_.for_each(parts, [&](int part) {
-    Findings& findings = findings_[Index(part)];
+    SearchResults& findings = findings_[Index(part)];
     findings.pairs.clear();
     for (auto g = begin_of_part(count, part, parts); g < begin_of_part(count, part + 1, parts); ++g) {
       Group& group = groups_[Index(g)];
@@ -117,7 +117,7 @@ void BodyCandidates::find_all(Find&& find) {
     }
   });
   pairs_.clear();
-  for (const Findings& findings : findings_) {
+  for (const SearchResults& findings : findings_) {
     pairs_.insert(pairs_.end(), findings.pairs.begin(), findings.pairs.end());
   }
   Index begin = 0;
@@ -128,12 +128,12 @@ void BodyCandidates::find_all(Find&& find) {
 }
 
 void BodyCandidates::find(const BodyStep& step, double reach) {
-  find_all([&](Group& group, Findings& findings) { find_of(group, step, reach, findings); });
+  find_all([&](Group& group, SearchResults& findings) { find_of(group, step, reach, findings); });
 }
 
 void BodyCandidates::find_again(const BodyStep& step, double reach, const std::vector<char>& changed) {
   pairs_.swap(before_);
-  find_all([&](Group& group, Findings& findings) {
+  find_all([&](Group& group, SearchResults& findings) {
     if (std::ranges::any_of(group.vertices, [&](int i) { return changed[Index(i)] != 0; })) {
       find_of(group, step, reach, findings);
     } else {
@@ -143,7 +143,7 @@ void BodyCandidates::find_again(const BodyStep& step, double reach, const std::v
   });
 }
 
-void BodyCandidates::find_of(Group& group, const BodyStep& step, double reach, Findings& findings) const {
+void BodyCandidates::find_of(Group& group, const BodyStep& step, double reach, SearchResults& findings) const {
   const Box box = way_box(group.vertices, step);
   if (!holds(group.region, larger(box, reach + travel_since(group.travel, step)))) {
     look_around(group, box, step, reach);
@@ -195,7 +195,7 @@ bool BodyCandidates::apart(const Group& group, const BodyStep& step, double reac
   return lowest - group.level > reach + travel_since(group.of_travel, step);
 }
 
-void BodyCandidates::add_group(const Group& group, const BodyStep& step, double reach, Findings& findings) const {
+void BodyCandidates::add_group(const Group& group, const BodyStep& step, double reach, SearchResults& findings) const {
   const Box around = larger(way_box(group.vertices, step), reach);
   auto& [pairs, near, near_boxes] = findings;
   near.clear();

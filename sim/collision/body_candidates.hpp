@@ -60,7 +60,7 @@ class BodyCandidates {
     std::size_t begin = 0, count = 0;  // range of its pairs
   };
   /// Pairs found in one part of the groups, with buffers for the search.
-  struct Findings {
+  struct SearchResults {
     std::vector<BodyPair> pairs;
     std::vector<int> near = {};        // body triangles near a group in a step
     std::vector<Box> near_boxes = {};  // boxes of these triangles
@@ -68,12 +68,12 @@ class BodyCandidates {
   /// Collects the pairs that find(group, findings) adds for each group.
   template <class Find>
   void find_all(Find&& find);
-  void find_of(Group& group, const BodyStep& step, double reach, Findings& findings) const;
+  void find_of(Group& group, const BodyStep& step, double reach, SearchResults& findings) const;
   void look_around(Group& group, const Box& box, const BodyStep& step, double reach) const;
   /// Sets the plane that best separates the group from its near triangles.
   static void place_plane(Group& group, const BodyStep& step);
   [[nodiscard]] static bool apart(const Group& group, const BodyStep& step, double reach);
-  void add_group(const Group& group, const BodyStep& step, double reach, Findings& findings) const;
+  void add_group(const Group& group, const BodyStep& step, double reach, SearchResults& findings) const;
   void add_pairs(const Patch& patch, int triangle, const BodyStep& step, double reach,
                  std::vector<BodyPair>& pairs) const;
   void add(const FeaturePair& pair, int triangle, int corner, const BodyStep& step, double reach,
@@ -87,7 +87,7 @@ class BodyCandidates {
   std::vector<int> vertices_;                        // of each group, without duplicates
   std::vector<Group> groups_;
   std::vector<BodyPair> pairs_, before_;
-  std::vector<Findings> findings_;  // per part
+  std::vector<SearchResults> findings_;  // per part
 };
 
 }  // namespace drape

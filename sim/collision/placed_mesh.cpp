@@ -149,8 +149,8 @@ bool PlacedMesh::encloses(const Point& point) const {
   return std::abs(solid_angle) > 2 * std::numbers::pi;
 }
 
-Foot PlacedMesh::foot_on_edge(const Point& point, int triangle, const Nearest& near) const {
-  Foot foot{.triangle = triangle, .weights = {-near.weights[1], -near.weights[2], -near.weights[3]}};
+ClosestPoint PlacedMesh::foot_on_edge(const Point& point, int triangle, const Nearest& near) const {
+  ClosestPoint foot{.triangle = triangle, .weights = {-near.weights[1], -near.weights[2], -near.weights[3]}};
   const Point away = point - foot.weights[0] * corner(triangle, 0) - foot.weights[1] * corner(triangle, 1) -
                      foot.weights[2] * corner(triangle, 2);
   const Point out = normal_at(triangle, foot.weights);
@@ -163,7 +163,7 @@ Foot PlacedMesh::foot_on_edge(const Point& point, int triangle, const Nearest& n
   return on_its_side(foot);
 }
 
-std::optional<Foot> PlacedMesh::find(const Point& point, double reach, int hint) const {
+std::optional<ClosestPoint> PlacedMesh::find(const Point& point, double reach, int hint) const {
   const Box& bounds = tree_.bounds();
   if (!((point - bounds.low).array() >= -reach).all() || !((bounds.high - point).array() >= -reach).all()) {
     return std::nullopt;

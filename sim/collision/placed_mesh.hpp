@@ -24,7 +24,7 @@ struct MeshTopology {
 };
 
 /// Closest point of a mesh to a given point.
-struct Foot {
+struct ClosestPoint {
   int triangle = -1;              ///< nearest triangle
   Point weights = Point::Zero();  ///< of its corners, at the closest point
   Point normal = Point::Zero();   ///< unit vector away from the mesh; outwards if the mesh is solid
@@ -45,7 +45,7 @@ class PlacedMesh {
   /// Returns the closest point of the mesh. May return nothing if it is further than `reach` [m], unless the point is
   /// inside a solid.
   /// @param hint a triangle that may be the nearest; speeds up the search and does not change the result
-  [[nodiscard]] std::optional<Foot> find(const Point& point, double reach, int hint = -1) const;
+  [[nodiscard]] std::optional<ClosestPoint> find(const Point& point, double reach, int hint = -1) const;
 
   /// Returns the closest point of a triangle to a point, like `nearest` for a vertex and a triangle.
   [[nodiscard]] Nearest nearest_on(int triangle, const Point& point) const {
@@ -72,7 +72,7 @@ class PlacedMesh {
     return (1 - 1e-9) * (height * height + beyond);
   }
   /// Returns the result of find() for a given nearest triangle.
-  [[nodiscard]] Foot foot(const Point& point, int triangle, const Nearest& near) const {
+  [[nodiscard]] ClosestPoint foot(const Point& point, int triangle, const Nearest& near) const {
     const Facet& facet = facets_[static_cast<std::size_t>(triangle)];
     const std::array<double, 4>& w = near.weights;
     const bool inside = w[1] != 0 && w[2] != 0 && w[3] != 0;
@@ -107,12 +107,12 @@ class PlacedMesh {
   [[nodiscard]] const Point& corner(int triangle, std::size_t c) const {
     return points_[static_cast<std::size_t>(topology_->triangles[static_cast<std::size_t>(triangle)][c])];
   }
-  [[nodiscard]] Foot foot_on_edge(const Point& point, int triangle, const Nearest& near) const;
+  [[nodiscard]] ClosestPoint foot_on_edge(const Point& point, int triangle, const Nearest& near) const;
   /// Returns true if the mesh encloses a point, by its winding number (Jacobson, Kavan and Sorkine-Hornung 2013,
   /// "Robust inside-outside segmentation using generalized winding numbers"). Visits every triangle.
   [[nodiscard]] bool encloses(const Point& point) const;
   /// Returns the closest point, on the point's own side if the mesh is a shell.
-  [[nodiscard]] Foot on_its_side(Foot foot) const {
+  [[nodiscard]] ClosestPoint on_its_side(ClosestPoint foot) const {
     if (!topology_->closed && foot.distance < 0) {
       foot.distance = -foot.distance;
       foot.normal = -foot.normal;

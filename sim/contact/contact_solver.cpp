@@ -55,13 +55,13 @@ ContactSolver::ContactSolver(const System& system)
   if (system.cloth.springs.empty()) longest_move_ = std::numeric_limits<double>::infinity();
 }
 
-void ContactSolver::begin(const State& from, double start, double end, bool of_the_moment) {
+void ContactSolver::begin(const State& from, double start, double end, bool instantaneous) {
   contacts_.clear();
   const Vertices& x = start_ = from.x;
   flight_.h = end - start;
   flight_.gravity = system_.gravity;
   flight_.start_v = from.v;
-  flight_.mean = from.v.rowwise() + (of_the_moment ? 0.5 : 1.0) * flight_.h * system_.gravity.transpose();
+  flight_.mean = from.v.rowwise() + (instantaneous ? 0.5 : 1.0) * flight_.h * system_.gravity.transpose();
   flight_.target = x + flight_.h * flight_.mean;
   for (const auto& source : system_.contacts) source->begin(start_, start, end);
 }
@@ -71,7 +71,7 @@ bool ContactSolver::touches(const Vertices& target) {
   return !contacts_.empty();
 }
 
-bool ContactSolver::hinders(const Vertices& target) {
+bool ContactSolver::is_blocked(const Vertices& target) {
   find(target, true);
   return std::ranges::any_of(contacts_, [&](const ContactConstraint& contact) {
     const double lies = (1 + begins_on) * contact.distance;
@@ -170,10 +170,10 @@ void ContactSolver::find_radii(const Vertices& x, bool all) {
   }
 }
 
-ContactSolver::Standing ContactSolver::assess(const ContactProblem& problem, const Iterate& point) {
+ContactSolver::PointStatus ContactSolver::assess(const ContactProblem& problem, const Iterate& point) {
   gradient_ = point.gradient;
   responses_.resize(contacts_.size());
-  Standing now{.value = point.value, .residual = 0, .error = 0, .collides = false};
+  PointStatus now{.value = point.value, .residual = 0, .error = 0, .collides = false};
   for (Index k = 0; k < contacts_.size(); ++k) {
     responses_[k] = respond(contacts_[k], point.x);
     contacts_[k].scatter(-responses_[k].force, gradient_);
@@ -328,7 +328,7 @@ StepReport ContactSolver::solve(ContactProblem& problem, const Accuracy& accurac
     problem.linearise(point.x, 0, damping_);
     set_stiffness(problem);
     find_radii(point.x, updated);
-    const Standing now = assess(problem, point);
+    const PointStatus now = assess(problem, point);
     const bool by_gradient = accuracy.rule == StoppingRule::gradient;
     const double usual = accuracy.usual || by_gradient ? std::max(share_of_change * longest(point.x - steady_),
                                                                   share_of_way * longest(point.x - start_))
@@ -367,7 +367,7 @@ double ContactSolver::slack(const Vertices& x) const {
   return most;
 }
 
-void ContactSolver::go_with_obstacles(Vertices& x) {
+void ContactSolver::move_with_obstacles(Vertices& x) {
   for (const ContactConstraint& contact : contacts_) {
     if (!contact.collides) continue;
     if (!contact.with_obstacle()) continue;
@@ -384,7 +384,7 @@ void ContactSolver::go_with_obstacles(Vertices& x) {
 
 void ContactSolver::retreat(ContactProblem& problem, Iterate& point) {
   if (!any_collides()) return;
-  for (int round = 0; round < most_rounds && carried() && any_collides(); ++round) go_with_obstacles(point.x);
+  for (int round = 0; round < most_rounds && carried() && any_collides(); ++round) move_with_obstacles(point.x);
   const Vertices way = point.x - start_;
   double part = 1;
   for (int halving = 0; halving < most_halvings && any_collides(); ++halving) {
@@ -435,7 +435,7 @@ void ContactSolver::give_velocity(const ContactConstraint& contact, const Eigen:
   for_free([&](int vertex, double share, Index) { v.row(vertex) += share / compliance * change.transpose(); });
 }
 
-void ContactSolver::rebound(bool of_the_moment, Vertices& v) const {
+void ContactSolver::rebound(bool instantaneous, Vertices& v) const {
   for (const ContactConstraint& contact : contacts_) {
     const Eigen::Vector3d& n = contact.normal;
     if (!(contact.force.dot(n) > 0)) continue;
@@ -445,7 +445,7 @@ void ContactSolver::rebound(bool of_the_moment, Vertices& v) const {
     if (!(bounce.struck > 0)) {
       // A vertex that slides on a ball moves along a chord: turn its end velocity along the surface again.
       const double most = std::max(0.0, (contact.gather(flight_.mean) + drift).dot(n));
-      if (of_the_moment && now > most) give_velocity(contact, (most - now) * n, v);
+      if (instantaneous && now > most) give_velocity(contact, (most - now) * n, v);
       continue;
     }
     double weight = 0, compliance = 0;
@@ -453,7 +453,7 @@ void ContactSolver::rebound(bool of_the_moment, Vertices& v) const {
       weight += contact.weights[i];
       compliance += contact.weights[i] * contact.weights[i] / system_.cloth.masses[contact.vertices[i]];
     }
-    const double later = of_the_moment ? flight_.h / 2 * weight * flight_.gravity.dot(n) : 0;
+    const double later = instantaneous ? flight_.h / 2 * weight * flight_.gravity.dot(n) : 0;
     if (flies_freely(contact)) {
       bounce.turned = bounce.leaves + later - now;  // independent of the gap that the solve left
     } else {

@@ -28,9 +28,9 @@ class ContactSolver {
   explicit ContactSolver(const System& system);
 
   /// Begins a step from a state, between two times [s].
-  /// @param of_the_moment true if the state holds instantaneous velocities, false if it holds mean velocities of the
+  /// @param instantaneous true if the state holds instantaneous velocities, false if it holds mean velocities of the
   ///                      last step
-  void begin(const State& from, double start, double end, bool of_the_moment);
+  void begin(const State& from, double start, double end, bool instantaneous);
 
   /// Finds the contacts of a cloth that moves straight to `target`. Returns true if there are any.
   [[nodiscard]] bool touches(const Vertices& target);
@@ -56,7 +56,7 @@ class ContactSolver {
   [[nodiscard]] double work(const Vertices& x, bool converged) const;
 
   /// Returns true if contacts stop a cloth from moving straight to `target`, or if it starts in contact.
-  [[nodiscard]] bool hinders(const Vertices& target);
+  [[nodiscard]] bool is_blocked(const Vertices& target);
 
   /// Returns true if the cloth touches an obstacle.
   [[nodiscard]] bool touches_obstacles() const;
@@ -64,9 +64,9 @@ class ContactSolver {
   [[nodiscard]] bool carried() const;
 
   /// Sets the velocities v of features that bounced in the step, n×3 [m/s]; see Bounce.
-  /// @param of_the_moment true if v are instantaneous velocities at the end of the step, false if they are its mean
+  /// @param instantaneous true if v are instantaneous velocities at the end of the step, false if they are its mean
   ///                      velocities
-  void rebound(bool of_the_moment, Vertices& v) const;
+  void rebound(bool instantaneous, Vertices& v) const;
 
   [[nodiscard]] const std::vector<ContactConstraint>& contacts() const { return contacts_; }
   /// Returns the residual of the last solve, contact forces included, n×3 [N].
@@ -84,7 +84,7 @@ class ContactSolver {
     bool sticks = false;
   };
   /// Values at a point; the gradient of the augmented function is in gradient_.
-  struct Standing {
+  struct PointStatus {
     double value;     // of the augmented function [J]
     double residual;  // largest of all contacts [m]
     double error;     // estimated, of the worst vertex [m]
@@ -100,7 +100,7 @@ class ContactSolver {
   void set_stiffness(const ContactProblem& problem);
   /// Sets the friction limits of new contacts, or of all.
   void find_radii(const Vertices& x, bool all);
-  Standing assess(const ContactProblem& problem, const Iterate& point);
+  PointStatus assess(const ContactProblem& problem, const Iterate& point);
   /// Returns true if the step is short enough for the springs at a contact that its features arrive and leave in free
   /// flight. Stiffer cloth keeps its solved position and only receives the rebound speed.
   [[nodiscard]] bool flies_freely(const ContactConstraint& contact) const;
@@ -119,7 +119,7 @@ class ContactSolver {
   [[nodiscard]] double descend(ContactProblem& problem, Iterate& point, double value);
 
   /// Moves vertices that collide with obstacles along with these.
-  void go_with_obstacles(Vertices& x);
+  void move_with_obstacles(Vertices& x);
   /// Moves vertices that collide with moving obstacles along with these. Then shortens the path to the point until no
   /// collision is left.
   void retreat(ContactProblem& problem, Iterate& point);

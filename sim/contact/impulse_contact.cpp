@@ -73,7 +73,7 @@ bool ImpulseContact::violated() const {
 void ImpulseContact::settle(Vertices& v) {
   bool found = false;
   for (int round = 0; round < most_contact_rounds; ++round) {
-    look_at_stop();
+    check_stop();
     const bool collided = any_collides();
     before_target_ = target_;
     apply_known();
@@ -152,7 +152,7 @@ Eigen::Vector3d ImpulseContact::change_of(const Impulse& impulse, double missing
 
 void ImpulseContact::solve() {
   for (int pass = 0; pass < most_impulse_passes; ++pass) {
-    look_at_stop();
+    check_stop();
     bool moved = false;
     for (Impulse& impulse : impulses_) {
       ContactConstraint& contact = impulse.contact;
@@ -190,7 +190,7 @@ void ImpulseContact::hold() {
   moving_.inverse_masses = inverse_masses_;
   converged_ = false;
   for (int round = 0; any_collides(); ++round) {
-    look_at_stop();
+    check_stop();
     bool more = false;
     for (const Impulse& impulse : impulses_) {
       if (!impulse.contact.collides) continue;

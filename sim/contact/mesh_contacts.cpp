@@ -233,7 +233,7 @@ void BodyContacts::find_vertices(const Vertices&, int source, const std::vector<
     const ContactKey key{source, vertex_kind, {i, -1, -1, -1}};
     while (known != held.end() && known->key < key) ++known;
     const bool bears = known != held.end() && known->key == key;
-    Foot foot;
+    ClosestPoint foot;
     if (!feet_.find(*end_.mesh, Index(i), target_[Index(i)], foot)) {
       if (!bears) continue;
       const auto far = end_.mesh->find(target_[Index(i)], 100 * terms_.distance);
@@ -241,7 +241,7 @@ void BodyContacts::find_vertices(const Vertices&, int source, const std::vector<
       foot = *far;
     }
     if (!bears && foot.distance >= 2 * terms_.distance) continue;
-    Foot before;
+    ClosestPoint before;
     const bool was_near = start_feet_.find(*start_.mesh, Index(i), x_[Index(i)], before);
     const Triangle& t = body_->topology().triangles[Index(foot.triangle)];
     ContactConstraint contact = make({i, cloth_count_ + t[0], cloth_count_ + t[1], cloth_count_ + t[2]},

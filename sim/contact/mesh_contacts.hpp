@@ -7,7 +7,7 @@
 
 #include "sim/collision/body_candidates.hpp"
 #include "sim/collision/candidates.hpp"
-#include "sim/collision/foot_memory.hpp"
+#include "sim/collision/closest_point_cache.hpp"
 #include "sim/contact/surface_contacts.hpp"
 #include "sim/moving_body.hpp"
 
@@ -86,7 +86,7 @@ class BodyContacts final : public ContactSource {
   int cloth_count_;
   BodyAt start_, end_;
   BodyCandidates candidates_;
-  FootMemory feet_, start_feet_;
+  ClosestPointCache feet_, start_feet_;
   double duration_ = 0;
   bool searched_ = false;
   const Vertices* world_ = nullptr;            // positions at the start of the step

@@ -33,7 +33,7 @@ struct DrawnBody final : ColliderMotion {
 void describe_shapes(Keys& keys, std::optional<BodyShape>& shape) {
   const auto add = [&](BodyShape::Kind kind, const char* form, const char* help) {
     const std::string& name = body_shape_names()[static_cast<std::size_t>(kind)];
-    keys.add(name, OwnForm{form, BodyShapeKey{kind, &shape}}, "m", help);
+    keys.add(name, CustomValue{form, BodyShapeKey{kind, &shape}}, "m", help);
   };
   using Kind = BodyShape::Kind;
   add(Kind::cylinder, "{ radius, height }", "A cylinder around `center`, its axis along z; `segments` sides, 64.");
@@ -62,7 +62,7 @@ void Body::describe(Keys& keys) {
   keys.add("box", &box, "m", "Sides of a box around `center`.").must_be_given_unless(std::move(others)).above(0);
   describe_shapes(keys, shape);
   keys.add(
-      "file", OwnForm{"file", &mesh}, "",
+      "file", CustomValue{"file", &mesh}, "",
       "Mesh file instead, which may move: as for a cloth, or an OBJ sequence, `\"arm/{frame:04}.obj\"`; or `{ file, "
       "prim, up, fps }`. Its coordinates are relative to `center`.");
   keys.add("prim", &prim, "", "Which mesh of a USD file, where there are several: \"/World/arm\".");

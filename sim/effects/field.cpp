@@ -18,12 +18,13 @@ class FieldForce final : public Force {
   FieldForce(const Field& field, const Eigen::VectorXd& masses)
       : formulas_(field.acceleration),
         masses_(masses),
-        constant_(!formulas_.of_place() && !formulas_.of_time() && !formulas_.of_velocity()),
-        of_velocity_(formulas_.of_velocity()),
-        bound_(field.stiffness_bound.value_or(formulas_.of_place() ? std::numeric_limits<double>::infinity() : 0)) {}
+        constant_(!formulas_.position_forces() && !formulas_.of_time() && !formulas_.velocity_forces()),
+        of_velocity_(formulas_.velocity_forces()),
+        bound_(field.stiffness_bound.value_or(formulas_.position_forces() ? std::numeric_limits<double>::infinity()
+                                                                          : 0)) {}
 
   [[nodiscard]] bool constant() const override { return constant_; }
-  [[nodiscard]] bool of_velocity() const override { return of_velocity_; }
+  [[nodiscard]] bool velocity_forces() const override { return of_velocity_; }
   [[nodiscard]] double stiffness_bound() const override { return bound_; }
 
   void add(const State& state, double time, Vertices& force) const override {
@@ -56,7 +57,7 @@ void Field::describe(Keys& keys) {
 void Field::check(const SimulationSettings& settings, const ProblemSink& problem) const {
   const Method method = settings.integrator.method;
   if (stiffness_bound || !is_explicit(method) || settings.integrator.allow_unstable) return;
-  if (!FormulaField(acceleration).of_place()) return;
+  if (!FormulaField(acceleration).position_forces()) return;
   problem(
       "acceleration",
       fmt::format(
@@ -67,7 +68,7 @@ void Field::check(const SimulationSettings& settings, const ProblemSink& problem
 
 void Field::install(System& system) const {
   auto force = std::make_unique<FieldForce>(*this, system.cloth.masses);
-  auto& list = force->of_velocity() ? system.fields : system.forces;
+  auto& list = force->velocity_forces() ? system.fields : system.forces;
   list.push_back(std::move(force));
 }
 

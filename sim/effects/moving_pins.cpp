@@ -36,7 +36,7 @@ void MovingPins::describe(Keys& keys) {
       "Angles over time about the fixed x axis, then y, then z, around the pins' centroid, which `keyframes` moves. "
       "They start at 0 and are interpolated one by one: 720 is two turns.");
   keys.add(
-      "follow", OwnForm{"mesh that moves", &follow}, "",
+      "follow", CustomValue{"mesh that moves", &follow}, "",
       "A mesh that they hold on to instead, `\"body/{frame:04}.obj\"` or `{ file, prim }`: each pin keeps its place "
       "beside the nearest triangle at the start.");
   keys.choice("interpolation", interpolation, {"linear", "smooth"},

@@ -75,7 +75,7 @@ void StrainFilter::relax_from(const Vertices& x, double h, Vertices& v, int most
   double value = 0;
   int next_look = 0;
   for (int sweep = 0; sweep < most_sweeps && !converged_; ++sweep) {
-    look_at_stop();
+    check_stop();
     const bool early = sweep < early_sweeps;
     if (sweep > 0) go_on(value);
     relax_all(early);

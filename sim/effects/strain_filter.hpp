@@ -52,7 +52,7 @@ class StrainFilter final : public MotionFilter {
     Index limited;
     double tension;  // [N]
   };
-  enum class Stage : unsigned char { still, watched, active, restless };
+  enum class Stage : unsigned char { still, watched, active, unconverged };
   struct Limited {
     int i, j;
     double weight;             // sum of 1/m of both ends [1/kg]

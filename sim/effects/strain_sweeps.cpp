@@ -51,13 +51,13 @@ void StrainFilter::relax(Limited& s, bool early) {
 
 /// Sweeps over the unconverged springs and their neighbours until they hold.
 void StrainFilter::settle(bool early) {
-  for (const Index k : restless_) limited_[k].stage = Stage::restless;
+  for (const Index k : restless_) limited_[k].stage = Stage::unconverged;
   for (Index ring = 0, inner = 0; ring < rings; ++ring) {
     for (const Index outer = restless_.size(); inner < outer; ++inner) {
       for (const int end : {limited_[restless_[inner]].i, limited_[restless_[inner]].j}) {
         for (const Index other : springs_at_[Index(end)]) {
           if (limited_[other].stage != Stage::active) continue;
-          limited_[other].stage = Stage::restless;
+          limited_[other].stage = Stage::unconverged;
           restless_.push_back(other);
         }
       }

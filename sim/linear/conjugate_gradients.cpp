@@ -78,7 +78,7 @@ bool ConjugateGradients::solve_within(int iterations, const Vertices& x, const V
     if (!std::isfinite(length)) return true;
     add_multiple(threads, length, search_, direction);
     add_multiple(threads, -length, product_, residual_);
-    if (estimates_ && hardly_grows(direction)) return true;
+    if (estimates_ && has_stagnated(direction)) return true;
   }
   return true;
 }
@@ -103,7 +103,7 @@ void ConjugateGradients::linearise(const Vertices& x, double concavity) {
   if (diagonal_) diagonal_->linearise(blocks_);
 }
 
-bool ConjugateGradients::hardly_grows(const Vertices& direction) {
+bool ConjugateGradients::has_stagnated(const Vertices& direction) {
   lengths_.push_back(norm(objective_.threads(), direction));
   return lengths_.size() > growing &&
          lengths_.back() < (1 + growth_of_estimates) * lengths_[lengths_.size() - 1 - growing];

@@ -40,7 +40,7 @@ class ConjugateGradients final : public NewtonSolver {
  private:
   void linearise(const Vertices& x, double concavity);
   /// Returns true if the length of an estimate has almost stopped growing.
-  [[nodiscard]] bool hardly_grows(const Vertices& direction);
+  [[nodiscard]] bool has_stagnated(const Vertices& direction);
   /// Sets preconditioned_ from the residual.
   void precondition();
   void apply(const Vertices& vector, Vertices& product) const;

@@ -53,7 +53,7 @@ void require_surface(double rows, double operations, double always) {
   // A surface's factor takes about 20 n^1.5 operations (George 1973), with bending 200.
   constexpr double per_row = 2000;
   if (operations <= std::max(always, per_row * rows * std::sqrt(rows))) return;
-  throw UnlikeASurface(
+  throw FactorTooExpensive(
       fmt::format("a sparse factor of {} rows takes {:.1e} operations, because the mesh is unlike a surface: too many "
                   "vertices are joined across it; use a coarser cloth or method = \"semi-implicit\"",
                   rows, operations));

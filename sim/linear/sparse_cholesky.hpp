@@ -19,7 +19,7 @@ struct LowerPattern {
 
 /// Thrown for a factor that takes far longer than that of a surface. It depends on the cloth alone, not on the
 /// machine's memory.
-class UnlikeASurface : public UsageError {
+class FactorTooExpensive : public UsageError {
  public:
   using UsageError::UsageError;
 };
@@ -27,7 +27,7 @@ class UnlikeASurface : public UsageError {
 /// Rejects the factor of a graph unlike a surface's, which could take minutes without any progress report.
 /// @param operations multiplications and additions for the factor
 /// @param always     number of operations that any graph may take
-/// @throws UnlikeASurface
+/// @throws FactorTooExpensive
 void require_surface(double rows, double operations, double always);
 
 /// The Cholesky factorisation A = Pᵀ L Lᵀ P of a sparse symmetric positive-definite matrix, by CHOLMOD (Chen et al.

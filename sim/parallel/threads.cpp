@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/parallel/turnout.hpp"
+#include "sim/parallel/busy_backoff.hpp"
 
 namespace drape {
 namespace {
@@ -26,11 +26,11 @@ constexpr int bits_of_parts = 32;
 constexpr std::uint64_t one_loop = std::uint64_t{1} << bits_of_parts;
 constexpr std::uint64_t parts_mask = one_loop - 1;
 
-Turnout::Time now() { return std::chrono::steady_clock::now().time_since_epoch(); }
+BusyBackoff::Time now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
 }  // namespace
 
-bool Patience::wait() {
+bool SpinWait::wait() {
   if (++waits_ > give_way_at) {
     std::this_thread::yield();
   } else {
@@ -79,8 +79,8 @@ class Threads::Crew {
   /// Returns true if this thread divides the current loop.
   [[nodiscard]] bool divided_here() const { return divider_ == std::this_thread::get_id(); }
 
-  Turnout turnout;
-  Turnout::Time waited{0};  // time that the dividing thread has waited in the current loop
+  BusyBackoff turnout;
+  BusyBackoff::Time waited{0};  // time that the dividing thread has waited in the current loop
 
  private:
   /// Waits until all parts are done.
@@ -94,7 +94,7 @@ class Threads::Crew {
   }
 
   void serve() {
-    Patience patience;
+    SpinWait patience;
     while (!ending_) {
       const std::uint64_t seen = left_.load();
       if ((seen & parts_mask) != 0) {
@@ -156,13 +156,13 @@ void Threads::divide(int parts, void* given, void (*call)(void* given, int part)
     return;
   }
   crew_->waited = {};
-  const Turnout::Time begin = now();
+  const BusyBackoff::Time begin = now();
   crew_->divide(*this, parts, given, call);
-  const Turnout::Time end = now();
+  const BusyBackoff::Time end = now();
   crew_->turnout.note(end - begin, crew_->waited, end);
 }
 
-bool Threads::alone() const { return spare_ && crew_ && crew_->turnout.poor(now()); }
+bool Threads::alone() const { return spare_ && crew_ && crew_->turnout.active(now()); }
 
 const Threads& one_thread() {
   static const Threads one;
@@ -172,7 +172,7 @@ const Threads& one_thread() {
 Wait::Wait(const Threads& threads)
     : threads_(threads),
       measured_(threads.spare_ && threads.crew_->divided_here()),
-      begin_(measured_ ? now() : Turnout::Time{}) {}
+      begin_(measured_ ? now() : BusyBackoff::Time{}) {}
 
 Wait::~Wait() {
   if (measured_) threads_.crew_->waited += now() - begin_;

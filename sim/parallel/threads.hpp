@@ -7,7 +7,7 @@
 namespace drape {
 
 /// Wait strategy of a thread for another one's next write: spin for a moment, then yield.
-class Patience {
+class SpinWait {
  public:
   /// Waits once. @returns true if it has been awake long enough to sleep
   bool wait();
@@ -24,7 +24,7 @@ class Patience {
 class Threads {
  public:
   /// @param count number of threads including the dividing one; with one, none is started
-  /// @param spare true to fall back to one thread while a busy machine keeps the others waiting, see Turnout
+  /// @param spare true to fall back to one thread while a busy machine keeps the others waiting, see BusyBackoff
   explicit Threads(int count = 1, bool spare = false);
   ~Threads();
   Threads(const Threads&) = delete;
@@ -76,7 +76,7 @@ class Wait {
   const Threads& threads_;
   bool measured_;
   std::chrono::nanoseconds begin_;
-  Patience patience_;
+  SpinWait patience_;
 };
 
 }  // namespace drape

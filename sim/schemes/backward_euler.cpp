@@ -4,9 +4,9 @@
 
 namespace drape {
 
-BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver, bool of_the_moment)
+BackwardEuler::BackwardEuler(const System& system, const MakeSolver& make_solver, bool instantaneous)
     : MinimisingScheme(system, system.step, make_solver),
-      of_the_moment_(of_the_moment),
+      of_the_moment_(instantaneous),
       books_(system, objective_, *solver_) {
   if (!system.contacts.empty()) contact_.emplace(system);
 }
@@ -38,13 +38,13 @@ double BackwardEuler::residual() {
 
 double BackwardEuler::error() { return touched_ ? contact_->error() : MinimisingScheme::error(); }
 
-double BackwardEuler::unbalanced() {
-  return touched_ ? contact_->residual().rowwise().norm().sum() : MinimisingScheme::unbalanced();
+double BackwardEuler::residual_force() {
+  return touched_ ? contact_->residual().rowwise().norm().sum() : MinimisingScheme::residual_force();
 }
 
-bool BackwardEuler::is_hindered(const State& from, const Vertices& x) {
+bool BackwardEuler::is_blocked_by_contact(const State& from, const Vertices& x) {
   contact_->begin(from, system_.time(from.step), system_.time(from.step + 1), of_the_moment_);
-  return contact_->hinders(x);
+  return contact_->is_blocked(x);
 }
 
 StepReport BackwardEuler::advance(State& state, StepForces& forces) {

@@ -15,18 +15,18 @@ namespace drape {
 /// For a free cloth every solve ends with balance_momentum().
 class BackwardEuler final : public MinimisingScheme {
  public:
-  /// @param of_the_moment true if velocities are instantaneous, as in steps of SDIRK2; false if they are step means
-  BackwardEuler(const System& system, const MakeSolver& make_solver, bool of_the_moment = false);
+  /// @param instantaneous true if velocities are instantaneous, as in steps of SDIRK2; false if they are step means
+  BackwardEuler(const System& system, const MakeSolver& make_solver, bool instantaneous = false);
 
   StepReport advance(State& state, StepForces& forces) override;
 
   [[nodiscard]] double residual() override;
   [[nodiscard]] double error() override;
-  [[nodiscard]] double unbalanced() override;
+  [[nodiscard]] double residual_force() override;
 
   /// Returns true if contacts keep a cloth from moving straight from a state to x in the step that begins there.
   /// Requires something that the cloth can touch.
-  [[nodiscard]] bool is_hindered(const State& from, const Vertices& x);
+  [[nodiscard]] bool is_blocked_by_contact(const State& from, const Vertices& x);
 
  private:
   /// Shortens the step until it gains no energy, along a path free of collisions. Returns the remaining fraction.

@@ -23,7 +23,7 @@ class MinimisingScheme : public Scheme {
   void expect(const Vertices& early, const Vertices& late) override { expected_ = {&early, &late}; }
   [[nodiscard]] double residual() override { return norm(system_.threads, point_.gradient); }
   [[nodiscard]] double error() override { return solver_->error(point_); }
-  [[nodiscard]] double unbalanced() override { return point_.gradient.rowwise().norm().sum(); }
+  [[nodiscard]] double residual_force() override { return point_.gradient.rowwise().norm().sum(); }
   [[nodiscard]] std::optional<Accuracy> accuracy() const override { return solver_->accuracy(); }
 
  protected:
@@ -111,7 +111,7 @@ class MinimisingScheme : public Scheme {
     copy(system_.threads, objective_.y(), point_.x);
     point_.value = objective_.evaluate(point_.x, point_.gradient);
     if (solver_->accuracy().rule != StoppingRule::error) return;
-    objective_.place_of_start_forces(other_.x, other_.gradient);
+    objective_.predict_with_start_forces(other_.x, other_.gradient);
     other_.value = objective_.evaluate(other_.x, other_.gradient);
     if (other_.value < point_.value) std::swap(point_, other_);
   }

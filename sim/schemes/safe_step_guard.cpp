@@ -37,11 +37,11 @@ std::optional<double> SafeStepGuard::look(const State& state, const Vertices& pu
   return watch_ ? watch_->look(state, push, constant, energy) : std::nullopt;
 }
 
-std::optional<BlowUpWatch::Books> SafeStepGuard::books() const {
+std::optional<BlowUpWatch::EnergyHistory> SafeStepGuard::books() const {
   return watch_ ? std::optional(watch_->books()) : std::nullopt;
 }
 
-void SafeStepGuard::go_on(const BlowUpWatch::Books& books) {
+void SafeStepGuard::go_on(const BlowUpWatch::EnergyHistory& books) {
   if (watch_) watch_->go_on(books);
 }
 

@@ -18,8 +18,8 @@ class SafeStepGuard final : public StabilityGuard {
   [[nodiscard]] double longest_step() const override { return safe_step_; }
   void begin(const State& state, const EnergyNow& energy) override;
   std::optional<double> look(const State& state, const Vertices& push, bool constant, const EnergyNow& energy) override;
-  [[nodiscard]] std::optional<BlowUpWatch::Books> books() const override;
-  void go_on(const BlowUpWatch::Books& books) override;
+  [[nodiscard]] std::optional<BlowUpWatch::EnergyHistory> books() const override;
+  void go_on(const BlowUpWatch::EnergyHistory& books) override;
   [[nodiscard]] std::string remedy() const override;
 
  private:

@@ -32,7 +32,7 @@ class Scheme {
   /// Minimiser::error.
   [[nodiscard]] virtual double error() { return 0; }
   /// Returns Σ ‖∇gᵢ‖ at the end of the last step: the sum of the vertices' residual forces [N].
-  [[nodiscard]] virtual double unbalanced() { return 0; }
+  [[nodiscard]] virtual double residual_force() { return 0; }
   /// Returns the stopping criterion of a step.
   [[nodiscard]] virtual std::optional<Accuracy> accuracy() const { return std::nullopt; }
 };

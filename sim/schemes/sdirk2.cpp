@@ -26,15 +26,15 @@ void Sdirk2::expect(const Vertices& early, const Vertices& late) {
 
 double Sdirk2::residual() { return touched_ ? touching_->residual() : MinimisingScheme::residual(); }
 double Sdirk2::error() { return touched_ ? touching_->error() : MinimisingScheme::error(); }
-double Sdirk2::unbalanced() { return touched_ ? touching_->unbalanced() : MinimisingScheme::unbalanced(); }
+double Sdirk2::residual_force() { return touched_ ? touching_->residual_force() : MinimisingScheme::residual_force(); }
 
 StepReport Sdirk2::advance(State& state, StepForces& forces) {
   if (!touching_) return advance_freely(state, forces);
-  touched_ = touching_->is_hindered(state, state.x + system_.step * state.v);
+  touched_ = touching_->is_blocked_by_contact(state, state.x + system_.step * state.v);
   if (touched_) return touching_->advance(state, forces);
   before_ = state;
   const StepReport freely = advance_freely(state, forces);
-  touched_ = touching_->is_hindered(before_, state.x);
+  touched_ = touching_->is_blocked_by_contact(before_, state.x);
   if (!touched_) return freely;
   state = before_;
   StepReport report = touching_->advance(state, forces);
@@ -73,15 +73,15 @@ void Sdirk2::find_forces(const State& state, StepForces& forces) {
   stage_ = state;
   add_multiple(system_.threads, half, state.v, stage_.x);
   system_.place_pins(start + half, stage_.x);
-  force_ = forces.of_place(stage_, start + half);
+  force_ = forces.position_forces(stage_, start + half);
   if (!forces.any_of_velocity()) return;
-  forces.of_velocity(state, start, of_start_);
+  forces.velocity_forces(state, start, of_start_);
   force_ += of_start_;
 }
 
 void Sdirk2::find_second_forces(double time, StepForces& forces) {
   system_.drive_pins(time, stage_.v);
-  forces.of_velocity(stage_, time, of_stage_);
+  forces.velocity_forces(stage_, time, of_stage_);
   force_ -= of_start_;
   // v₂ contains (1 − γ)h of the first stage's forces; γh of these are added here.
   of_stage_ = tableau::delta * of_start_ + (1 - tableau::delta) * of_stage_;

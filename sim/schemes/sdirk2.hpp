@@ -38,7 +38,7 @@ class Sdirk2 final : public MinimisingScheme {
   void expect(const Vertices& early, const Vertices& late) override;
   [[nodiscard]] double residual() override;
   [[nodiscard]] double error() override;
-  [[nodiscard]] double unbalanced() override;
+  [[nodiscard]] double residual_force() override;
 
  private:
   /// Advances a step without contact.

@@ -17,11 +17,11 @@ std::optional<double> Sdirk2Guard::look(const State& state, const Vertices& push
   return watch_ ? watch_->look(state, push, constant, energy) : std::nullopt;
 }
 
-std::optional<BlowUpWatch::Books> Sdirk2Guard::books() const {
+std::optional<BlowUpWatch::EnergyHistory> Sdirk2Guard::books() const {
   return watch_ ? std::optional(watch_->books()) : std::nullopt;
 }
 
-void Sdirk2Guard::go_on(const BlowUpWatch::Books& books) {
+void Sdirk2Guard::go_on(const BlowUpWatch::EnergyHistory& books) {
   if (watch_) watch_->go_on(books);
 }
 

@@ -36,9 +36,9 @@ class StabilityGuard {
   }
 
   /// Returns the checkpoint state of the watch, if any.
-  [[nodiscard]] virtual std::optional<BlowUpWatch::Books> books() const { return std::nullopt; }
+  [[nodiscard]] virtual std::optional<BlowUpWatch::EnergyHistory> books() const { return std::nullopt; }
   /// Restores the checkpoint state of a motion.
-  virtual void go_on(const BlowUpWatch::Books& /*books*/) {}
+  virtual void go_on(const BlowUpWatch::EnergyHistory& /*books*/) {}
 
   /// Returns the advice for a motion that blew up, as the end of a message.
   [[nodiscard]] virtual std::string remedy() const = 0;

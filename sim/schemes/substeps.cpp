@@ -238,7 +238,7 @@ StepReport SubstepScheme::advance(State& state, StepForces& /*forces*/) {
 
 double SubstepScheme::residual() { return attempts_.front()->scheme().residual(); }
 double SubstepScheme::error() { return attempts_.front()->scheme().error(); }
-double SubstepScheme::unbalanced() { return attempts_.front()->scheme().unbalanced(); }
+double SubstepScheme::residual_force() { return attempts_.front()->scheme().residual_force(); }
 std::optional<Accuracy> SubstepScheme::accuracy() const { return attempts_.front()->scheme().accuracy(); }
 
 }  // namespace drape

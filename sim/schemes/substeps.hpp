@@ -56,7 +56,7 @@ class SubstepScheme final : public Scheme {
   // Values of the last substep.
   [[nodiscard]] double residual() override;
   [[nodiscard]] double error() override;
-  [[nodiscard]] double unbalanced() override;
+  [[nodiscard]] double residual_force() override;
   [[nodiscard]] std::optional<Accuracy> accuracy() const override;
 
  private:

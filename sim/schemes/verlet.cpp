@@ -16,20 +16,20 @@ StepReport Verlet::advance(State& state, StepForces& forces) {
   const double half = system_.step / 2;
   const double middle = system_.time(state.step) + half, end = system_.time(state.step + 1);
   const auto drift = [&] { add_multiple(system_.threads, half, state.v, state.x); };
-  const bool of_velocity = fields_ || forces.any_of_velocity();
+  const bool velocity_forces = fields_ || forces.any_of_velocity();
   StepReport report;
-  const bool at_once = !of_velocity && system_.filters.empty() && system_.pin_motions.empty();
+  const bool at_once = !velocity_forces && system_.filters.empty() && system_.pin_motions.empty();
   system_.begin(state);
   system_.correct_half(state);
   if (!system_.filters.empty()) start_x_ = state.x;
-  if (of_velocity) start_v_ = state.v;
+  if (velocity_forces) start_v_ = state.v;
   drift();
   system_.place_pins(middle, state.x);
-  const Vertices& push = forces.of_place(state, middle);
+  const Vertices& push = forces.position_forces(state, middle);
   const Vertices& force = with_energies(system_, state.x, middle, push, force_);
   springs_.kick_and_drift(pull_, force, at_once ? half : 0, state.v, state.x);
   if (!at_once) {
-    if (of_velocity) report.converged = kick_of_velocity(state, middle, forces);
+    if (velocity_forces) report.converged = kick_of_velocity(state, middle, forces);
     drift();
     system_.place_pins(end, state.x);
     if (!system_.filters.empty()) {
@@ -62,9 +62,9 @@ bool Verlet::kick_of_velocity(State& state, double time, StepForces& forces) {
 
 void Verlet::add_of_velocity(State& state, double time, StepForces& forces) {
   std::swap(state.v, start_v_);
-  forces.of_velocity(state, time, force_);
+  forces.velocity_forces(state, time, force_);
   state.v = start_v_ - pull_.asDiagonal() * force_;
-  forces.of_velocity(state, time, more_force_);
+  forces.velocity_forces(state, time, more_force_);
   force_ = (force_ + more_force_) / 2;
   state.v = start_v_ - pull_.asDiagonal() * force_;
   forces.note(force_);

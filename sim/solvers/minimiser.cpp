@@ -42,7 +42,7 @@ StepReport Minimiser::minimise(Iterate& point, const std::function<bool()>& may_
   }
   double change = std::numeric_limits<double>::infinity();
   least_error_ = newton_error_ = change;
-  in_vain_ = 0;
+  iterations_without_progress_ = 0;
   for (; report.iterations < max_iterations_; ++report.iterations) {
     if (balanced(point, change)) return report;
     stop_.look();
@@ -77,9 +77,9 @@ bool Minimiser::balanced(const Iterate& point, double change) {
   tolerance_ = accuracy_.tolerance_at(objective_, point.x, start_error_);
   if (std::min(error, newton_error_) <= tolerance_) return true;
   // If rounding hides the error, small iterations or no progress end the minimisation.
-  in_vain_ = error < least_error_ ? 0 : in_vain_ + 1;
+  iterations_without_progress_ = error < least_error_ ? 0 : iterations_without_progress_ + 1;
   least_error_ = std::min(least_error_, error);
-  return (change <= tolerance_ || in_vain_ >= patience) && error <= objective_.error_rounding();
+  return (change <= tolerance_ || iterations_without_progress_ >= patience) && error <= objective_.error_rounding();
 }
 
 double Minimiser::error(const Iterate& point) {
@@ -89,7 +89,7 @@ double Minimiser::error(const Iterate& point) {
   return std::min(bound, trial_.x.rowwise().norm().maxCoeff());
 }
 
-void Minimiser::went_along(const Vertices& newton_step) {
+void Minimiser::note_newton_step(const Vertices& newton_step) {
   newton_error_ = doubt * newton_step.rowwise().norm().maxCoeff();
 }
 

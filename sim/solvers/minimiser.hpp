@@ -70,7 +70,7 @@ class Minimiser {
 
   /// Records the Newton step of an iteration as an error estimate for its starting point. It uses the Hessian without
   /// its negative eigenvalues. The minimisation may end if the estimate is below a fraction of the tolerance.
-  void went_along(const Vertices& newton_step);
+  void note_newton_step(const Vertices& newton_step);
 
   /// Computes direction = H(x)⁻¹∇g, see NewtonSolver.
   virtual void find_newton_step(const Iterate& point, Vertices& direction) = 0;
@@ -91,9 +91,9 @@ class Minimiser {
   double tolerance_;                                              // for the last point checked
   int max_iterations_;
   Iterate trial_;
-  double least_error_ = 0;   // least error of this minimisation, with the error rule [m]
-  int in_vain_ = 0;          // number of points since the least error
-  double newton_error_ = 0;  // by the last Newton step of an iteration
+  double least_error_ = 0;               // least error of this minimisation, with the error rule [m]
+  int iterations_without_progress_ = 0;  // number of points since the least error
+  double newton_error_ = 0;              // by the last Newton step of an iteration
 };
 
 }  // namespace drape

@@ -114,7 +114,7 @@ Cloth PatchNewton::cut_out(const Vertices& x) {
   return cloth;
 }
 
-double PatchNewton::settle(Iterate& point, double share, double tolerance) {
+double PatchNewton::minimise_patches(Iterate& point, double share, double tolerance) {
   find_patches(point.gradient, tolerance);
   const double most = std::min(most_vertices, share * static_cast<double>(places_.size()));
   if (inside_ == 0 || static_cast<double>(inside_) > most) return 0;
@@ -135,7 +135,7 @@ double PatchNewton::settle(Iterate& point, double share, double tolerance) {
   settings.linear_solver = LinearSolver::cholesky;
   try {
     Newton(system, objective, settings).minimise(patch, [] { return true; });
-  } catch (const UnlikeASurface&) {
+  } catch (const FactorTooExpensive&) {
     return 0;
   }
   for (Eigen::Index row = 0; const int vertex : vertices_) point.x.row(vertex) = patch.x.row(row++);

@@ -28,7 +28,7 @@ class PatchNewton {
   /// @param share maximum fraction of vertices in patches, with at most 200 000 vertices; does nothing beyond
   /// @param tolerance of the error of a vertex [m]
   /// @return 2-norm of the moves over all unknowns [m]
-  double settle(Iterate& point, double share, double tolerance);
+  double minimise_patches(Iterate& point, double share, double tolerance);
 
  private:
   /// Position of a vertex relative to the patches.

@@ -43,7 +43,7 @@ void QuasiNewton::start() {
 
 double QuasiNewton::settle_patches(Iterate& point) {
   if (!patches_ || wait_-- > 0) return 0;
-  const double change = patches_->settle(point, round_ == 0 ? PatchNewton::usual_share : next_share, tolerance());
+  const double change = patches_->minimise_patches(point, round_ == 0 ? PatchNewton::usual_share : next_share, tolerance());
   if (change > 0) history_.clear();
   const bool again = change > 0 && ++round_ < most_rounds;
   wait_ = again ? 0 : between_patches;
@@ -58,7 +58,7 @@ double QuasiNewton::take_newton_step(Iterate& point) {
   find_newton_step(point, direction_);
   const double length = descend(point, direction_, dot(objective().threads(), point.gradient, direction_));
   if (length == 0) return 0;
-  went_along(direction_);
+  note_newton_step(direction_);
   history_.clear();
   return length * norm(objective().threads(), direction_);
 }

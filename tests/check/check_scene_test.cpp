@@ -246,7 +246,7 @@ TEST_F(CheckScene, EndToEndIsTheMotionThatWasRecorded) {
 TEST_F(CheckScene, KeepsPinsAndConstraintsExact) {
   const Scene limited = scene({"effects.strain_limit.max_stretch=1.05"});
   EXPECT_EQ(quanta_for(limited.simulation, 1e-6).position, 0);
-  const Quanta quanta = quanta_for(scene().simulation, 1e-6);
+  const RoundingUnits quanta = quanta_for(scene().simulation, 1e-6);
   EXPECT_GT(quanta.position, 1e-10);
   EXPECT_LT(quanta.position, 1e-8);
   State state{Vertices::Constant(3, 3, 1 / 3.0), Vertices::Constant(3, 3, 1 / 7.0), 4};

@@ -10,7 +10,7 @@ FilmFacts quiet_film() {
   FilmFacts film;
   film.bodies = {"the sphere", "the ground"};
   film.frames.resize(200);
-  for (FrameFacts& frame : film.frames) frame.pins = 4;
+  for (FrameProperties& frame : film.frames) frame.pins = 4;
   return film;
 }
 

@@ -27,26 +27,26 @@ Image waves(double dx, double dy, double brightness = 1) {
   return image;
 }
 
-TEST(NameDifference, SaysNothingOfTheSamePicture) { EXPECT_EQ(name_difference(waves(0, 0), waves(0, 0)), ""); }
+TEST(NameDifference, SaysNothingOfTheSamePicture) { EXPECT_EQ(classify_difference(waves(0, 0), waves(0, 0)), ""); }
 
 TEST(NameDifference, NamesAShift) {
-  EXPECT_EQ(name_difference(waves(0, 0), waves(3, 0)), "a shift by 3 pixels to the right");
-  EXPECT_EQ(name_difference(waves(0, 0), waves(0, -2)), "a shift by 2 pixels up");
-  const std::string half = name_difference(waves(0, 0), waves(-0.5, 0.5));
+  EXPECT_EQ(classify_difference(waves(0, 0), waves(3, 0)), "a shift by 3 pixels to the right");
+  EXPECT_EQ(classify_difference(waves(0, 0), waves(0, -2)), "a shift by 2 pixels up");
+  const std::string half = classify_difference(waves(0, 0), waves(-0.5, 0.5));
   EXPECT_TRUE(half.starts_with("a shift by 0.")) << half;
   EXPECT_NE(half.find(" pixels to the left and 0."), std::string::npos) << half;
   EXPECT_TRUE(half.ends_with(" pixels down")) << half;
 }
 
 TEST(NameDifference, NamesABrightness) {
-  EXPECT_EQ(name_difference(waves(0, 0), waves(0, 0, 1.05)), "a brightness 5 % higher");
-  EXPECT_EQ(name_difference(waves(0, 0), waves(0, 0, 0.9)), "a brightness 10 % lower");
+  EXPECT_EQ(classify_difference(waves(0, 0), waves(0, 0, 1.05)), "a brightness 5 % higher");
+  EXPECT_EQ(classify_difference(waves(0, 0), waves(0, 0, 0.9)), "a brightness 10 % lower");
 }
 
 TEST(NameDifference, NamesOtherColours) {
   Image swapped = waves(0, 0);
   for (std::size_t i = 0; i < swapped.pixels.size(); i += 3) std::swap(swapped.pixels[i], swapped.pixels[i + 2]);
-  EXPECT_EQ(name_difference(waves(0, 0), swapped), "different colours in the same places");
+  EXPECT_EQ(classify_difference(waves(0, 0), swapped), "different colours in the same places");
 }
 
 TEST(NameDifference, NamesAPlace) {
@@ -54,7 +54,7 @@ TEST(NameDifference, NamesAPlace) {
   for (int y = 20; y < 24; ++y) {
     for (int x = 70; x < 76; ++x) dot.at(x, y)[1] = 250;
   }
-  EXPECT_EQ(name_difference(waves(0, 0), dot), "one place only: 6x4 pixels at column 70, row 20");
+  EXPECT_EQ(classify_difference(waves(0, 0), dot), "one place only: 6x4 pixels at column 70, row 20");
 }
 
 TEST(NameDifference, NamesEdges) {
@@ -70,7 +70,7 @@ TEST(NameDifference, NamesEdges) {
     }
     return image;
   };
-  EXPECT_EQ(name_difference(stripes(false), stripes(true)), "edges only: of lines, outlines or a texture");
+  EXPECT_EQ(classify_difference(stripes(false), stripes(true)), "edges only: of lines, outlines or a texture");
 }
 
 TEST(NameOtherMachine, TellsWhatMattersOnly) {

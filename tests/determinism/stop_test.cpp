@@ -118,7 +118,7 @@ TEST_P(Stopped, AStepIsTakenBack) {
     const State before = simulation.state();
     simulation.step();
     const State after = simulation.state();
-    simulation.take_back();
+    simulation.undo_step();
     if (simulation.state().step == after.step) continue;  // a step that cannot be interrupted
     expect_bits(simulation.state(), before);
     simulation.step();

@@ -9,7 +9,7 @@ namespace {
 void read(const drape::FuzzFolder& folder, std::string_view checkpoint) {
   folder.put("m.drape.checkpoint", checkpoint);
   drape::accepts_or_refuses([&] {
-    const drape::Resumption found = drape::read_resumption(folder.path("m.drape"));
+    const drape::ResumePoint found = drape::read_resumption(folder.path("m.drape"));
     const drape::State& state = found.checkpoint.state;
     if (state.x.rows() != found.partial->header().vertices || state.v.rows() != state.x.rows()) std::abort();
     if (!state.x.allFinite() || !state.v.allFinite() || !state.restraint.tensions.allFinite()) std::abort();

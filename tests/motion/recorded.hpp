@@ -39,7 +39,7 @@ inline RunResult record(const Scene& scene, const std::string& file, RunOptions 
 
 /// Goes on with it.
 inline RunResult resume(const std::string& file, RunOptions options = {}, std::int64_t stop_after = 0) {
-  const auto from = std::make_shared<const Resumption>(read_resumption(file));
+  const auto from = std::make_shared<const ResumePoint>(read_resumption(file));
   const MotionScene folder(*from->partial);
   options.from = from;
   options.steps = from->partial->header().steps;

@@ -69,7 +69,7 @@ TEST_F(StrangersMotion, IsDrawnOrRefusedWhicheverByteOfAPayloadIsAnother) {
   }
 }
 
-/// Sets every place in a motion. What is foretold from nothing is there as it is, its bits shifted by one.
+/// Sets every place in a motion. What is predicted from nothing is there as it is, its bits shifted by one.
 void set_places(OpenedBlocks& blocks, double value) {
   for (OpenedBlock& block : blocks.blocks) {
     if (block.tag != state_tag) continue;

@@ -168,7 +168,7 @@ class Writer {
     const int count = static_cast<int>(choice.names.size()) - (contact ? 1 : 0);
     return '"' + choice.names[static_cast<std::size_t>(random_.below(count))] + '"';
   }
-  std::string value(const Key&, const OwnForm& form) {
+  std::string value(const Key&, const CustomValue& form) {
     const bool track = std::any_cast<std::shared_ptr<const SphereTrack>*>(&form.target) != nullptr;
     return track && random_.number() < wild_ ? "\"nowhere.usda\"" : "";
   }

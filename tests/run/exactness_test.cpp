@@ -38,8 +38,8 @@ struct Outcome {
   Statistics statistics;
   /// Whether the run says that its result is not to be trusted.
   [[nodiscard]] bool doubtful() const {
-    const Exactness& exactness = statistics.exactness();
-    return exactness.coarse() || (exactness.unbalanced() && exactness.unbalanced()->notable());
+    const ErrorMonitor& exactness = statistics.exactness();
+    return exactness.coarse() || (exactness.residual_force() && exactness.residual_force()->notable());
   }
 };
 
@@ -74,7 +74,7 @@ TEST_P(Exact, AndSoItDoesWithARuleByChange) {
       << outcome.wrong << " wrong, and " << outcome.statistics.to_json("");
 }
 
-TEST(Exactness, IsInTheStatistics) {
+TEST(ErrorMonitor, IsInTheStatistics) {
   SimulationSettings settings = catenary(Method::liu13);
   settings.integrator.tolerance = 1e-3;
   const Outcome outcome = run(settings);
@@ -87,7 +87,7 @@ TEST(Exactness, IsInTheStatistics) {
   EXPECT_GT(accuracy["unbalanced_at_rest"]["of_weight"], 0.01);
 }
 
-TEST(Exactness, OfAMethodThatSolvesNothingIsNoQuestion) {
+TEST(ErrorMonitor, OfAMethodThatSolvesNothingIsNoQuestion) {
   SimulationSettings settings = catenary(Method::semi_implicit);
   settings.step = 1e-5;
   EXPECT_TRUE(nlohmann::json::parse(run(settings).statistics.to_json("completed"))["accuracy"].is_null());

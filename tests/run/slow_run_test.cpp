@@ -1,6 +1,6 @@
 // A long run says early that it is one, why, and what would be faster.
 
-#include "run/slow_run.hpp"
+#include "run/slow_run_warning.hpp"
 
 #include <gtest/gtest.h>
 
@@ -52,11 +52,11 @@ TEST(Pace, SaysHowLongAndWhy) {
       "with an implicit method, such as method = \"quasi-newton\"");
 }
 
-TEST(SlowRun, TellsOnceAndOnlyOfLongRuns) {
-  const auto told = [](const SlowRun::Limits& limits) {
+TEST(SlowRunWarning, TellsOnceAndOnlyOfLongRuns) {
+  const auto told = [](const SlowRunWarning::Limits& limits) {
     std::vector<std::string> texts;
     Simulation simulation(hanging(Method::quasi_newton));
-    SlowRun slow(
+    SlowRunWarning slow(
         10, false, [&](const std::string& text) { texts.push_back(text); }, limits);
     const std::vector<StepObserver*> observers{&slow};
     run_steps(simulation, 10, observers, {});

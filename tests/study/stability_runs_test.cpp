@@ -24,7 +24,7 @@ StabilityStudy invented() {
       number += 0.1;
     }
   }
-  for (StabilityBorder& border : study.borders) border.predicted = border.measured = number += 0.1;
+  for (StabilityLimit& border : study.borders) border.predicted = border.measured = number += 0.1;
   for (EnergyCurve& curve : study.energies) {
     for (int i = 0; i < 3; ++i) {
       curve.times.push_back(0.1 * i);

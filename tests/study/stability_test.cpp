@@ -36,16 +36,16 @@ INSTANTIATE_TEST_SUITE_P(Of, StabilityBorders,
 
 TEST_P(StabilityBorders, LieWhereTheyArePredicted) {
   const auto [method, axis, stiffness] = GetParam();
-  const StabilityBorder border = stability_border(method, axis, stiffness);
+  const StabilityLimit border = stability_border(method, axis, stiffness);
   EXPECT_GE(border.measured / border.predicted, 0.98);
   EXPECT_LE(border.measured / border.predicted, 1.2);
 }
 
 // Where a flat cloth's springs and the push are equally stiff, each moves in directions in which the other does not
 // resist, and the bound that adds them is too careful by √2 and what it is by for the springs alone.
-TEST(StabilityBorder, IsBeyondThePredictionWhereSpringsAndPushDoNotAddUp) {
+TEST(StabilityLimit, IsBeyondThePredictionWhereSpringsAndPushDoNotAddUp) {
   constexpr double stiffness = 1.4e5;
-  const StabilityBorder border = stability_border(Method::semi_implicit, StabilityAxis::push, stiffness);
+  const StabilityLimit border = stability_border(Method::semi_implicit, StabilityAxis::push, stiffness);
   EXPECT_GE(border.measured / border.predicted, 0.98);
   EXPECT_LE(border.measured, 2 / std::sqrt(stiffness) * 1.002);
 }

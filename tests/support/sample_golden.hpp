@@ -34,7 +34,7 @@ inline Golden sample_golden(int vertices, std::int64_t steps, std::int64_t windo
   const std::vector<std::int64_t> starts = window_starts(steps, window_steps);
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const bool last = i + 1 == starts.size();
-    const Quanta quanta = last ? golden.quanta.at_end() : golden.quanta;
+    const RoundingUnits quanta = last ? golden.quanta.at_end() : golden.quanta;
     GoldenWindow& window = golden.windows.emplace_back();
     window.start = {random(quanta.position), random(quanta.velocity), starts[i]};
     window.start.x(vertices / 2, 1) = 1 / 3.0;  // a pin

@@ -73,44 +73,44 @@ TEST(SceneMesh, IsChosenByItsNameAndTurnedByItsUpAxis) {
 // What may be a mistake, and may be meant: it is simulated all the same.
 TEST(SceneMesh, DoubtsSizesAndUpAxesThatAreSeldomMeant) {
   const SceneFolder folder;
-  const auto doubts = [&](const std::string& mesh, const std::string& more = "") {
-    return folder.load("[cloth]\nmesh = " + mesh + "\nstiffness = 7\n" + more).doubts;
+  const auto warnings = [&](const std::string& mesh, const std::string& more = "") {
+    return folder.load("[cloth]\nmesh = " + mesh + "\nstiffness = 7\n" + more).warnings;
   };
   const std::string scaled = "[cloth.transform]\nscale = ";
-  EXPECT_TRUE(doubts("{ grid = [2, 2] }").empty());
-  EXPECT_TRUE(doubts("{ grid = [2, 2] }", scaled + "50").empty());
-  const std::vector<std::string> large = doubts("{ grid = [2, 2] }", scaled + "167");
+  EXPECT_TRUE(warnings("{ grid = [2, 2] }").empty());
+  EXPECT_TRUE(warnings("{ grid = [2, 2] }", scaled + "50").empty());
+  const std::vector<std::string> large = warnings("{ grid = [2, 2] }", scaled + "167");
   ASSERT_EQ(large.size(), 1U);
   EXPECT_TRUE(
       large[0].ends_with("scene.toml:2:8: mesh: the cloth is 334 m large: are its coordinates metres? "
                          "[cloth.transform] scale changes them"))
       << large[0];
-  EXPECT_EQ(doubts("{ grid = [2, 2] }", scaled + "4e-4").size(), 1U);
+  EXPECT_EQ(warnings("{ grid = [2, 2] }", scaled + "4e-4").size(), 1U);
 
   folder.write("shirt.obj", "v -0.4 0.9 -0.1\nv 0.4 0.9 0.15\nv 0 1.5 0\nf 1 2 3\n");  // on a floor at y = 0
   folder.write("table.obj", "v -1 3 -1\nv 1 3 1\nv 1 3.1 -1\nf 1 2 3\n");              // flat in y
   folder.write("flag.obj", "v -1 0 3\nv 1 1 3\nv 1 -1 3.1\nf 1 2 3\n");                // flat in z
   for (const char* file : {"\"shirt.obj\"", "\"table.obj\""}) {
-    ASSERT_EQ(doubts(file).size(), 1U) << file;
-    EXPECT_NE(doubts(file)[0].find(std::string("perhaps { file = ") + file + ", up = \"y\" } is meant"),
+    ASSERT_EQ(warnings(file).size(), 1U) << file;
+    EXPECT_NE(warnings(file)[0].find(std::string("perhaps { file = ") + file + ", up = \"y\" } is meant"),
               std::string::npos)
-        << doubts(file)[0];
+        << warnings(file)[0];
   }
-  EXPECT_TRUE(doubts("\"flag.obj\"").empty());
-  EXPECT_TRUE(doubts("{ file = \"shirt.obj\", up = \"z\" }").empty());
-  EXPECT_TRUE(doubts("\"shirt.obj\"", "[cloth.transform]\nrotate = [90, 0, 0]\n").empty());
+  EXPECT_TRUE(warnings("\"flag.obj\"").empty());
+  EXPECT_TRUE(warnings("{ file = \"shirt.obj\", up = \"z\" }").empty());
+  EXPECT_TRUE(warnings("\"shirt.obj\"", "[cloth.transform]\nrotate = [90, 0, 0]\n").empty());
 }
 
 TEST(SceneLook, SaysOfAColourThatATextureCoversThatItIsNotSeen) {
   const SceneFolder folder;
   const std::string cloth = "[cloth]\nmesh = { grid = [2, 2] }\nstiffness = 7\n[look]\n";
-  const std::vector<std::string> doubts = folder.load(cloth + "texture = \"plaid.png\"\ncolor = \"red\"\n").doubts;
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_TRUE(doubts[0].ends_with(
+  const std::vector<std::string> warnings = folder.load(cloth + "texture = \"plaid.png\"\ncolor = \"red\"\n").warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_TRUE(warnings[0].ends_with(
       "scene.toml:6:9: color: it is not seen, because the texture covers the cloth: omit one of the two"))
-      << doubts[0];
-  EXPECT_TRUE(folder.load(cloth + "color = \"red\"\n").doubts.empty());
-  EXPECT_TRUE(folder.load(cloth + "texture = \"plaid.png\"\n").doubts.empty());
+      << warnings[0];
+  EXPECT_TRUE(folder.load(cloth + "color = \"red\"\n").warnings.empty());
+  EXPECT_TRUE(folder.load(cloth + "texture = \"plaid.png\"\n").warnings.empty());
 }
 
 TEST(SceneMesh, SaysItsPiecesItsExtentAndItsEdges) {

@@ -57,10 +57,10 @@ bool closed(const Mesh& mesh) {
   return true;
 }
 
-SheetShape sheet(SheetShape::Kind kind) { return {.kind = kind}; }
+ParametricMesh sheet(ParametricMesh::Kind kind) { return {.kind = kind}; }
 
 TEST(SheetShapes, ADiscIsRoundAndFacesUp) {
-  SheetShape shape = sheet(SheetShape::Kind::disc);
+  ParametricMesh shape = sheet(ParametricMesh::Kind::disc);
   shape.radius = 0.5;
   for (const int rings : {1, 2, 5, 24}) {
     shape.rings = rings;
@@ -79,7 +79,7 @@ TEST(SheetShapes, ADiscIsRoundAndFacesUp) {
 }
 
 TEST(SheetShapes, AStripHasSquareCells) {
-  SheetShape shape = sheet(SheetShape::Kind::strip);
+  ParametricMesh shape = sheet(ParametricMesh::Kind::strip);
   shape.length = 3, shape.width = 0.3, shape.across = 3;
   const Mesh mesh = make_mesh_shape(shape);
   EXPECT_EQ(mesh.triangles.size(), 2U * 30 * 3);
@@ -88,7 +88,7 @@ TEST(SheetShapes, AStripHasSquareCells) {
 }
 
 TEST(SheetShapes, ATubeIsOpenAtBothEnds) {
-  SheetShape shape = sheet(SheetShape::Kind::tube);
+  ParametricMesh shape = sheet(ParametricMesh::Kind::tube);
   shape.radius = 0.2, shape.length = 1, shape.around = 64;
   const Mesh tube = make_mesh_shape(shape);
   EXPECT_EQ(euler(tube), 0);

@@ -1,4 +1,4 @@
-#include "sim/parallel/turnout.hpp"
+#include "sim/parallel/busy_backoff.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@ using namespace std::chrono_literals;
 
 /// Divides loops one after another, and counts how much time is lost and how much is spent alone.
 struct Machine {
-  Turnout turnout;
-  Turnout::Time now = 1h, lost = 0ns, alone = 0ns;
+  BusyBackoff turnout;
+  BusyBackoff::Time now = 1h, lost = 0ns, alone = 0ns;
 
   /// @param taken, waited  by and within every loop that is divided
-  void run(Turnout::Time taken, Turnout::Time waited, Turnout::Time length) {
-    for (const Turnout::Time end = now + length; now < end; now += taken) {
-      if (turnout.poor(now)) {
+  void run(BusyBackoff::Time taken, BusyBackoff::Time waited, BusyBackoff::Time length) {
+    for (const BusyBackoff::Time end = now + length; now < end; now += taken) {
+      if (turnout.active(now)) {
         alone += taken;
       } else {
         lost += waited;
@@ -25,30 +25,30 @@ struct Machine {
   }
 };
 
-TEST(Turnout, GoesOnWhileThreadsCome) {
+TEST(BusyBackoff, GoesOnWhileThreadsCome) {
   Machine machine;
   machine.run(30us, 5us, 1s);
   EXPECT_EQ(machine.alone, 0ns);
 }
 
-TEST(Turnout, LosesLittleWhereTheyDoNot) {
+TEST(BusyBackoff, LosesLittleWhereTheyDoNot) {
   Machine machine;
   machine.run(4ms, 3ms, 10s);
   EXPECT_LT(machine.lost, 500ms);
   EXPECT_GT(machine.lost, 0ns);
 }
 
-TEST(Turnout, TriesAgain) {
+TEST(BusyBackoff, TriesAgain) {
   Machine machine;
   machine.run(4ms, 3ms, 10ms);
-  EXPECT_TRUE(machine.turnout.poor(machine.now));
+  EXPECT_TRUE(machine.turnout.active(machine.now));
   machine.run(30us, 1us, 1s);
-  EXPECT_FALSE(machine.turnout.poor(machine.now));
+  EXPECT_FALSE(machine.turnout.active(machine.now));
   EXPECT_LT(machine.alone, 200ms);
 }
 
 // One thread that came late once is no reason to do without it.
-TEST(Turnout, TakesNoteOfMoreThanOneLoop) {
+TEST(BusyBackoff, TakesNoteOfMoreThanOneLoop) {
   Machine machine;
   machine.run(50us, 40us, 50us);
   machine.run(30us, 1us, 1s);

@@ -26,7 +26,7 @@ class UsdPieces : public test::InScratchFolder {
         text += fmt::format("t = {}:", moving.times()[i]);
         for (const auto& p : x.rowwise()) text += fmt::format(" ({}, {}, {})", p[0], p[1], p[2]);
       }
-      for (const UsdGap& gap : stage.gaps()) text += gap.reason;
+      for (const UnresolvedReference& gap : stage.gaps()) text += gap.reason;
     });
     return text + " " + error;
   }

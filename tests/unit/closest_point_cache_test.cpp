@@ -1,6 +1,6 @@
 // What is remembered of points beside a mesh, and of a cloth's triangles beside a body, changes nothing.
 
-#include "sim/collision/foot_memory.hpp"
+#include "sim/collision/closest_point_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,11 +42,11 @@ class Wobbling {
   PlacedMesh now, before;
 };
 
-TEST(FootMemory, FindsTheVeryFootThatASearchFinds) {
+TEST(ClosestPointCache, FindsTheVeryFootThatASearchFinds) {
   const double reach = 0.1;
   for (const Mesh& mesh : {make_box({1, 0.7, 0.3}), make_grid(9, 9), make_grid(1, 1)}) {
     Wobbling body(mesh);
-    FootMemory memory(40, reach);
+    ClosestPointCache memory(40, reach);
     std::vector<Point> points(40);
     for (Point& p : points) p = Point(body.shift(body.random), body.shift(body.random), 0.2 * body.shift(body.random));
     int feet = 0;
@@ -56,7 +56,7 @@ TEST(FootMemory, FindsTheVeryFootThatASearchFinds) {
       for (std::size_t k = 0; k < points.size(); ++k) {
         points[k] += by * Point(body.shift(body.random), body.shift(body.random), body.shift(body.random));
         const auto plain = body.now.find(points[k], reach);
-        Foot foot;
+        ClosestPoint foot;
         const bool found = memory.find(body.now, k, points[k], foot);
         ASSERT_EQ(found, plain && plain->distance < reach) << step << " " << k;
         if (!found) continue;
@@ -71,7 +71,7 @@ TEST(FootMemory, FindsTheVeryFootThatASearchFinds) {
   }
 }
 
-TEST(FootMemory, DoesNotForgetWhatItHasLeftOut) {
+TEST(ClosestPointCache, DoesNotForgetWhatItHasLeftOut) {
   // Around the edges of a box, which are the nearest to one place and, two reaches further, not to the other.
   const double reach = 0.02;
   const Wobbling body(make_box({0.4, 0.4, 0.6}));
@@ -80,10 +80,10 @@ TEST(FootMemory, DoesNotForgetWhatItHasLeftOut) {
   int feet = 0;
   for (int round = 0; round < 4000; ++round) {
     Point p(0.2 + reach * shift(random), 0.2 + reach * shift(random), 0.3 * shift(random));
-    FootMemory memory(1, reach);
+    ClosestPointCache memory(1, reach);
     for (int look = 0; look < 4; ++look) {
       const auto plain = body.now.find(p, reach);
-      Foot foot;
+      ClosestPoint foot;
       const bool found = memory.find(body.now, 0, p, foot);
       ASSERT_EQ(found, plain && plain->distance < reach) << round;
       p += 2 * reach * Point(shift(random), shift(random), shift(random));
@@ -96,7 +96,7 @@ TEST(FootMemory, DoesNotForgetWhatItHasLeftOut) {
   EXPECT_GT(feet, 1000);
 }
 
-TEST(FootMemory, KnowsACornerOfMoreTrianglesThanItKeeps) {
+TEST(ClosestPointCache, KnowsACornerOfMoreTrianglesThanItKeeps) {
   // A cone of thirty triangles, and points above its tip.
   Mesh cone;
   const int sides = 30;
@@ -106,11 +106,11 @@ TEST(FootMemory, KnowsACornerOfMoreTrianglesThanItKeeps) {
     cone.triangles.push_back({0, 1 + k, 1 + (k + 1) % sides});
   }
   Wobbling body(cone);
-  FootMemory memory(1, 0.2);
+  ClosestPointCache memory(1, 0.2);
   for (int step = 0; step < 200; ++step) {
     const Point p = 0.05 * Point(body.shift(body.random), body.shift(body.random), 2);
     const auto plain = body.now.find(p, 0.2);
-    Foot foot;
+    ClosestPoint foot;
     ASSERT_TRUE(memory.find(body.now, 0, p, foot));
     EXPECT_EQ(foot.triangle, plain->triangle);
     EXPECT_EQ(foot.normal, plain->normal);

@@ -17,14 +17,14 @@ FrameRange all_frames(const std::vector<Scene>& scenes, const CompareOptions& op
 
 /// The motions of a comparison, each at the times of the first scene's film. Each motion is simulated once, for any
 /// number of passes, or read from its file. Frames beyond a memory limit are stored in temporary files.
-class MotionsInStep {
+class SynchronisedMotions {
  public:
   /// The current frame of each motion. A motion that has ended or diverged keeps its last frame.
   using Moment = std::vector<const Frame*>;
 
   /// @param scenes outlive the object
   /// @param often  true if the motions are played more than once, always from start to end
-  MotionsInStep(const std::vector<Scene>& scenes, const CompareOptions& options, bool often);
+  SynchronisedMotions(const std::vector<Scene>& scenes, const CompareOptions& options, bool often);
 
   /// Plays all motions from the start; calls work(k, moment) for each frame k up to `last`. Ends early when stopped.
   void play(int last, const std::stop_token& stop, const std::function<void(int, const Moment&)>& work);

@@ -1,4 +1,4 @@
-#include "sim/collision/foot_memory.hpp"
+#include "sim/collision/closest_point_cache.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +22,9 @@ double square_of_part(double distance) { return distance > 0 ? (1 - 1e-9) * dist
 
 }  // namespace
 
-FootMemory::FootMemory(std::size_t points, double reach) : reach_(reach), known_(points), near_(points) {}
+ClosestPointCache::ClosestPointCache(std::size_t points, double reach) : reach_(reach), known_(points), near_(points) {}
 
-bool FootMemory::find_slowly(const PlacedMesh& mesh, std::size_t k, const Point& point, Foot& foot) {
+bool ClosestPointCache::find_slowly(const PlacedMesh& mesh, std::size_t k, const Point& point, ClosestPoint& foot) {
   Known& known = known_[k];
   Near& near = near_[k];
   // Upper bound on the change of every distance.
@@ -39,21 +39,21 @@ bool FootMemory::find_slowly(const PlacedMesh& mesh, std::size_t k, const Point&
     if (near.count == 0 || known.clear_squared > 0) return false;
     moved = 0;
   } else if (++near.asked > patience) {
-    look_again(mesh, point, moved, nearly_equal * reach_, near);
+    remeasure(mesh, point, moved, nearly_equal * reach_, near);
     moved = 0;
   }
   if (covers(near, moved)) return find_among(mesh, point, moved, known, near, foot);
   // More triangles are equally near than the list holds.
-  foot = mesh.find(point, reach_, known.triangle).value_or(Foot{.distance = reach_});
+  foot = mesh.find(point, reach_, known.triangle).value_or(ClosestPoint{.distance = reach_});
   return foot.distance < reach_;
 }
 
-bool FootMemory::covers(const Near& near, double moved) const {
+bool ClosestPointCache::covers(const Near& near, double moved) const {
   return near.count > 0 && near.nearest + 2 * moved + nearly_equal * reach_ < near.all_within;
 }
 
-bool FootMemory::find_among(const PlacedMesh& mesh, const Point& point, double moved, Known& known, const Near& near,
-                            Foot& foot) const {
+bool ClosestPointCache::find_among(const PlacedMesh& mesh, const Point& point, double moved, Known& known,
+                                   const Near& near, ClosestPoint& foot) const {
   int triangle = known.triangle;
   Nearest best = mesh.nearest_on(triangle, point);
   // Lower bounds on the other distances, from tested triangles at the new position and the rest at the old one.
@@ -85,12 +85,12 @@ bool FootMemory::find_among(const PlacedMesh& mesh, const Point& point, double m
   known = {.point = point,
            .travel = mesh.travel(),
            .clear_squared = square_of_part(foot.distance - reach_),
-           .alone_squared = square_of_part((runner_up - std::sqrt(best.squared) - nearly_equal * reach_) / 2),
+           .same_triangle_squared = square_of_part((runner_up - std::sqrt(best.squared) - nearly_equal * reach_) / 2),
            .triangle = triangle};
   return foot.distance < reach_;
 }
 
-void FootMemory::look(const PlacedMesh& mesh, const Point& point, Known& known, Near& near) const {
+void ClosestPointCache::look(const PlacedMesh& mesh, const Point& point, Known& known, Near& near) const {
   known = {.point = point, .travel = mesh.travel()};
   near.point = point;
   near.travel = mesh.travel();
@@ -143,7 +143,8 @@ void FootMemory::look(const PlacedMesh& mesh, const Point& point, Known& known, 
   known.clear_squared = square_of_part(mesh.foot(point, nearest, mesh.nearest_on(nearest, point)).distance - reach_);
 }
 
-void FootMemory::look_again(const PlacedMesh& mesh, const Point& point, double moved, double rounding, Near& near) {
+void ClosestPointCache::remeasure(const PlacedMesh& mesh, const Point& point, double moved, double rounding,
+                                  Near& near) {
   near.point = point;
   near.travel = mesh.travel();
   near.asked = 0;

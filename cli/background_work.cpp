@@ -1,4 +1,4 @@
-#include "cli/watched.hpp"
+#include "cli/background_work.hpp"
 
 #include <chrono>
 #include <future>
@@ -14,7 +14,7 @@ constexpr std::chrono::milliseconds display_interval{100};
 
 }  // namespace
 
-WatchedWork::WatchedWork(const Work& work) {
+BackgroundWork::BackgroundWork(const Work& work) {
   done_ = std::async(std::launch::async, [this, work] {
     bool told = false;
     const auto tell = [&] {
@@ -30,19 +30,19 @@ WatchedWork::WatchedWork(const Work& work) {
   });
 }
 
-void WatchedWork::watch_to_its_end(bool quiet) {
+void BackgroundWork::watch_to_its_end(bool quiet) {
   watch(quiet, done_);
   done_.get();
 }
 
-void WatchedWork::watch(bool quiet, const std::future<void>& until) {
+void BackgroundWork::watch(bool quiet, const std::future<void>& until) {
   ProgressDisplay display(progress_, ProgressDisplay::fitting_style(quiet));
   while (until.wait_for(display_interval) != std::future_status::ready) display.update();
   display.clear();
 }
 
 bool run_watched(bool quiet, const std::function<void(const std::stop_token&, Progress&)>& work) {
-  WatchedWork([&work](const std::stop_token& stop, Progress& progress, const auto&) {
+  BackgroundWork([&work](const std::stop_token& stop, Progress& progress, const auto&) {
     work(stop, progress);
   }).watch_to_its_end(quiet);
   return interruption().get_token().stop_requested();

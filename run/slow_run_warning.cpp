@@ -1,4 +1,4 @@
-#include "run/slow_run.hpp"
+#include "run/slow_run_warning.hpp"
 
 #include <fmt/format.h>
 
@@ -55,12 +55,12 @@ std::string describe_pace(const Pace& pace, const SimulationSettings& settings) 
                      found.why, found.faster);
 }
 
-void SlowRun::begin(const Simulation& simulation) {
+void SlowRunWarning::begin(const Simulation& simulation) {
   pace_.left = steps_ - simulation.state().step;
   begin_ = Clock::now();
 }
 
-void SlowRun::after_step(const Simulation& simulation, const StepReport& report, double seconds) {
+void SlowRunWarning::after_step(const Simulation& simulation, const StepReport& report, double seconds) {
   ++pace_.steps;
   --pace_.left;
   pace_.simulated += seconds;

@@ -30,7 +30,7 @@ struct Pace {
 std::string describe_pace(const Pace& pace, const SimulationSettings& settings);
 
 /// Observer that reports once, as early as possible, that a run will take long.
-class SlowRun final : public StepObserver {
+class SlowRunWarning final : public StepObserver {
  public:
   struct Limits {
     double after = 5;      ///< the pace is trusted after this time [s]
@@ -40,9 +40,9 @@ class SlowRun final : public StepObserver {
   /// @param steps of the whole run
   /// @param drawn true if the run also draws
   /// @param tell  called from the simulating thread
-  SlowRun(std::int64_t steps, bool drawn, std::function<void(const std::string&)> tell)
-      : SlowRun(steps, drawn, std::move(tell), Limits{}) {}
-  SlowRun(std::int64_t steps, bool drawn, std::function<void(const std::string&)> tell, const Limits& limits)
+  SlowRunWarning(std::int64_t steps, bool drawn, std::function<void(const std::string&)> tell)
+      : SlowRunWarning(steps, drawn, std::move(tell), Limits{}) {}
+  SlowRunWarning(std::int64_t steps, bool drawn, std::function<void(const std::string&)> tell, const Limits& limits)
       : steps_(steps), tell_(std::move(tell)), limits_(limits), next_look_(limits.after) {
     pace_.drawn = drawn;
   }

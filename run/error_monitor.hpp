@@ -7,9 +7,9 @@
 
 namespace drape {
 
-/// Estimates of the solver error of a run's steps, and of the unbalanced force on a cloth at rest. The estimates do not
-/// change the motion.
-class Exactness final : public StepObserver {
+/// Estimates of the solver error of a run's steps, and of the residual_force force on a cloth at rest. The estimates do
+/// not change the motion.
+class ErrorMonitor final : public StepObserver {
  public:
   void begin(const Simulation& simulation) override;
   /// Records the error of a step that has an error estimate: one that met an error tolerance or was given an accuracy.
@@ -17,7 +17,7 @@ class Exactness final : public StepObserver {
   void after_step(const Simulation& simulation, const StepReport& report, double seconds) override;
   /// Records a step of an earlier run, see StepObserver.
   void replay(const StepRow& row, double time, double seconds) override;
-  /// Estimates the error of the last step, and the unbalanced force if the cloth is at rest.
+  /// Estimates the error of the last step, and the residual_force force if the cloth is at rest.
   void finish(const Simulation& simulation);
 
   /// Returns the stopping criterion of a step; nothing for a method without minimisation.
@@ -41,15 +41,15 @@ class Exactness final : public StepObserver {
   /// Returns true if the mean error exceeds a hundredth of the cloth's size.
   [[nodiscard]] bool coarse() const;
 
-  /// The unbalanced forces on a cloth at rest, as the norm of each vertex's force.
-  struct Unbalanced {
+  /// The residual_force forces on a cloth at rest, as the norm of each vertex's force.
+  struct ResidualForce {
     double force;                     ///< [N]
     std::optional<double> of_weight;  ///< share of the weight; absent without gravity
     /// Returns true if the force exceeds 1 % of the weight, several times the error that default steps leave.
     [[nodiscard]] bool notable() const { return of_weight && *of_weight > 0.01; }
   };
   /// Returns nothing if the cloth moves at the end, or if the method minimises nothing.
-  [[nodiscard]] const std::optional<Unbalanced>& unbalanced() const { return unbalanced_; }
+  [[nodiscard]] const std::optional<ResidualForce>& residual_force() const { return residual_force_; }
 
  private:
   void look(const Simulation& simulation);
@@ -60,7 +60,7 @@ class Exactness final : public StepObserver {
   double size_ = 0;  // size of the cloth [m]
   double sum_ = 0, largest_ = 0, last_error_ = 0;
   std::int64_t looked_at_ = 0, last_ = 0;  // number of estimated steps, and the last one
-  std::optional<Unbalanced> unbalanced_;
+  std::optional<ResidualForce> residual_force_;
 };
 
 }  // namespace drape

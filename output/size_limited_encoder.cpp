@@ -1,4 +1,4 @@
-#include "output/fitted_film.hpp"
+#include "output/size_limited_encoder.hpp"
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ FilmInfo without_limit(FilmInfo film) {
 
 }  // namespace
 
-FittedFilm::FittedFilm(FilmMaker<Image> make, const std::filesystem::path& file, const FilmInfo& film)
+SizeLimitedEncoder::SizeLimitedEncoder(FilmMaker<Image> make, const std::filesystem::path& file, const FilmInfo& film)
     : make_(std::move(make)),
       film_(without_limit(film)),
       limit_(film.largest_file.value()),
@@ -38,17 +38,17 @@ FittedFilm::FittedFilm(FilmMaker<Image> make, const std::filesystem::path& file,
   make_(file, film_);  // what is wrong with it is known now
 }
 
-void FittedFilm::add(const Image& image) {
+void SizeLimitedEncoder::add(const Image& image) {
   width_ = image.width;
   height_ = image.height;
   spool_.append(image);
 }
 
-int FittedFilm::height_of(int width) const {
+int SizeLimitedEncoder::height_of(int width) const {
   return std::max(1, static_cast<int>(std::lround(static_cast<double>(height_) * width / width_)));
 }
 
-FittedFilm::Trial FittedFilm::encode(int width, int stride) {
+SizeLimitedEncoder::Trial SizeLimitedEncoder::encode(int width, int stride) {
   const std::filesystem::path trial =
       file_.temporary().parent_path() / (".trial-" + file_.temporary().filename().string().substr(1));
   FilmInfo film = film_;
@@ -72,7 +72,7 @@ FittedFilm::Trial FittedFilm::encode(int width, int stride) {
   return done;
 }
 
-FittedFilm::Trial FittedFilm::find_largest() {
+SizeLimitedEncoder::Trial SizeLimitedEncoder::find_largest() {
   const Trial whole = encode(width_, 1);
   if (fits(whole)) return whole;
   if (limit_.keeps == FilmKeeps::size) return find_stride(whole, spool_.count() - 1);
@@ -84,12 +84,12 @@ FittedFilm::Trial FittedFilm::find_largest() {
   return find_width(slow.stride, fits(slow) ? half : narrowest);
 }
 
-FittedFilm::Trial FittedFilm::find_stride(Trial trial, int most) {
+SizeLimitedEncoder::Trial SizeLimitedEncoder::find_stride(Trial trial, int most) {
   while (!fits(trial) && trial.stride < most) trial = encode(trial.width, trial.stride + 1);
   return trial;
 }
 
-FittedFilm::Trial FittedFilm::find_width(int stride, int least) {
+SizeLimitedEncoder::Trial SizeLimitedEncoder::find_width(int stride, int least) {
   Trial wide = encode(width_, stride), best{0, stride, 0};
   if (fits(wide)) return wide;
   const auto limit = static_cast<double>(limit_.bytes);
@@ -110,7 +110,7 @@ FittedFilm::Trial FittedFilm::find_width(int stride, int least) {
   return best;
 }
 
-std::string FittedFilm::changes(const Trial& kept) const {
+std::string SizeLimitedEncoder::changes(const Trial& kept) const {
   std::string text;
   if (kept.width != width_) {
     text = fmt::format("{}x{} pixels instead of {}x{}", kept.width, height_of(kept.width), width_, height_);
@@ -122,7 +122,7 @@ std::string FittedFilm::changes(const Trial& kept) const {
   return text;
 }
 
-void FittedFilm::fail(const Trial& smallest) const {
+void SizeLimitedEncoder::fail(const Trial& smallest) const {
   const std::string given_up = changes(smallest);
   throw OutputError(
       fmt::format("cannot write {} with at most {} bytes: with {} it still has {}; {}", shown(file_.file()),
@@ -130,7 +130,7 @@ void FittedFilm::fail(const Trial& smallest) const {
                   limit_.keeps == FilmKeeps::nothing ? "use fewer frames, with --frames" : "omit --keep"));
 }
 
-std::vector<OutputFile> FittedFilm::finish(Ending ending) {
+std::vector<OutputFile> SizeLimitedEncoder::finish(Ending ending) {
   if (spool_.count() == 0) return {};
   const Trial found = find_largest();
   if (!fits(found)) fail(found);

@@ -5,9 +5,9 @@
 namespace drape {
 
 /// The purposes of a run: outputs, motion file, records. Any thread may drop one that cannot be written.
-class ReasonsToRun {
+class RunPurposes {
  public:
-  ReasonsToRun(bool outputs, bool motion, bool records) : outputs_(outputs), motion_(motion), records_(records) {}
+  RunPurposes(bool outputs, bool motion, bool records) : outputs_(outputs), motion_(motion), records_(records) {}
 
   /// @returns true if no purpose is left
   bool lose_outputs() { return lose(outputs_); }

@@ -9,17 +9,17 @@
 namespace drape {
 
 /// Work on its own thread; the calling thread shows its progress. The token is that of interruption().
-class WatchedWork {
+class BackgroundWork {
  public:
   /// @param let_others_begin called at most once, when the rest needs only one core
   using Work = std::function<void(const std::stop_token&, Progress&, const std::function<void()>& let_others_begin)>;
 
   /// Starts the work.
-  explicit WatchedWork(const Work& work);
+  explicit BackgroundWork(const Work& work);
 
   /// Shows progress until others may begin, at the latest until the end.
   /// @param quiet show no progress
-  void watch_until_others_may_begin(bool quiet) { watch(quiet, others_may_begin_); }
+  void wait_until_single_core(bool quiet) { watch(quiet, others_may_begin_); }
 
   /// Shows progress until the end.
   /// @throws errors of the work

@@ -1,4 +1,4 @@
-#include "compare/in_step.hpp"
+#include "compare/synchronised_motions.hpp"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace drape {
 namespace {
 
 /// Combines the vertices and colliders of all motions at a moment.
-Frame together(const MotionsInStep::Moment& moment) {
+Frame together(const SynchronisedMotions::Moment& moment) {
   Frame all{};
   Eigen::Index rows = 0;
   for (const Frame* frame : moment) rows += frame->positions.rows();
@@ -40,7 +40,7 @@ FrameRange all_frames(const std::vector<Scene>& scenes, const CompareOptions& op
   return all;
 }
 
-MotionsInStep::MotionsInStep(const std::vector<Scene>& scenes, const CompareOptions& options, bool often)
+SynchronisedMotions::SynchronisedMotions(const std::vector<Scene>& scenes, const CompareOptions& options, bool often)
     : scenes_(scenes), first_count_(compared_extent(scenes, options, 0).frames.count()) {
   const std::optional<std::size_t> memory =
       often ? std::optional(FrameTape::usual_memory / scenes.size()) : std::nullopt;
@@ -50,7 +50,8 @@ MotionsInStep::MotionsInStep(const std::vector<Scene>& scenes, const CompareOpti
   }
 }
 
-void MotionsInStep::play(int last, const std::stop_token& stop, const std::function<void(int, const Moment&)>& work) {
+void SynchronisedMotions::play(int last, const std::stop_token& stop,
+                               const std::function<void(int, const Moment&)>& work) {
   std::deque<FramePlayer> players;  // a deque, since players cannot be moved
   for (FrameSource& source : sources_) players.emplace_back(source);
   Moment moment(players.size());
@@ -62,7 +63,7 @@ void MotionsInStep::play(int last, const std::stop_token& stop, const std::funct
   for (std::size_t i = 0; i < players.size() && !stop.stop_requested(); ++i) players[i].next();
 }
 
-std::optional<CameraPath> MotionsInStep::camera_path(int count, const std::stop_token& stop) {
+std::optional<CameraPath> SynchronisedMotions::camera_path(int count, const std::stop_token& stop) {
   const Scene& first = scenes_.front();
   struct Stopped {};
   const auto go_on = [&] {

@@ -21,7 +21,7 @@ namespace {
 constexpr int frames = 12, full_width = 120, full_height = 100;
 constexpr double full_rate = 40;
 
-class FittedFilm : public InScratchFolder {
+class SizeLimitedEncoder : public InScratchFolder {
  protected:
   /// @param limit  absent: as large as it becomes
   /// @param stride of the frames that there are, at a rate with which they play for as long
@@ -42,7 +42,7 @@ class FittedFilm : public InScratchFolder {
   }
 };
 
-TEST_F(FittedFilm, IsTheFilmItselfWhereThatFits) {
+TEST_F(SizeLimitedEncoder, IsTheFilmItselfWhereThatFits) {
   const std::uint64_t size = write("free.gif", {}).size;
   const OutputFile fitted = write("fitted.gif", FileLimit{size});
   EXPECT_EQ(content(path("fitted.gif")), content(path("free.gif")));
@@ -50,7 +50,7 @@ TEST_F(FittedFilm, IsTheFilmItselfWhereThatFits) {
   EXPECT_EQ(file_count(), 2U);
 }
 
-TEST_F(FittedFilm, IsTheLargestThatFits) {
+TEST_F(SizeLimitedEncoder, IsTheLargestThatFits) {
   for (const std::string extension : {".gif", ".webp", ".apng", ".mp4"}) {
     const std::uint64_t largest = size_of(extension) / 3;
     const OutputFile fitted = write("fitted" + extension, FileLimit{largest, FilmKeeps::rate});
@@ -66,7 +66,7 @@ TEST_F(FittedFilm, IsTheLargestThatFits) {
   }
 }
 
-TEST_F(FittedFilm, HasEveryFrameWhereItKeepsItsRate) {
+TEST_F(SizeLimitedEncoder, HasEveryFrameWhereItKeepsItsRate) {
   const OutputFile fitted = write("x.gif", FileLimit{size_of(".gif") / 6, FilmKeeps::rate});
   const std::vector<Image> film = decoded_film(path("x.gif"));
   ASSERT_EQ(film.size(), static_cast<std::size_t>(frames));
@@ -79,7 +79,7 @@ TEST_F(FittedFilm, HasEveryFrameWhereItKeepsItsRate) {
   }
 }
 
-TEST_F(FittedFilm, HasTheHighestRateThatFitsWhereItKeepsItsSize) {
+TEST_F(SizeLimitedEncoder, HasTheHighestRateThatFitsWhereItKeepsItsSize) {
   for (const double part : {0.7, 0.3}) {
     const auto largest = static_cast<std::uint64_t>(part * static_cast<double>(size_of(".gif")));
     const OutputFile fitted = write("x.gif", FileLimit{largest, FilmKeeps::size});
@@ -91,7 +91,7 @@ TEST_F(FittedFilm, HasTheHighestRateThatFitsWhereItKeepsItsSize) {
 }
 
 /// Half the width first, then a quarter of the rate at half the width or more, then less.
-TEST_F(FittedFilm, GivesUpSizeThenRateThenSize) {
+TEST_F(SizeLimitedEncoder, GivesUpSizeThenRateThenSize) {
   const std::uint64_t half = size_of(".gif", full_width / 2), slow = size_of(".gif", full_width / 2, 4);
   ASSERT_GT(half, slow);
   EXPECT_EQ(write("x.gif", FileLimit{half}).note.find("frames"), std::string::npos);
@@ -107,14 +107,14 @@ TEST_F(FittedFilm, GivesUpSizeThenRateThenSize) {
   EXPECT_NE(small.note.find(" and 10 frames per second instead of 40"), std::string::npos) << small.note;
 }
 
-TEST_F(FittedFilm, TheSameFilmHasTheSameBytes) {
+TEST_F(SizeLimitedEncoder, TheSameFilmHasTheSameBytes) {
   const FileLimit limit{size_of(".gif") / 9};
   write("a.gif", limit);
   write("b.gif", limit);
   EXPECT_EQ(content(path("a.gif")), content(path("b.gif")));
 }
 
-TEST_F(FittedFilm, SaysSoWhereNothingFits) {
+TEST_F(SizeLimitedEncoder, SaysSoWhereNothingFits) {
   put(path("x.gif"), "old");
   try {
     write("x.gif", FileLimit{500});
@@ -130,7 +130,7 @@ TEST_F(FittedFilm, SaysSoWhereNothingFits) {
   EXPECT_EQ(file_count(), 1U);
 }
 
-TEST_F(FittedFilm, LeavesOneFileWithThePermissionsOfTheOld) {
+TEST_F(SizeLimitedEncoder, LeavesOneFileWithThePermissionsOfTheOld) {
   put(path("x.gif"), "old");
   std::filesystem::permissions(path("x.gif"), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   write("x.gif", FileLimit{size_of(".gif") / 2});

@@ -7,7 +7,7 @@ namespace drape {
 /// Detector of threads that are kept waiting. On a busy machine the system sometimes takes one of them off its
 /// processor in the middle of a part, and all others wait. If waiting has cost so much of some loops that little was
 /// gained, the dividing thread computes alone for many times as long. So only a small part of the total time is lost.
-class Turnout {
+class BusyBackoff {
  public:
   using Time = std::chrono::nanoseconds;
 
@@ -26,7 +26,7 @@ class Turnout {
   }
 
   /// Returns true if loops should be computed alone.
-  [[nodiscard]] bool poor(Time now) const { return now < alone_until_; }
+  [[nodiscard]] bool active(Time now) const { return now < alone_until_; }
 
  private:
   static constexpr double too_much = 0.4;  // at this waiting time two threads are 1.2 times as fast as one

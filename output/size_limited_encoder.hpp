@@ -16,12 +16,12 @@ namespace drape {
 /// width or more; then their size again. Of what may not change the other alone does. The width that is found is one
 /// that fits where one that is a hundredth larger, or a pixel, does not; the rate is the first that does. They depend
 /// on nothing but the pictures.
-class FittedFilm final : public Encoder {
+class SizeLimitedEncoder final : public Encoder {
  public:
   /// @param make what makes the film's encoder, at any size
   /// @param film with its largest size
   /// @throws Error as `make`
-  FittedFilm(FilmMaker<Image> make, const std::filesystem::path& file, const FilmInfo& film);
+  SizeLimitedEncoder(FilmMaker<Image> make, const std::filesystem::path& file, const FilmInfo& film);
 
   void add(const Image& image) override;
 

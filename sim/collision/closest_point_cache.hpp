@@ -11,19 +11,20 @@ namespace drape {
 /// Closest-point search on a mesh, with a cache of the triangles that were near each point. While a point and the mesh
 /// move little, only these are tested. The cache changes no result. Points and mesh are in the mesh's coordinates. Data
 /// are separate for each point, so threads may query different points concurrently.
-class FootMemory {
+class ClosestPointCache {
  public:
   /// @param reach search radius [m]
-  FootMemory(std::size_t points, double reach);
+  ClosestPointCache(std::size_t points, double reach);
 
   /// Finds a point's closest point like PlacedMesh::find. Returns true if it is within the search radius.
-  bool find(const PlacedMesh& mesh, std::size_t k, const Point& point, Foot& foot) {
+  bool find(const PlacedMesh& mesh, std::size_t k, const Point& point, ClosestPoint& foot) {
     const Known& known = known_[k];
     // Scalars, as the point has just been computed and a vector would go through memory.
     const double x = point[0] - known.point[0], y = point[1] - known.point[1], z = point[2] - known.point[2];
     const double squared = x * x + y * y + z * z;
     if (mesh.travel() == known.travel && squared < known.clear_squared) return false;
-    if (mesh.travel() != known.travel || !(squared < known.alone_squared)) return find_slowly(mesh, k, point, foot);
+    if (mesh.travel() != known.travel || !(squared < known.same_triangle_squared))
+      return find_slowly(mesh, k, point, foot);
     foot = mesh.foot(point, known.triangle, mesh.nearest_on(known.triangle, point));
     return foot.distance < reach_;
   }
@@ -35,7 +36,8 @@ class FootMemory {
     Point point = Point::Zero();
     double travel = 0;          // travel of the mesh at that time
     double clear_squared = -1;  // squared distance that it may move without coming within reach [m²]; negative: none
-    double alone_squared = -1;  // squared distance that it may move with the same nearest triangle [m²]; negative: none
+    double same_triangle_squared =
+        -1;  // squared distance that it may move with the same nearest triangle [m²]; negative: none
     int triangle = -1;
   };
   /// Triangles that were near the point.
@@ -48,13 +50,13 @@ class FootMemory {
     std::array<double, most> least = {};  // lower bounds of their distances, ascending [m]
     std::array<int, most> triangles = {};
   };
-  bool find_slowly(const PlacedMesh& mesh, std::size_t k, const Point& point, Foot& foot);
+  bool find_slowly(const PlacedMesh& mesh, std::size_t k, const Point& point, ClosestPoint& foot);
   /// Searches the mesh for triangles near a point.
   void look(const PlacedMesh& mesh, const Point& point, Known& known, Near& near) const;
   /// Measures the cached triangles again from the point's position, `moved` from the previous one [m].
-  static void look_again(const PlacedMesh& mesh, const Point& point, double moved, double rounding, Near& near);
+  static void remeasure(const PlacedMesh& mesh, const Point& point, double moved, double rounding, Near& near);
   bool find_among(const PlacedMesh& mesh, const Point& point, double moved, Known& known, const Near& near,
-                  Foot& foot) const;
+                  ClosestPoint& foot) const;
   /// Returns true if the nearest triangle must be in the list after distances changed by at most `moved` [m].
   [[nodiscard]] bool covers(const Near& near, double moved) const;
 
