@@ -93,7 +93,7 @@ void AmbientOcclusion::gather(const Axis& axis, const Vertices& normals) {
     const double facing = normal.dot(axis.direction);
     const auto cosine = static_cast<float>(std::abs(facing));
     if (cosine < flattest) continue;
-    // The side that faces the direction is lifted towards it, the other side away from it.
+    // The side that faces the direction is lifted to there, the other to the other end.
     const double sign = facing > 0 ? lift : -lift;
     const double right = sign * map.u().head<3>().dot(normal), up = sign * map.v().head<3>().dot(normal);
     const double column = map.places()(i, 0), row = map.places()(i, 1), depth = map.places()(i, 2);

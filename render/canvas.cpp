@@ -96,7 +96,7 @@ Canvas::Canvas(const GlFunctions& gl, Eigen::Vector2i size, const Look& look)
   }
 }
 
-// Limited to the box: llvmpipe would clear, resolve and read the whole picture more slowly than it draws most frames.
+// Emptying, resolving and reading the whole picture would take llvmpipe longer than most of what is drawn.
 void Canvas::begin(const PixelBox& box) {
   box_ = box;
   gl_.BindFramebuffer(GL_FRAMEBUFFER, samples_.framebuffer.id());

@@ -129,7 +129,7 @@ ClothShadow::Light ClothShadow::past_cloth(const Triangle& triangle) const {
   return all ? Light::none : any ? Light::past_cloth : Light::whole;
 }
 
-// Same test as past_spheres() in shadow.glsl, with the triangle's largest distance from the sphere's axis in the light.
+// As past_spheres() in shadow.glsl, by how far away from the sphere's axis in the light the triangle comes at most.
 bool ClothShadow::is_behind_a_sphere(const Triangle& triangle) const {
   if (spheres_.empty()) return false;
   const auto corner = [&](std::size_t c) { return map_.places().row(triangle[c]).transpose().array(); };

@@ -84,10 +84,10 @@ DepthRange depth_range(const View& view, const Frame& frame, double thickness) {
   // The drawn surface of a cloth extends a little beyond its vertices.
   const double room = thickness + 0.02 * std::max(farthest - nearest, 1e-3 * farthest);
   farthest += room;
-  // A single ground is drawn in front of and behind everything, clamped to the ends of the range. Two grounds hide each
-  // other where they meet, so they need true depths.
+  // A ground is seen in front of everything else and behind it, where its depth need only be that of the range's ends.
+  // Where two of them meet one hides the other.
   if (grounds > 1) return {0.01 * farthest, 10 * farthest};
-  // A near plane at zero would leave no depth precision, so objects that nearly touch the camera are cut.
+  // A near plane at zero would leave no depth precision at all, so what nearly touches the camera is cut.
   return {std::max(nearest - room, 1e-3 * farthest), farthest};
 }
 

@@ -40,7 +40,7 @@ float past_cloth(vec3 p, vec3 n) {
   float facing = dot(n, key_direction), texel = shadow_texel.z;
   vec2 along = vec2(dot(n, shadow_u.xyz), dot(n, shadow_v.xyz)) * (texel * texel);
   float inverse = facing / max(facing * facing, 0.0004);
-  vec2 slope = -along * inverse;  // of the plane, in depth per texel
+  vec2 slope = -along * inverse;  // of the plane, in depth by texels
   float steep = 1.0 + min(length(along) * abs(inverse) / texel, 4.0);
   float scale = shadow_texel.w / steep;
   depth += shadow_lift * steep;
