@@ -13,7 +13,8 @@
 namespace drape::test {
 namespace {
 
-/// The picture's bytes, drawn by a new process with an environment variable: Mesa reads its own once.
+/// Returns a picture's bytes, drawn by a new process with an environment variable, because Mesa reads its own only
+/// once.
 std::vector<std::uint8_t> drawn_with(const char* variable, const char* value) {
   int ends[2];
   if (pipe(ends) != 0) return {};
@@ -53,7 +54,7 @@ std::vector<std::uint8_t> drawn_with(const char* variable, const char* value) {
   return bytes;
 }
 
-/// A process must not fork after Mesa has started its threads, as it has where other tests drew before.
+/// Returns true if other tests have started Mesa's threads: a process must not fork after that.
 bool has_threads() {
   return std::distance(std::filesystem::directory_iterator("/proc/self/task"), std::filesystem::directory_iterator()) >
          1;
