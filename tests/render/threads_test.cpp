@@ -13,8 +13,7 @@
 namespace drape::test {
 namespace {
 
-/// Returns a picture's bytes, drawn by a new process with an environment variable, because Mesa reads its own only
-/// once.
+/// Returns a picture's bytes, drawn by a new process with an environment variable: Mesa reads it only once.
 std::vector<std::uint8_t> drawn_with(const char* variable, const char* value) {
   int ends[2];
   if (pipe(ends) != 0) return {};
@@ -69,7 +68,7 @@ TEST(Threads, OfMesaChangeNoByte) {
   EXPECT_EQ(none, drawn_with("LP_NUM_THREADS", "5"));
 }
 
-// With vectors of 128 bits Mesa has neither AVX nor fused multiply-adds, as on a processor without them.
+// With vectors of 128 bits Mesa uses neither AVX nor fused multiply-adds, as on a processor without them.
 TEST(Threads, AndVectorsOfOtherProcessorsChangeNoByte) {
   if (has_threads()) GTEST_SKIP() << "must run in a process of its own, as under ctest";
   const std::vector<std::uint8_t> narrow = drawn_with("LP_NATIVE_VECTOR_WIDTH", "128");

@@ -7,12 +7,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Divides loops one after another, and counts how much time is lost and how much is spent alone.
+/// Divides loops one after another, and counts the time lost to waiting and the time on one thread.
 struct Machine {
   Turnout turnout;
   Turnout::Time now = 1h, lost = 0ns, alone = 0ns;
 
-  /// @param taken, waited  by and within every loop that is divided
+  /// @param taken, waited  time of every divided loop, and its waiting time
   void run(Turnout::Time taken, Turnout::Time waited, Turnout::Time length) {
     for (const Turnout::Time end = now + length; now < end; now += taken) {
       if (turnout.poor(now)) {
@@ -47,7 +47,7 @@ TEST(Turnout, TriesAgain) {
   EXPECT_LT(machine.alone, 200ms);
 }
 
-// One thread that came late once is no reason to do without it.
+// A single late thread is no reason to fall back to one thread.
 TEST(Turnout, TakesNoteOfMoreThanOneLoop) {
   Machine machine;
   machine.run(50us, 40us, 50us);
