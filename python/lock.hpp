@@ -5,8 +5,8 @@
 namespace drape::python {
 
 /// Releases Python's lock during its lifetime, as pybind11::gil_scoped_release, also in a thread that outlives Python.
-/// When the interpreter ends, it would end a thread that takes the lock in the middle of C++, which aborts the process.
-/// Such a thread waits here until the process is over.
+/// An ending interpreter kills threads that retake the lock in the middle of C++, which aborts the process. Such a
+/// thread waits here until the process is over.
 class WithoutLock {
  public:
   WithoutLock();

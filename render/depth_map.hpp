@@ -21,7 +21,7 @@ class DepthMap {
   /// @param up      approximate direction of growing rows; a mirrored scene mirrors both vectors
   void look(const Eigen::Vector3d& towards, const Eigen::Vector3d& up);
 
-  /// Draws the map. It stays empty if a number is not finite, or too large or small beside the others.
+  /// Draws the map. It stays empty if a number is not finite, or too large or small relative to the others.
   /// @param texel width of a texel [m]; doubled until no side has more than `largest` of them
   void draw(const Vertices& positions, const std::vector<Triangle>& triangles, double texel, int largest);
 
